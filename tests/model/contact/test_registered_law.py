@@ -284,8 +284,12 @@ def test_a_law_that_cannot_be_compiled_warns_once_and_is_evaluated_with_numpy() 
     [
         RIGID,
         UNLOADING,
-        replace(HYPERBOLIC, name="without a reaction", reaction=None),
-        replace(HYPERBOLIC, name="without a steepest slope", steepest=None),
+        NormalLaw(
+            name="without a reaction", summary="", acts_on="elements", parameters=(), steepest=hyperbolic_steepest
+        ),
+        NormalLaw(
+            name="without a steepest slope", summary="", acts_on="elements", parameters=(), reaction=hyperbolic_reaction
+        ),
         replace(HYPERBOLIC, name="with history", history=True),
         replace(HYPERBOLIC, name="with tables", tables=True),
     ],

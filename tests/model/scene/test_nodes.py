@@ -178,7 +178,6 @@ def test_settled_definitions_are_those_of_a_dictionary(batches: list[list[int]])
     assert settled.rows.tolist() == [held[number] for number in settled.ids.tolist()]
     assert settled.firsts.tolist() == [flat.index(number) for number in settled.ids.tolist()]
     assert settled.repeats.tolist() == [row for row, number in enumerate(flat) if number in flat[:row]]
-    assert settled.ids_of(settled.repeats).tolist() == [flat[row] for row in settled.repeats.tolist()]
     places = [Where(0, index, ("rows", row)) for index, ids in enumerate(batches) for row in range(len(ids))]
     assert [settled.where_row(row) for row in range(len(flat))] == places
     assert [settled.where(index) for index in range(len(settled))] == [places[held[n]] for n in settled.ids.tolist()]

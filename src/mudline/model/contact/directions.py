@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.tables import Tables
-from mudline.model.contact.vectors import dot_3, in_plane, turned_3, units
+from mudline.model.contact.vectors import in_plane, turned_3, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.trenches import Lowered
@@ -35,7 +36,7 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
     with np.errstate(all="ignore"):
         spans = (points[line.second] - points[line.first]).T
         unit = units(spans)
-        total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
+        total = np.ascontiguousarray(line.sums(np.pad(unit, ((0, 0), (1, 1))), 0, nodes, directed=True).T)
         flat = total - (total * normals).sum(axis=1)[:, None] * normals
         along = projected(total, normals)
         follows = np.ones(nodes, np.bool_)
@@ -65,10 +66,6 @@ def level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArr
     return level_at(tables.level, tables.laid_line(laid), points, lateral)
 
 
-def _padded(values: FloatArray) -> FloatArray:
-    return np.concatenate([[0.0], values, [0.0]])[None]
-
-
 def projected(wanted: FloatArray, normal: FloatArray) -> FloatArray:
     """Unit vectors (k, 3) along the projections of others; the default direction for one along the normal."""
     return np.stack(in_plane(tuple(wanted.T), tuple(normal.T)), axis=1)
@@ -79,6 +76,4 @@ def mean_normal(tables: Tables, elements: IndexArray, normal: FloatArray) -> tup
     if normal.strides[1] == 0:  # one for all nodes
         return tuple(normal[:1, :1, axis] for axis in range(3))
     one, other = (normal[:, side[elements]] for side in (tables.line.first, tables.line.second))
-    total = tuple(one[..., axis] + other[..., axis] for axis in range(3))
-    size = np.sqrt(dot_3(total, total))
-    return tuple(axis / size for axis in total)
+    return vectors.mean_normal(*(tuple(each[..., axis] for axis in range(3)) for each in (one, other)))

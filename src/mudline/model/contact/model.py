@@ -165,7 +165,9 @@ class ContactModel:
             ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed, or `state`
                 is that of another model.
         """
-        self._check_state(state)
+        expect(state, "state", ContactState, "a ContactState")
+        if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
+            raise ValueError("state must be one of this model: it is that of other nodes, elements or laws")
         expect(dt, "dt", (Real, NoneType), "a number")
         if dt is not None and not 0.0 < dt < np.inf:
             raise ValueError(f"dt must be finite and above 0, not {dt!r}")
@@ -186,12 +188,6 @@ class ContactModel:
             spans = None if dt is None or state.positions is None else np.array([dt])
             after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
         return part.step(0), after
-
-    def _check_state(self, state: ContactState) -> None:
-        """Raise TypeError for what is no state, ValueError for that of another model."""
-        expect(state, "state", ContactState, "a ContactState")
-        if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
-            raise ValueError("state must be one of this model: it is that of other nodes, elements or laws")
 
     def tangent(
         self,

@@ -149,7 +149,8 @@ class Nodes:
             cut = rows_within(rows.rows, begin, end)
             columns = tuple(column[None, cut] for column in rows.columns)
             if cut.start < cut.stop:
-                self._nodal.append((rows.reaction, as_range(rows.rows[cut] - begin), columns, rows.law.onset(*columns)))
+                at, onset = as_range(rows.rows[cut] - begin), rows.law.onset(*columns)
+                self._nodal.append((rows.law.reaction, at, columns, onset))
         self._damping = None if tables.nodal_damping is None else tables.nodal_damping[None, here]
         friction = tables.friction
         if friction is not None:
@@ -188,7 +189,7 @@ class Nodes:
             z = 0.0 - taken(part.gap[:, here], at)
             add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
         if self._damping is not None and speed is not None:
-            total += law_module("damping").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
+            total += law_module("linear").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))

@@ -26,7 +26,7 @@ from mudline.model.contact.directions import mean_normal
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.laws import PathLaw, law_module
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import ContactState, NormalRows, Tables, rows_within
+from mudline.model.contact.tables import ContactState, NormalRows, Tables, arrays_of, rows_within
 from mudline.model.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
@@ -84,11 +84,8 @@ class _Subset(NamedTuple):
     onset: FloatArray | float
 
 
-class _Trench(NamedTuple):
-    """Where elements that unload are over their trench bottom: uplift from it, and whether they are below it."""
-
-    uplift: FloatArray
-    below: BoolArray
+_Trench = tuple[FloatArray, BoolArray]
+"""Of elements that unload, uplift from their trench bottom, and whether they are below it."""
 
 
 class Elements:
@@ -157,7 +154,7 @@ class Elements:
             self._apply_springs(self._springs, depth, values)
         if self._damping is not None and batch.speed is not None:
             first, second = self._tables.line.at(batch.speed, self.begin, self.end)
-            values[0][...] += law_module("damping").damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
+            values[0][...] += law_module("linear").damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
@@ -240,7 +237,7 @@ class Elements:
                 memory = paths[group.held], group.diameter[0], tuple(column[0] for column in group.columns)
                 group.rows.law.follow(depth, *memory, (force, stiffness))
             else:
-                force[...], stiffness[...] = group.rows.reaction(depth, group.diameter, *group.columns)
+                force[...], stiffness[...] = group.rows.law.reaction(depth, group.diameter, *group.columns)
             np.multiply(stiffness, group.diameter, out=slope)
         if self._tables.cuts and group.rows.curve >= 0:
             pulls = touches & (force < 0.0)
@@ -288,9 +285,9 @@ class Elements:
         put_at(values[0], some.at, np.where(fresh, force, back))
         put_at(values[1], some.at, np.where(fresh, slope, rise * some.diameter))
         put_at(values[2], some.at, np.where(fresh, stiffness, rise))
-        for kept, moved in zip(history.numbers, (deepest, force_max, line, bottom), strict=True):
+        for kept, moved in zip(arrays_of(history), (deepest, force_max, line, bottom), strict=True):
             kept[some.rows] = moved[-1]
-        return _Trench(bottom - taken(depth, some.at), z > bottom)
+        return bottom - taken(depth, some.at), z > bottom
 
     def _may_steepen(self, some: _Subset) -> list[tuple[_Group, IndexArray, IndexArray]]:
         """Elements whose normal law may be steeper than their line: group, places among those that unload and in it."""
@@ -312,7 +309,7 @@ class Elements:
 
             return steepest_slope(self._tables.given.curves[group.rows.curve], z / diameter) / diameter
         columns = [column[:, rows] for column in group.columns]
-        return np.broadcast_to(group.rows.steepest(z, diameter, *columns), z.shape)
+        return np.broadcast_to(group.rows.law.steepest(z, diameter, *columns), z.shape)
 
     def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
         """Add springs against uplift."""
@@ -336,8 +333,8 @@ class Elements:
         if trench is not None and self._in_trench is not None:
             here, there = self._in_trench
             pressed = pressed.copy()
-            put_at(uplift, here, taken(trench.uplift, there))
-            put_at(pressed, here, taken(trench.below, there))
+            put_at(uplift, here, taken(trench[0], there))
+            put_at(pressed, here, taken(trench[1], there))
         first, second = self._tables.line.at(speed, self.begin, self.end)
         v = 0.5 * taken(first, some.at) + 0.5 * taken(second, some.at)
         states, pulls = self._suction_states(some.rows, (uplift, v, pressed), history)

@@ -77,8 +77,9 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     """
     found = []
     with np.errstate(all="ignore"):
-        for name in dict.fromkeys(rows.law.name for rows in sorted(_normal_laws(tables), key=lambda rows: rows.curve)):
-            same = [rows for rows in _normal_laws(tables) if rows.law.name == name]
+        normal = [*tables.normal, *tables.nodal]
+        for name in dict.fromkeys(rows.law.name for rows in sorted(normal, key=lambda rows: rows.curve)):
+            same = [rows for rows in normal if rows.law.name == name]
             slopes = np.concatenate([_slope(tables, rows, result) for rows in same])
             found.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
         reached = _reached(tables, result, speed)
@@ -88,10 +89,6 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
                 own = reached.of_rows(given.rows, given.law.acts_on)
                 found.append(_of_law(tables, given.law, given.rows, *given.law.largest(own, given.parameters)))
     return Stiffest(tuple(found))
-
-
-def _normal_laws(tables: Tables) -> list[NormalRows]:
-    return [*tables.normal, *tables.nodal]
 
 
 def _of_law(
@@ -126,9 +123,9 @@ def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> Fl
     if rows.curve >= 0:
         slope = tables.given.curves[rows.curve].evaluate(np.nan_to_num(z / at))[1] / at
     elif rows.path >= 0:  # that of turning round there, whatever came before
-        slope = rows.steepest(z, at, *rows.columns)
+        slope = rows.law.steepest(z, at, *rows.columns)
     else:
-        slope = rows.reaction(z, at, *rows.columns)[1]
+        slope = rows.law.reaction(z, at, *rows.columns)[1]
     return _largest(np.where(touches, slope, 0.0))
 
 
@@ -139,16 +136,12 @@ def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | N
         virgin[rows.rows] = steepest_anywhere(tables, rows)
     pull_out = None if speed is None else np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
     lateral = np.zeros(len(tables.given.node_ids)) if tables.friction is None else tables.friction.coefficients[:, 1]
-    return Reached(virgin, pull_out, _pressing(tables, result), lateral, walls=tables.trench is not None)
+    pressing = _static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
+    return Reached(virgin, pull_out, pressing, lateral, walls=tables.trench is not None)
 
 
-def _pressing(tables: Tables, result: ContactResult | None) -> FloatArray:
-    """The largest normal force (n,) of each node, the static one where no positions are given."""
-    return static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
-
-
-def static_normal_force(tables: Tables) -> FloatArray:
-    """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
+def _static_normal_force(tables: Tables) -> FloatArray:
+    """The normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
     weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
     if weight is None:
         return np.full(len(total), np.nan)

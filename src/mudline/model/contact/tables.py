@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
-from mudline.model.contact.laws import NormalLaw, PathLaw, Reaction, Value
+from mudline.model.contact.laws import NormalLaw, PathLaw
 from mudline.model.contact.line import Line
 from mudline.model.contact.seabed import heading
 
@@ -62,7 +61,7 @@ class ContactState:
     @property
     def shapes(self) -> tuple[object, ...]:
         """The shapes of all that is remembered beside positions, by which states of different models differ."""
-        return tuple((name, *(array.shape for array in _arrays(part))) for name, part in self._parts())
+        return tuple((name, *(array.shape for array in arrays_of(part))) for name, part in self._parts())
 
     def _parts(self) -> list[tuple[str, _Part]]:
         """What the laws that are there remember, by the names of the fields."""
@@ -86,13 +85,14 @@ class ContactState:
         return ContactState(self.positions, self.laid, **found)
 
 
-def _arrays(part: _Part) -> list[NDArray[Any]]:
+def arrays_of(part: _Part) -> list[NDArray[Any]]:
+    """Return the arrays of what a law remembers."""
     return [part] if isinstance(part, np.ndarray) else [getattr(part, name) for name in part.__slots__]
 
 
 def _like(part: _Part, *, copies: bool) -> _Part:
     """The same with arrays of its own, in the same order in memory."""
-    made = [array.copy(order="K") if copies else np.empty_like(array) for array in _arrays(part)]
+    made = [array.copy(order="K") if copies else np.empty_like(array) for array in arrays_of(part)]
     return made[0] if isinstance(part, np.ndarray) else type(part)(*made)
 
 
@@ -122,20 +122,6 @@ class NormalRows(NamedTuple):
     columns: tuple[FloatArray, ...]
     curve: int = -1
     path: int = -1
-
-    @property
-    def reaction(self) -> Reaction:
-        """The equation of the law; TypeError for one with curves."""
-        if self.law.reaction is None:
-            raise TypeError(f"the law {self.law.name!r} has no equation")
-        return self.law.reaction
-
-    @property
-    def steepest(self) -> Callable[..., Value]:
-        """The steepest slope of the law; TypeError for one with curves."""
-        if self.law.steepest is None:
-            raise TypeError(f"the law {self.law.name!r} does not say how steep it is")
-        return self.law.steepest
 
 
 class Tables:
@@ -328,5 +314,5 @@ def steepest_anywhere(tables: Tables, rows: NormalRows) -> FloatArray:
             slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
             return slopes
         diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
-        found = rows.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
+        found = rows.law.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
     return np.broadcast_to(found, len(rows.rows)).copy()

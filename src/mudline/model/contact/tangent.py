@@ -163,7 +163,7 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
     found = np.zeros(len(step.points))
     for rows in step.tables.nodal:
         z = 0.0 - step.result.gap[rows.rows]
-        slope = rows.reaction(z, 0.0, *rows.columns)[1]
+        slope = rows.law.reaction(z, 0.0, *rows.columns)[1]
         found[rows.rows] = np.where(z > rows.law.onset(*rows.columns), slope, 0.0)
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -364,16 +365,23 @@ class Lowered(NamedTuple):
 def level_at(whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
     """Return the level of the seabed in trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
     found = Lowered(np.zeros(len(points)), np.zeros(points.shape))
+    for rows, _, offset, gradient in _offsets(whole, line, points, lateral):
+        share, slope = lowered(np.abs(offset), rows.inner, rows.outer)
+        found.depth[rows.nodes] += rows.amount * share
+        found.gradient[rows.nodes] += (rows.amount * slope * np.sign(offset))[:, None] * gradient
+    return found
+
+
+def _offsets(
+    whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray
+) -> Iterator[tuple[TrenchRows, FloatArray, FloatArray, FloatArray]]:
+    """Rows that have each node once: with vectors (k, 3) from the centreline, offsets and their gradients (k, 3)."""
     for place in ranks(whole.nodes):
         rows = whole.some(place)
         at, beside = rows.nodes, line.pieces_beside(rows)
         where = line.away(beside, points[at].T[:, None])
-        offset = (where.vector[:, 0].T * lateral[at]).sum(axis=1)
-        share, slope = lowered(np.abs(offset), rows.inner, rows.outer)
-        found.depth[at] += rows.amount * share
-        slope = rows.amount * slope * np.sign(offset)
-        found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral[at])
-    return found
+        away = where.vector[:, 0].T
+        yield rows, away, (away * lateral[at]).sum(axis=1), _offset_gradient(line, rows, beside, where, lateral[at])
 
 
 def ranks(nodes: IndexArray) -> list[IndexArray]:
@@ -396,18 +404,14 @@ def added_limit(
     """
     count = len(points)
     found = ExtraLimit.none(count)._replace(by_offset=np.ones(count), outward=np.where(forward, 1.0, -1.0))
-    for place in ranks(whole.nodes):
-        rows = whole.some(place)
-        at, beside = rows.nodes, line.pieces_beside(rows)
-        where = line.away(beside, points[at].T[:, None])
-        away, lateral = where.vector[:, 0].T, axes[1][at]
-        offset = (away * lateral).sum(axis=1)
+    for rows, away, offset, gradient in _offsets(whole, line, points, axes[1]):
+        at = rows.nodes
         side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
         by_distance, by_normal = slopes(rows, offset)
         found.force[at] += side * resistance(rows, offset[None], normal_force[at][None])[0]
         found.by_normal_force[at] += side * by_normal
         slope = side * by_distance * np.sign(offset)
-        found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral)
+        found.gradient[at] += slope[:, None] * gradient
         found.by_angle[at] -= slope * (axes[0][at] * away).sum(axis=1)
     return found
 

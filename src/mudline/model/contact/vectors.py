@@ -46,6 +46,13 @@ def across_3(along: Vector, normal: Vector) -> Vector:
     )
 
 
+def mean_normal(one: Vector, other: Vector) -> Vector:
+    """Return the mean of two unit normals, as a unit vector."""
+    x, y, z = added_3(one, other)
+    size = np.sqrt(dot_3((x, y, z), (x, y, z)))
+    return x / size, y / size, z / size
+
+
 def tangent_share(square: Value) -> Value:
     """Return 1 / length of a span with this square, which lies between `LEAST_SQUARE` and `LARGEST_SQUARE`."""
     return 1.0 / np.sqrt(square)

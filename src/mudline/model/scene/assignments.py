@@ -33,7 +33,7 @@ def element_smoothing(scene: ResolvedDeck) -> LawAssignment:
         penetration = scene.submerged_weight / stiffness
     width = _half_width(extension, block, penetration, scene.diameter)
     rows = np.flatnonzero(width > 0.0)
-    sides = _one_sided(extension, block)
+    sides = extension.says(block, "form", "ONE-SIDED")
     return LawAssignment(
         "smoothed", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
     )
@@ -79,11 +79,6 @@ def damping(scene: ResolvedDeck) -> list[LawAssignment]:
     ]
 
 
-def _one_sided(extension: Extension, block: Indices) -> Mask:
-    """Whether the zone of each block lies below the seabed only."""
-    return marked((getattr(entry, "form", None) == "ONE-SIDED" for entry in extension.entries), block)
-
-
 def weightless(scene: ResolvedDeck) -> int:
     """How many elements leave the width to a weight that is not known or not above 0, and so are not smoothed."""
     extension = scene.extensions["SEABED CONTACT"]
@@ -98,7 +93,7 @@ def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
     stiffness = nodal_stiffness(scene, extension)
     width = _half_width(extension, block, *_static_at_nodes(scene, stiffness))
     rows = np.flatnonzero(~np.isnan(stiffness))
-    sides = _one_sided(extension, block)
+    sides = extension.says(block, "form", "ONE-SIDED")
     return LawAssignment(
         "nodal", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
     )
@@ -137,7 +132,7 @@ def unloading_lines(scene: ResolvedDeck) -> LawAssignment:
     """The elements on a curve or a linear law that unload on a line of their own (`*SEABED UNLOADING`)."""
     extension = scene.extensions["SEABED UNLOADING"]
     rows = np.flatnonzero((extension.of_element >= 0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
-    return LawAssignment("unloading", rows, {"stiffness": given_stiffness(extension)[rows]})
+    return LawAssignment("unloading", rows, {"stiffness": extension.values(extension.of_element[rows], "stiffness")})
 
 
 SOIL_FIELDS = {
@@ -169,11 +164,6 @@ def soil_parameters(extension: Extension, elements: Indices) -> dict[str, Floats
     found = {name: np.where(np.isnan(values), default[name], values) for name, values in found.items()}
     factor, weight = (extension.values(block, "buoyancy", name) for name in ("factor", "weight"))
     return found | {"buoyancy": np.nan_to_num(factor * weight)}
-
-
-def given_stiffness(extension: Extension) -> Floats:
-    """The stiffness of the block that each element (m,) follows, NaN without one."""
-    return extension.values(extension.of_element, "stiffness")
 
 
 def element_suction(scene: ResolvedDeck) -> LawAssignment:
@@ -231,7 +221,7 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
         here = block >= 0
         springs = np.where(here[:, None], _of_keyword(scene, extension, block), springs)
         active = active | here
-        ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
+        ellipse = extension.says(block, "criterion", "ELLIPSE")
         angle = extension.values(block, "directions")
     coefficients, stiffness, mobilisation = springs
     coefficients[np.unique(ends[lateral]), 1] = 0.0
@@ -332,7 +322,7 @@ def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
 
     extension = scene.extensions["SEABED FRICTION"]
     block = _friction_blocks(scene, extension)
-    published = marked((getattr(entry, "lateral", None) == "F114" for entry in extension.entries), block)
+    published = extension.says(block, "lateral", "F114")
     peak, residual, size = extension.values(block, "peak", "factor"), F114_RESIDUAL, _sizes(scene)
     given: dict[str, tuple[Floats | float, Floats]] = {
         "peak_displacement": (extension.values(block, "peak", "displacement"), F114_DISPLACEMENTS[0] * size),

@@ -179,28 +179,19 @@ def _exported(
     names = [f"{_UNUSED}{column}" for column in range(len(found))]
     optional = {name: name for name in known if name not in wanted and name in given}
     for name, heading in (wanted | optional).items():
-        column, count = _column_of(heading, given)
-        if not count:
-            raise data_error(file, _lacks(name, heading, found))
-        if count > 1:
+        sought = heading.strip().casefold()
+        if sought not in given:
+            what = "" if heading == name else f" for {name}"
+            listed = ", ".join(map(shown, found[:LISTED])) or "nothing"
+            more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
+            raise data_error(file, f"the header lacks {shown(heading)}{what}: it has {listed}{more}")
+        if given.count(sought) > 1:
             raise data_error(file, f"the header has {shown(heading)} twice")
+        column = given.index(sought)
         if not names[column].startswith(_UNUSED):
             raise data_error(file, f"the column {shown(heading)} is taken for {names[column]} and for {name}")
         names[column] = name
     return best, names
-
-
-def _column_of(heading: str, given: Sequence[str]) -> tuple[int, int]:
-    """Where a heading is, and how often."""
-    sought = heading.strip().casefold()
-    return (given.index(sought) if sought in given else -1, given.count(sought))
-
-
-def _lacks(name: str, heading: str, found: Sequence[str]) -> str:
-    what = "" if heading == name else f" for {name}"
-    listed = ", ".join(map(shown, found[:LISTED])) or "nothing"
-    more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
-    return f"the header lacks {shown(heading)}{what}: it has {listed or 'nothing'}{more}"
 
 
 def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> CsvTable:

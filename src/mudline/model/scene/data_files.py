@@ -36,7 +36,7 @@ class DataLine(NamedTuple):
 
     def values(self) -> list[float]:
         """Its numbers; raises ValueError for what is none."""
-        return [_number(word, self.number) for word in _PARTS.split(self.text.strip(" ,"))]
+        return [number_of(word, self.number) for word in _PARTS.split(self.text.strip(" ,"))]
 
 
 def fault_of(path: Path, contents: Contents, *, layout: str = "") -> str:
@@ -94,7 +94,8 @@ def _lines(path: Path) -> Iterator[DataLine]:
         yield DataLine(number, text)
 
 
-def _number(word: str, line: int) -> float:
+def number_of(word: str, line: int) -> float:
+    """Return the number that a word of a line is; raises ValueError for what is none."""
     value = read_number(word)
     if value is None:
         raise ValueError(f"line {line}: {shown(word)} is not a number")
@@ -154,7 +155,7 @@ def _groups(lines: Sequence[DataLine]) -> list[list[float]]:
         if heading and group:
             raise ValueError(f"line {line.number}: a frequency above it lacks its amplitudes or phases")
         if heading:
-            angle = _number(heading[1].strip(" ,"), line.number)
+            angle = number_of(heading[1].strip(" ,"), line.number)
             _heading(angle, line.number)
             continue
         group.append(_row(line, widths[len(group)]))

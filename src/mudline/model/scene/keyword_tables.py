@@ -6,14 +6,13 @@ The rows become the lines of the keyword and are read as these, so that what a d
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.basics.short_repr import cut, listed
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import read_source
@@ -142,9 +141,10 @@ def _placed(sheet: Sheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]
 
 def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
     """The unit systems that the units in the headings tell. Raises DeckError for another unit than that of a system."""
+    units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
     for column, unit in head.units.items():
         dimension = column.spec.about.unit
-        names = {system: _unit_name(dimension, system) for system in UNIT_SYSTEMS if system in _UNITS}
+        names = {system: "".join(own.get(letter, letter) for letter in dimension) for system, own in units.items()}
         written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
         if not unit or dimension in {"", "-", "deg"}:
             continue
@@ -153,12 +153,6 @@ def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
             what = f"expected the unit {' or '.join(dict.fromkeys(names.values()))}, found {cut(unit, 40)!r}"
             raise sheet.fault(sheet.rows[0][0].row, head.places[column], what)
         yield from fitting if len(fitting) == 1 else ()
-
-
-def _unit_name(dimension: str, system: str) -> str:
-    """The unit of a dimension such as F/L2."""
-    names = dict(zip("FLMT", _UNITS[system], strict=True))
-    return "".join(names.get(letter, letter) for letter in dimension)
 
 
 # ------------------------------------------------------------------------------------------------------- rows
@@ -187,23 +181,20 @@ def _entries(sheet: Sheet, head: _Head) -> list[_Entry]:
         found[name.casefold()] = _Entry(sheet, name, (1, first), first=first)
     for cells in sheet.rows[1:]:
         given = {cell.column: cell for cell in cells}
-        _only_headed(sheet, head, cells)
+        for cell in cells:
+            if cell.column not in head.places.values():
+                what = "a value in a column without a heading: give it one, or remove it"
+                raise sheet.fault(cell.row, cell.column, what)
         if not given:
             continue
         row = cells[0].row
         if named:
             name = _name(sheet, head.places[named], named, given, row, name)
-        cell = row, head.places[named] if named else first
-        entry = found.setdefault((name or "").casefold(), _Entry(sheet, name or "", cell, first=first))
+        place = row, head.places[named] if named else first
+        entry = found.setdefault((name or "").casefold(), _Entry(sheet, name or "", place, first=first))
         entry.lines.append(_line(sheet, head, given, row))
         entry.rows.append(row)
     return list(found.values())
-
-
-def _only_headed(sheet: Sheet, head: _Head, cells: Iterable[Cell]) -> None:
-    for cell in cells:
-        if cell.column not in head.places.values():
-            raise sheet.fault(cell.row, cell.column, "a value in a column without a heading: give it one, or remove it")
 
 
 def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], row: int, above: str | None) -> str:

@@ -19,7 +19,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.force_curves import SceneCurve, set_name
-from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
@@ -321,6 +321,10 @@ class Extension(NamedTuple):
             parts = [getattr(part, step, None) for part in parts]
         return picked((number(part, name, default) for part in parts), at)
 
+    def says(self, at: Indices, name: str, word: str) -> Mask:
+        """Return True for each index whose block gives a word in a field; False for -1."""
+        return marked((getattr(entry, name, None) == word for entry in self.entries), at)
+
     def asking(self, name: str) -> Mask:
         """Elements (m,) whose block gives a field, a number at least 0; all with a block where it is mandatory."""
         flags = []
@@ -334,29 +338,21 @@ class Extension(NamedTuple):
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
     """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
     given = {block.keyword for _, block in context.deck.blocks_that(_goes_by_set)}
-    return {keyword: _read_extension(context, sets, keyword, count) for keyword in catalogue.in_order(given)}
+    found = {}
+    for keyword in catalogue.in_order(given):
+        made = Extension([], [], [], np.zeros(0, dtype=np.intp))
+        for where, block in context.blocks(keyword):
+            for listed, named in set_slots(type(cast("Block", block))):
+                for index, entry in enumerate(getattr(block, listed.name)):
+                    name = known_name(getattr(entry, named.name))
+                    if name is None:
+                        context.unread.add(keyword)
+                    made.entries.append(entry)
+                    made.places.append(where.inside(listed.json, index))
+                    made.sets.append(None if name is None else sets.find(name))
+        found[keyword] = made._replace(of_element=later_wins(made.sets, count))
+    return found
 
 
 def _goes_by_set(declared: type[Block]) -> bool:
     return declared.facts.extension and declared.facts.later_wins
-
-
-def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> Extension:
-    entries: list[Record] = []
-    places: list[Where] = []
-    holders: list[NamedSet | None] = []
-    for where, block in context.blocks(keyword):
-        for listed, named in set_slots(type(cast("Block", block))):
-            for index, entry in enumerate(getattr(block, listed.name)):
-                entries.append(entry)
-                places.append(where.inside(listed.json, index))
-                holders.append(_holder(context, sets, keyword, getattr(entry, named.name)))
-    return Extension(entries, places, holders, later_wins(holders, count))
-
-
-def _holder(context: Context, sets: Sets, keyword: str, name: str | None) -> NamedSet | None:
-    known = known_name(name)
-    if known is None:
-        context.unread.add(keyword)
-        return None
-    return sets.find(known)

@@ -318,10 +318,10 @@ def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing
 
 
 def _report_repeat(context: Context, numbered: Numbered, row: int, thing: str, count: int) -> None:
-    where = numbered.where_row(row)
-    number = numbered.ids_of(np.array([row]))
-    first = numbered.where_row(int(numbered.firsts[numbered.indices(number)[0]]))
-    what = f"{thing} {number[0]} is" if count == 1 else f"{count} {thing}s (first: {number[0]}) are"
+    where, batch = numbered.where_row(row), int(numbered.batches_of(row))
+    number = numbered.batches[batch].ids[row - numbered.starts[batch]]
+    first = numbered.where_row(int(numbered.firsts[numbered.indices(np.array([number]))[0]]))
+    what = f"{thing} {number} is" if count == 1 else f"{count} {thing}s (first: {number}) are"
     message = f"{what} defined twice: the later definition holds; remove one"
     if first.section == where.section:
         context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))

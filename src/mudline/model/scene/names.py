@@ -13,7 +13,6 @@ from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import is_read, kept_lines
-from mudline.language.keywords.model import Block
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.model.scene.context import Context
@@ -86,14 +85,12 @@ def _doubt(context: Context, definers: Collection[str]) -> str:
     """What may define a thing besides the lines that were read, in words; "" where nothing may."""
     for i, section in enumerate(context.deck.sections):
         for j, block in enumerate(section.blocks):
-            if block.keyword in definers and not _is_whole(context, block, Where(i, j)):
+            if block.keyword in definers and (
+                isinstance(block, Opaque) or not is_read(block) or context.deck.lost(Where(i, j))
+            ):
                 return f"; a line of *{block.keyword} that was not read may define it"
     words = (context.possible_definition(keyword) for keyword in definers)
     return next((f"; {one}" for one in words if one), "")
-
-
-def _is_whole(context: Context, block: Block | Opaque, where: Where) -> bool:
-    return not isinstance(block, Opaque) and is_read(block) and not context.deck.lost(where)
 
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
@@ -120,11 +117,8 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
                 continue
             thing = kind.value.removeprefix("a ").removeprefix("an ")
             by = f"name it in {' or '.join(f'*{keyword}' for keyword in users)}, or remove it" if users else "remove it"
-            yield Problem(code, f"{thing} {shown(first.name)} is not used: {by}", None, _weight(users), first.where)
-
-
-def _weight(users: Collection[str]) -> Severity | None:
-    return None if users else Severity.INFO
+            severity = None if users else Severity.INFO
+            yield Problem(code, f"{thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
 
 
 def _not_read(deck: Deck) -> str:

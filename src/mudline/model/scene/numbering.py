@@ -186,12 +186,6 @@ class Numbered:
         """The batches that definitions belong to."""
         return self.starts.searchsorted(rows, side="right") - 1
 
-    def ids_of(self, rows: Indices) -> Ids:
-        """The numbers that definitions define."""
-        batches = self.batches_of(rows).tolist()
-        inside = zip(rows.tolist(), batches, strict=True)
-        return np.array([self.batches[b].ids[row - int(self.starts[b])] for row, b in inside], dtype=np.int64)
-
     def indices(self, ids: Ids) -> Indices:
         """Indices of numbers, -1 for those not defined."""
         found = np.full(ids.shape, -1, dtype=np.intp)

@@ -18,7 +18,6 @@ from mudline.basics.quantities import time_unit, unit_names
 from mudline.language.codes import RUN001
 from mudline.language.diagnostics import Problem, Where
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.laws import Extension
 from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.model.scene.resolved import ResolvedDeck
 
@@ -147,6 +146,7 @@ def _of_elements(
     from mudline.model.contact.laws import is_normal  # noqa: PLC0415 - loaded when it is needed
 
     by_law = {law.law: law for law in facts.laws}
+    springs_of = {law.law: law.at_nodes for law in facts.laws if law.at_nodes is not None}
     none = np.zeros(len(given.element_ids))
     inward = np.nan_to_num(by_law["damping"].damping) if "damping" in by_law else none
     sections = scene.section_table.of_element
@@ -161,14 +161,15 @@ def _of_elements(
             steeper = returns > normal
     for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, scene.replacing):
         name = f"{scene.law_names[group[0]]} on {scene.law_sets[group[0]]}"
-        place = place_of_law(scene, int(group[0]))
+        place = _place_of_law(scene, int(group[0]))
         yield _of_group("normal", name, group, (normal, inward), carried, place)
         if back is not None and steeper[group].any():
             place = back.places[int(back.of_element[group[0]])].inside("stiffness")
             yield _of_group("unloading", f"unloading of {name}", group, (returns, inward), carried, place)
     damped = given.assigned.get("nodal damping")
     own = np.zeros(carried.nodes) if damped is None else damped.spread("damping", carried.nodes, 0.0)
-    yield from _of_nodes(scene, by_law["nodal"].at_nodes if "nodal" in by_law else None, own, carried)
+    if "nodal" in springs_of:
+        yield from _of_nodes(scene, springs_of["nodal"], own, carried)
     for law, field in (("suction spring", "suction"), ("lateral", "lateral")):
         if law in by_law:
             for group in _groups(~np.isnan(by_law[law].stiffness), scene.resistance.of_element, sections):
@@ -177,10 +178,10 @@ def _of_elements(
                 yield _of_group(law, name, group, (by_law[law].stiffness, none), carried, place)
     if "suction" in by_law:
         yield from _of_suction(scene, given, carried)
-    if "friction" in by_law:
-        yield from _of_friction(scene, given, by_law["friction"].at_nodes, carried)
-    if "breakout" in by_law:
-        yield from _of_springs(scene, SOFTENING, "peak", by_law["breakout"].at_nodes, carried)
+    if "friction" in springs_of:
+        yield from _of_friction(scene, given, springs_of["friction"], carried)
+    if "breakout" in springs_of:
+        yield from _of_springs(scene, SOFTENING, "peak", springs_of["breakout"], carried)
 
 
 def _groups(having: Mask, *keys: Indices) -> list[Indices]:
@@ -240,11 +241,9 @@ def _checked(one: Oscillation) -> Oscillation | tuple[str, str]:
 
 
 def _of_nodes(
-    scene: ResolvedDeck, stiffness: Floats | None, damping: Floats, carried: _Carried
+    scene: ResolvedDeck, stiffness: Floats, damping: Floats, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
     """Nodes with a stiffness of their own, and maybe a damping: of each stiffness the fastest node."""
-    if stiffness is None:
-        return
     contact = scene.extensions["SEABED CONTACT"]
     blocks = at_nodes(np.where(scene.nodal, contact.of_element, -1), carried.ends, carried.nodes)
     for value in np.unique(stiffness[stiffness > 0.0]).tolist():
@@ -274,11 +273,9 @@ def _of_node(
 
 
 def _of_friction(
-    scene: ResolvedDeck, given: ContactInput, stiffness: Floats | None, carried: _Carried
+    scene: ResolvedDeck, given: ContactInput, stiffness: Floats, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
     """Nodes that stick, and why some have no springs."""
-    if stiffness is None:
-        return
     yield from _of_springs(scene, "friction", "stiffness", stiffness, carried)
     ends, sliding = carried.ends, given.assigned["friction"].rows
     unknown = sliding[np.isnan(stiffness[sliding])]
@@ -289,11 +286,9 @@ def _of_friction(
 
 
 def _of_springs(
-    scene: ResolvedDeck, kind: str, field: str, stiffness: Floats | None, carried: _Carried
+    scene: ResolvedDeck, kind: str, field: str, stiffness: Floats, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
     """Nodes (n,) with a spring of friction, by the place that gives it: `field` of its block, or FRICTION=."""
-    if stiffness is None:
-        return
     own = scene.extensions.get("SEABED FRICTION")
     ends, nodes = carried.ends, carried.nodes
     of_keyword = np.full(nodes, -1) if own is None else at_nodes(own.of_element, ends, nodes)
@@ -342,7 +337,7 @@ def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> 
         rest = at(0.0 * law.regularisation)[1]
         damping = np.fmax(rest, at(law.regularisation)[1])
         none = np.zeros(len(having))
-        place = place_of_suction(own, index)
+        place = own.places[index].inside("cohesion" if getattr(own.entries[index], "force", None) is None else "force")
         at_rest = _of_group("suction damping", f"suction damping {name}", group, (none, damping), carried, place)
         yield at_rest
         if law.force_exponent[row] > law.depth_exponent[row]:
@@ -376,12 +371,7 @@ def _set_of_resistance(scene: ResolvedDeck, element: int) -> str:
     return scene.laws.set_laws[index].set_.name if index >= 0 else "ALL"
 
 
-def place_of_suction(own: Extension, index: int) -> Where:
-    """Where the numbers of the suction force of a block stand: FORCE=, else COHESION=."""
-    return own.places[index].inside("cohesion" if getattr(own.entries[index], "force", None) is None else "force")
-
-
-def place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
+def _place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     """Where the stiffness of an element stands: the end of the steepest segment of its curve."""
     for _, field, extension, elements in reversed(scene.replaced):
         if elements[element]:

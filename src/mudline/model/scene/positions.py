@@ -210,7 +210,11 @@ def _load_npz(path: Path) -> dict[str, Reals]:
         try:
             with _from_old_python(), zipfile.ZipFile(stream) as archive:
                 names = [name.removesuffix(".npy") for name in archive.namelist()]
-                _check_names(file, names)
+                if "positions" not in names:
+                    raise data_error(file, f"no array named positions, only {', '.join(names) or 'nothing'}")
+                if unknown := sorted(set(names) - _ARRAYS):
+                    expected = ", ".join(sorted(_ARRAYS))
+                    raise data_error(file, f"unknown arrays: {', '.join(unknown)}; expected {expected}")
                 most = _DEFLATED * path.stat().st_size
                 return {name: _real(file, name, _member(archive, name, most)) for name in names}
         except DeckError:
@@ -249,16 +253,13 @@ def _from_old_python() -> Iterator[None]:
         yield
 
 
-def _check_names(file: str, names: list[str]) -> None:
-    if "positions" not in names:
-        raise data_error(file, f"no array named positions, only {', '.join(names) or 'nothing'}")
-    if unknown := sorted(set(names) - _ARRAYS):
-        raise data_error(file, f"unknown arrays: {', '.join(unknown)}; expected {', '.join(sorted(_ARRAYS))}")
-
-
 def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:
     """Arrays (steps, nodes, 3) or (nodes, 3) in the order of the deck's nodes, or in that of the array `node`."""
-    ids = _ids(file, arrays["node"]) if "node" in arrays else None
+    ids = None
+    if "node" in arrays:
+        if arrays["node"].ndim != 1:
+            raise _wrong_shape(file, "node", arrays["node"], "one axis")
+        ids = whole_numbers(file, "node", finite(file, "node", arrays["node"]))
     given = arrays["positions"]
     expected = len(nodes) if ids is None else len(ids)
     values = given[np.newaxis] if given.ndim == 2 else given
@@ -284,12 +285,6 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positi
         values = _spread(values, where, len(nodes))
         velocities = None if velocities is None else _spread(velocities, where, len(nodes))
     return Positions(values, present, time, velocities, "time" in arrays)
-
-
-def _ids(file: str, given: Reals) -> Ids:
-    if given.ndim != 1:
-        raise _wrong_shape(file, "node", given, "one axis")
-    return whole_numbers(file, "node", finite(file, "node", given))
 
 
 def _times(file: str, given: Reals, steps: int) -> Floats:

@@ -61,7 +61,7 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
-        problems += (_of_base(_shown(problem, base, deck.folder), base.deck) for problem in base.errors)
+        problems += (_shown(problem, base, deck.folder) for problem in base.errors)
     units = (each.units for each in (deck, *(base.deck for base in chain.bases)))
     whole = replace(
         deck,
@@ -77,14 +77,11 @@ def _reported(fault: str, refused: bool, where: Where) -> Problem:  # noqa: FBT0
     return Problem(REF015, fault, None, Severity.ERROR if refused else None, where)
 
 
-def _shown(problem: Problem, base: Base, folder: Path) -> Problem:
+def _shown(problem: Problem, base: Base, folder: Path) -> BaseProblem:
     """A problem of a deck that is continued, without a text of one outside of the project."""
     path = Path(base.deck.folder or folder, Path(base.deck.file).name)
-    return replace(problem, message=without_text(problem.message, path, folder), repair=None)
-
-
-def _of_base(problem: Problem, deck: Deck) -> BaseProblem:
-    return BaseProblem(**{each.name: getattr(problem, each.name) for each in fields(Problem)}, deck=deck)
+    shown_ = replace(problem, message=without_text(problem.message, path, folder), repair=None)
+    return BaseProblem(**{each.name: getattr(shown_, each.name) for each in fields(Problem)}, deck=base.deck)
 
 
 def decks_before(deck: Deck) -> list[Path]:

@@ -20,9 +20,9 @@ from mudline.basics.outside import without_text
 from mudline.basics.short_repr import counted, short_repr
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.text import shown
-from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
 from mudline.model.scene.context import Context
+from mudline.model.scene.data_files import number_of
 from mudline.model.scene.deck_values import file_name, find_file, number
 from mudline.model.scene.numbering import Floats, Indices
 
@@ -187,17 +187,10 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
             words = _PARTS.split(line.strip(" \t\r\n,"))
             if len(words) != columns:
                 raise ValueError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
-            rows.append([_number(word, at) for word in words])
+            rows.append([number_of(word, at) for word in words])
     if len(rows) < 2:
         raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
     return np.array(rows, dtype=np.float64)
-
-
-def _number(word: str, line: int) -> float:
-    value = read_number(word)
-    if value is None:
-        raise ValueError(f"line {line}: {shown(word)} is not a number")
-    return value
 
 
 def made_seabed(seabed: SeabedShape) -> Seabed:

@@ -18,6 +18,7 @@ LEVEL = 0.005
 """Rise to length of an element that lies level."""
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     """What makes Z look like the height of nodes at `places` (n, 3), in words; "" where nothing does.
 
@@ -25,11 +26,6 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     at minus the water depth, as a pipe on the seabed does. A vertical riser at Z = 0 does neither, unless it is longer
     than the water is deep.
     """
-    with np.errstate(over="ignore", invalid="ignore"):
-        return _reason(scene, elements, places)
-
-
-def _reason(scene: Scene, elements: Indices, places: Floats) -> str:
     ends = scene.element_nodes[elements]
     used = places[ends.ravel()]
     if not used.size or not np.isfinite(used).all():

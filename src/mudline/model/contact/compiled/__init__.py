@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.tables import Tables, steepest_anywhere
+from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -72,28 +72,21 @@ class Features(NamedTuple):
 
 def features_of(tables: Tables, *, flat: bool) -> Features:
     """Return what a scene has, as far as the loops differ by it."""
-    friction, trench, suction = tables.friction, tables.trench, tables.suction
+    friction, trench = tables.friction, tables.trench
+    own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
     return Features(
+        **{name: getattr(tables, name) is not None for name in own},
         flat=flat,
         curves=any(rows.curve >= 0 for rows in tables.normal),
         paths=any(rows.path >= 0 for rows in tables.normal),
         cuts=tables.cuts,
-        unloading=tables.unloading is not None,
         steepens=_steepens(tables),
-        springs=tables.springs is not None,
-        damping=tables.damping is not None,
-        nodal_damping=tables.nodal_damping is not None,
-        suction=suction is not None,
         slides=friction is not None or tables.lateral is not None,
         turns=tables.line.turns,
-        lateral=tables.lateral is not None,
         nodal=bool(tables.nodal),
-        friction=friction is not None,
         elliptic=friction is not None and bool(friction.ellipse.any()),
         turned=friction is not None and bool(friction.turned.size),
-        trench=trench is not None,
         tables=trench is not None and bool((trench.table >= 0).any()),
-        breakout=tables.breakout is not None,
         embeds=tables.embeds,
     )
 
@@ -107,20 +100,24 @@ def _steepens(tables: Tables) -> bool:
     return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
 
 
+def formulas(tables: Tables) -> list[NormalRows]:
+    """Return the normal laws of elements with an equation in the order of their kinds, those with a path first."""
+    return sorted((rows for rows in tables.normal if rows.curve < 0), key=lambda rows: rows.path < 0)
+
+
 def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
     """Indices (m, c) and numbers (m, c) of the elements, and all curves.
 
     Curves are (4, k): ratios, forces, slopes behind the points, and the steepest slopes up to there.
     """
     given, count = tables.given, len(tables.half)
-    formulas = [rows for rows in tables.normal if rows.curve < 0]
-    most = max((len(rows.columns) for rows in formulas), default=0)
+    most = max((len(rows.columns) for rows in formulas(tables)), default=0)
     index, numbers = np.full((count, INDICES), NOTHING, np.uint32), np.zeros((count, LAW + most))
     index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
     index[:, KIND] = NO_LAW
     numbers[:, DIAMETER] = given.diameter
     numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
-    for kind, rows in enumerate(formulas, FIRST_LAW):
+    for kind, rows in enumerate(formulas(tables), FIRST_LAW):
         index[rows.rows, KIND] = kind
         index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING
         for column, values in enumerate(rows.columns, LAW):

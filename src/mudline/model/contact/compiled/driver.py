@@ -29,6 +29,7 @@ from mudline.model.contact.compiled import (
     breakout_table,
     element_tables,
     features_of,
+    formulas,
     functions,
     node_tables,
     plain,
@@ -41,7 +42,7 @@ from mudline.model.contact.compiled.loops import ranges_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import Batch, ContactState, NormalRows, Tables
+from mudline.model.contact.tables import Batch, ContactState, NormalRows, Tables, arrays_of
 
 _BATCH = 3 * 2**19
 """Nodes times steps at a time, at most."""
@@ -115,10 +116,10 @@ class CompiledDriver:
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
         has = features_of(tables, flat=isinstance(seabed, FlatSeabed))
         self._has = has
-        normal = [rows for rows in tables.normal if rows.curve < 0]
-        slopes = tuple((_as_reaction(rows.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
+        normal = formulas(tables)
+        slopes = tuple((_as_reaction(rows.law.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
-        paths = tuple((law if isinstance(law := rows.law, PathLaw) else None, len(law.parameters)) for rows in normal)
+        paths = tuple(rows.law for rows in normal if isinstance(rows.law, PathLaw))
         self._loop = _loop(
             ranges_loop,
             callable_in_loops,
@@ -227,9 +228,8 @@ def _of_elements(state: ContactState) -> tuple[Any, ...]:
     """What elements remember, but for paths: of unloading, suction and lateral springs."""
     lines, pulls = state.unloading, state.suction
     return (
-        np.empty((4, 0)) if lines is None else plain(lines.numbers),
-        np.zeros((2, 0), np.int8) if pulls is None else plain(pulls.flags),
-        np.empty((3, 0)) if pulls is None else plain(pulls.numbers),
+        (np.empty(0),) * 4 if lines is None else tuple(map(plain, arrays_of(lines))),
+        (np.empty(0),) * 5 if pulls is None else tuple(map(plain, arrays_of(pulls))),
         np.empty((3, 0)) if state.touchdown is None else plain(state.touchdown.T),
     )
 
@@ -300,7 +300,7 @@ def _ranges(tasks: list[_Task]) -> Any:
 
 def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:
     """The reaction of each law and how many parameters it has."""
-    return tuple((rows.reaction, len(rows.law.parameters)) for rows in laws)
+    return tuple((rows.law.reaction, len(rows.law.parameters)) for rows in laws)
 
 
 @cache

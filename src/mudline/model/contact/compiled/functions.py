@@ -40,18 +40,13 @@ ONE = np.uint64(1)
 """With a signed 1, sums of indices would become floats."""
 
 
-def functions_of(law: NormalLaw) -> tuple[Callable[..., Any] | None, ...]:
-    """Return the equations of a law."""
-    of_path = (law.begin, law.pending, *law.locate, law.advance) if isinstance(law, PathLaw) else ()
-    return (law.reaction, law.steepest, *of_path)
-
-
 @cache
 def edition(laws: tuple[NormalLaw, ...]) -> int:
     """Return a number that changes with the source of the loops and laws, so that no cached loop outlives them."""
     texts = [path.read_text(encoding="utf-8") for path in _SOURCES]
     for law in laws:
-        texts += [inspect.getsource(function) for function in functions_of(law) if function is not None]
+        of_path = (law.begin, law.pending, *law.locate, law.advance) if isinstance(law, PathLaw) else ()
+        texts += [inspect.getsource(function) for function in (law.reaction, law.steepest, *of_path)]
     return int.from_bytes(hashlib.sha256("".join(texts).encode()).digest()[:4], "big")
 
 
@@ -75,98 +70,71 @@ def row_of(wrap: Wrap, count: int) -> Callable[..., Any]:
     return wrap(row_of_several)  # type: ignore[no-any-return]
 
 
+def choice(wrap: Wrap, functions: tuple[Callable[..., Any], ...]) -> Callable[..., Any]:
+    """Return a function that calls the one of a kind, from 0: (kind, *arguments)."""
+    first = wrap(functions[0])
+    others = choice(wrap, functions[1:]) if functions[1:] else first
+    last = len(functions) == 1
+
+    def one(kind: int, *arguments: Any) -> Any:
+        return first(*arguments) if last or kind == 0 else others(kind - 1, *arguments)
+
+    return wrap(one)  # type: ignore[no-any-return]
+
+
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
     """Return a function that evaluates the law of a kind, from 0: (kind, z, diameter, table, row).
 
     `laws` are reactions and their numbers of parameters, which are in a table from the column `first` on.
     """
-    if not laws:
 
-        def nothing(_kind: int, _z: float, _diameter: float, _table: Array, _row: int) -> tuple[float, float]:
-            return 0.0, 0.0
+    def of_law(law: Callable[..., Any], count: int) -> Callable[..., Any]:
+        reaction, parameters = wrap(law), row_of(wrap, count)
 
-        return wrap(nothing)  # type: ignore[no-any-return]
-    (reaction, count), others = laws[0], one_of(wrap, laws[1:], first)
-    reaction, parameters = wrap(reaction), row_of(wrap, count)
-    if len(laws) == 1:
-
-        def only(_kind: int, z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
+        def at_row(z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
             f, k = reaction(z, diameter, *parameters(table, row, first))
-            return f, k
+            return float(f), float(k)
 
-        return wrap(only)  # type: ignore[no-any-return]
+        return at_row
 
-    def one(kind: int, z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
-        if kind > 0:
-            f, k = others(kind - 1, z, diameter, table, row)
-        else:
-            f, k = reaction(z, diameter, *parameters(table, row, first))
-        return f, k
+    def nothing(_z: float, _diameter: float, _table: Array, _row: int) -> tuple[float, float]:
+        return 0.0, 0.0
 
-    return wrap(one)  # type: ignore[no-any-return]
+    return choice(wrap, tuple(of_law(*law) for law in laws) or (nothing,))
 
 
-def _of_kind(wrap: Wrap, functions: tuple[Callable[..., Any], ...]) -> Callable[..., Any]:
-    """Return a function that calls the one of a kind, from 0: (kind, diameter, memory, parameters)."""
-    first = wrap(functions[0])
-    others = _of_kind(wrap, functions[1:]) if functions[1:] else first
-    last = len(functions) == 1
-
-    def one(kind: int, diameter: float, memory: Numbers, soil: Numbers) -> float:
-        event: float = first(diameter, memory, soil) if last or kind == 0 else others(kind - 1, diameter, memory, soil)
-        return event
-
-    return wrap(one)  # type: ignore[no-any-return]
-
-
-def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: int) -> Callable[..., Any]:
+def followed(wrap: Wrap, laws: tuple[PathLaw, ...], first: int) -> Callable[..., Any]:
     """Return a function that goes on along the path of a kind, from 0: (kind, z, diameter, table, row, paths, held).
 
-    `laws` are those of `one_of`, None for one without a path. It writes what the element remembers, the row `held` of
-    `paths`, and returns force and stiffness.
+    It writes what the element remembers, the row `held` of `paths`, and returns force and stiffness.
     """
-    if not any(law for law, _ in laws):
 
-        def straight(
-            _kind: int, _z: float, _diameter: float, _table: Array, _row: int, _paths: Array, _held: int
-        ) -> tuple[float, float]:
-            return 0.0, 0.0
+    def of_law(law: PathLaw) -> Callable[..., Any]:
+        begin, pending, advance = (wrap(each) for each in (law.begin, law.pending, law.advance))
+        locate, last = choice(wrap, law.locate), len(law.start) - 1
+        parameters, memory_of, rest_of = (row_of(wrap, count) for count in (len(law.parameters), last + 1, last))
 
-        return wrap(straight)  # type: ignore[no-any-return]
-    (law, count), others = laws[0], followed(wrap, laws[1:], first)
-    if law is None:
-
-        def skipped(  # noqa: PLR0913, PLR0917 - as above
-            kind: int, z: float, diameter: float, table: Array, row: int, paths: Array, held: int
-        ) -> tuple[float, float]:
-            f, k = others(kind - 1, z, diameter, table, row, paths, held)
+        def follow(z: float, diameter: float, table: Array, row: int, paths: Array, held: int) -> tuple[float, float]:
+            soil = parameters(table, row, first)
+            memory = begin(z, memory_of(paths, held, 0))
+            for column in range(last + 1):
+                paths[held, column] = memory[column]
+            event = pending(z, memory)
+            if event > 0:
+                paths[held, last] = locate(event - 1, diameter, memory, soil)
+            f, k, memory = advance(z, diameter, (*rest_of(paths, held, 0), paths[held, last]), soil)
+            for column in range(last + 1):
+                paths[held, column] = memory[column]
             return f, k
 
-        return wrap(skipped)  # type: ignore[no-any-return]
-    begin, pending, advance = (wrap(each) for each in (law.begin, law.pending, law.advance))
-    locate = _of_kind(wrap, law.locate)
-    parameters, memory_of, rest_of = row_of(wrap, count), row_of(wrap, len(law.start)), row_of(wrap, len(law.start) - 1)
-    last = len(law.start) - 1
+        return follow
 
-    def follow(  # noqa: PLR0913, PLR0917 - as above
-        kind: int, z: float, diameter: float, table: Array, row: int, paths: Array, held: int
+    def straight(
+        _z: float, _diameter: float, _table: Array, _row: int, _paths: Array, _held: int
     ) -> tuple[float, float]:
-        if kind > 0:
-            f, k = others(kind - 1, z, diameter, table, row, paths, held)
-            return f, k
-        soil = parameters(table, row, first)
-        memory = begin(z, memory_of(paths, held, 0))
-        for column in range(last + 1):
-            paths[held, column] = memory[column]
-        event = pending(z, memory)
-        if event > 0:
-            paths[held, last] = locate(event - 1, diameter, memory, soil)
-        f, k, memory = advance(z, diameter, (*rest_of(paths, held, 0), paths[held, last]), soil)
-        for column in range(last + 1):
-            paths[held, column] = memory[column]
-        return f, k
+        return 0.0, 0.0
 
-    return wrap(follow)  # type: ignore[no-any-return]
+    return choice(wrap, tuple(map(of_law, laws)) or (straight,))
 
 
 def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> Index:
@@ -250,23 +218,6 @@ def next_suction(
     if completed:
         factor = after_cycle(factor, law[PER_CYCLE], law[FLOOR])
     return (armed, now, (largest, factor, reach)), g, h, slow
-
-
-def suction_law(pulls: Array, row: int) -> Numbers:
-    """Return the columns of a row of the table of suction laws."""
-    return (
-        pulls[row, 0], pulls[row, 1], pulls[row, 2], pulls[row, 3], pulls[row, 4], pulls[row, 5], pulls[row, 6],
-        pulls[row, 7], pulls[row, 8], pulls[row, PER_CYCLE], pulls[row, FLOOR], pulls[row, LEAST_DEPTH],
-    )  # fmt: skip
-
-
-def mean_normal(normals: Array, step: int, one: int, other: int) -> tuple[float, float, float]:
-    """Return the mean of the unit normals at two nodes, as a unit vector."""
-    x = normals[step, one, 0] + normals[step, other, 0]
-    y = normals[step, one, 1] + normals[step, other, 1]
-    z = normals[step, one, 2] + normals[step, other, 2]
-    size = np.sqrt(vectors.dot_3((x, y, z), (x, y, z)))
-    return x / size, y / size, z / size
 
 
 def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[float, float, float, float, float]:

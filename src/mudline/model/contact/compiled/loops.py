@@ -24,20 +24,18 @@ from mudline.model.contact.compiled.functions import (
     from_straight,
     in_limits,
     last_at_or_below,
-    mean_normal,
     next_suction,
     next_unloading,
     one_of,
-    suction_law,
+    row_of,
     table_resistance,
     unit_of_span,
 )
 from mudline.model.contact.laws import PathLaw
 from mudline.model.contact.laws.breakout import reached, shares
 from mudline.model.contact.laws.curve import on_segment
-from mudline.model.contact.laws.damping import damping_force
 from mudline.model.contact.laws.friction import slip_distance
-from mudline.model.contact.laws.linear import lateral_force, spring_suction
+from mudline.model.contact.laws.linear import damping_force, lateral_force, spring_suction
 from mudline.model.contact.laws.suction import SUCTION
 from mudline.model.contact.laws.trench import PEAK, WALL, on_wall, peak_share
 
@@ -46,19 +44,20 @@ def elements_loop(
     wrap: Wrap,
     has: Features,
     laws: tuple[tuple[Callable[..., Any], int], ...],
-    paths: tuple[tuple[PathLaw | None, int], ...],
+    paths: tuple[PathLaw, ...],
     steepest: Callable[..., Any],
     edition: int,
 ) -> Loop:
     """Make the loop over elements.
 
-    `laws` are the normal laws with equations, `paths` those of them with a path; `steepest` is asked for (kind, z,
-    diameter, table, e), where an unloading line may be less steep than the virgin path.
+    `laws` are the normal laws with equations, `paths` the first of them, those with a path; `steepest` is asked for
+    (kind, z, diameter, table, e), where an unloading line may be less steep than the virgin path.
     """
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
     suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
+    suction_law = row_of(wrap, col.SUCTION_COLUMNS)
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
@@ -69,12 +68,12 @@ def elements_loop(
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
         tangent, sideways, ring = work
-        lines, flags, numbers, touchdown, ways = states
-        past_lines, past_flags, past_numbers, places = before
+        lines, episodes, touchdown, ways = states
+        past_lines, past_episodes, places = before
         wrong = min(edition, 0)
         for step in range(np.uint64(len(gap))):
             if step > 0:
-                past_lines, past_flags, past_numbers, places = lines, flags, numbers, touchdown
+                past_lines, past_episodes, places = lines, episodes, touchdown
             for e in range(begin, end):
                 a, b, kind = index[e, col.FIRST], index[e, col.SECOND], np.int64(index[e, col.KIND])
                 diameter, onset = table[e, col.DIAMETER], table[e, col.ONSET]
@@ -114,11 +113,11 @@ def elements_loop(
                         steep = np.maximum(steep, knots[3, segment - ONE if back else segment] / diameter)
                     elif steepens and kind >= FIRST_LAW and touches:
                         steep = np.maximum(steep, steepest(kind - FIRST_LAW, z, diameter, table, e)[0])
-                    line: Numbers = (past_lines[0, u], past_lines[1, u], past_lines[2, u], past_lines[3, u])
+                    line: Numbers = (past_lines[0][u], past_lines[1][u], past_lines[2][u], past_lines[3][u])
                     if curves and cuts:
                         cut[step, e] &= z > line[0]
                     line, (f, s, k) = next_unloading(z, line, (f, s, k), diameter, steep)
-                    lines[0, u], lines[1, u], lines[2, u], lines[3, u] = line
+                    lines[0][u], lines[1][u], lines[2][u], lines[3][u] = line
                     uplift, pressed = line[3] - deep, z > line[3]
 
                 if springs and table[e, col.SPRING] > 0.0:
@@ -130,13 +129,13 @@ def elements_loop(
 
                 if suction and index[e, col.PULLS] != NOTHING:
                     held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
-                    known = (past_numbers[0, held], past_numbers[1, held], past_numbers[2, held])
-                    was = (past_flags[0, held] > 0, past_flags[1, held], known)
-                    now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held))
+                    known = (past_episodes[2][held], past_episodes[3][held], past_episodes[4][held])
+                    was = (past_episodes[0][held], past_episodes[1][held], known)
+                    now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held, 0))
                     if now[1] == SUCTION:
                         f, s, k = f + g, s + h * diameter, k + h
-                    flags[0, held], flags[1, held] = now[0], now[1]
-                    numbers[0, held], numbers[1, held], numbers[2, held] = now[2]
+                    episodes[0][held], episodes[1][held] = now[0], now[1]
+                    episodes[2][held], episodes[3][held], episodes[4][held] = now[2]
                     state[step, e], regularised[step, e] = now[1], slow
 
                 wrong += (not math.isfinite(f + k)) | math.isinf(s)
@@ -167,7 +166,10 @@ def elements_loop(
                     x, y, z = x - place[0], y - place[1], z - place[2]
                     arm: Numbers = (y, z) if flat else (x, y, z)
                     if not flat and normals.shape[1] > 1:
-                        n = mean_normal(normals, step, a, b)
+                        n = vectors.mean_normal(
+                            (normals[step, a, 0], normals[step, a, 1], normals[step, a, 2]),
+                            (normals[step, b, 0], normals[step, b, 1], normals[step, b, 2]),
+                        )
                     along, able = project(wanted, n)
                     if not able:
                         along = default(n)

@@ -173,6 +173,11 @@ class Law:
         return (law_named, (self.name,)) if self.name in BUILT_IN else object.__reduce_ex__(self, protocol)
 
 
+def _no_equation(*_: Value) -> Any:  # noqa: ANN401 - in place of any equation
+    """Raise TypeError for a law whose reaction comes from tables."""
+    raise TypeError("the law has no equation")
+
+
 def _never(*parameters: Value) -> Value:
     """Contact begins at the mudline."""
     return 0.0 * parameters[0]
@@ -190,8 +195,8 @@ class NormalLaw(Law):
         onset: (*parameters) to the penetration at which contact begins.
     """
 
-    reaction: Reaction | None = None
-    steepest: Callable[..., Value] | None = None
+    reaction: Reaction = field(default=_no_equation)
+    steepest: Callable[..., Value] = field(default=_no_equation)
     plan: str | Callable[[dict[str, FloatArray]], str] | None = None
     onset: Callable[..., Value] = field(default=_never)
 
@@ -263,8 +268,8 @@ _LAWS: dict[str, str | Law] = {
     "trench wall": "trench:TRENCH_WALL",
     "soil": "soil:SOIL",
     "breakout": "breakout:BREAKOUT",
-    "damping": "damping:DAMPING",
-    "nodal damping": "damping:NODAL_DAMPING",
+    "damping": "linear:DAMPING",
+    "nodal damping": "linear:NODAL_DAMPING",
     "trench level": "trench:TRENCH_LEVEL",
 }
 """Module and name of each law, or the law itself once it was asked for."""
@@ -313,7 +318,7 @@ def register(law: Law) -> NormalLaw:
         TypeError: it is not a normal law without history, or has no reaction or steepest stiffness.
         ValueError: another law has its name.
     """
-    if not isinstance(law, NormalLaw) or law.history or law.tables or law.reaction is None or law.steepest is None:
+    if not isinstance(law, NormalLaw) or law.history or law.tables or _no_equation in {law.reaction, law.steepest}:
         raise TypeError("only normal laws without history can be added: a NormalLaw with reaction and steepest")
     if law.name in _LAWS and _LAWS[law.name] is not law:
         raise ValueError(f"contact law {law.name!r} is already registered")

@@ -1,4 +1,4 @@
-"""Laws of constant stiffness: normal laws, springs against uplift and to the side, and the rigid seabed.
+"""Laws of constant stiffness or damping: normal laws, springs against uplift and to the side, the rigid seabed.
 
 `STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
 `*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
@@ -23,6 +23,12 @@ each node:
 
     f = -k ((n x t) . (x - x_touchdown)) (n x t).
 
+`DAMPING=` of `*SEABED CONTACT` damps inward motion in contact,
+
+    f = c v_n for an inward velocity v_n > 0 of what lies below the mudline, 0 outward.
+
+It is added to the reaction, of which friction has a share, and never pulls.
+
 `TYPE=RIGID` is a constraint on the nodes, gap >= 0, and gives no force.
 """
 
@@ -34,7 +40,7 @@ import numpy as np
 
 from mudline.basics.short_repr import counted
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.laws import Law, NormalLaw, Parameter, Reached, Value, where
+from mudline.model.contact.laws import Law, Moving, NormalLaw, Parameter, Reached, Value, where
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in the sums, which would overflow."""
@@ -187,6 +193,42 @@ LATERAL = Law(
     largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",
     source="LATERAL= of *SEABED PROPERTIES (INFERRED)",
+)
+
+
+def damping_force(z: Value, v: Value, damping: Value) -> Value:
+    """Return the force at a depth and a pull-out velocity."""
+    return where((z > 0.0) & (v < 0.0), 0.0 - damping * v, 0.0)
+
+
+def _largest_damping(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    damping = np.where(given["damping"] > 0.0, given["damping"], np.nan)
+    return 0.0 * damping, damping
+
+
+def _at(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
+    return np.where((step.z > 0.0) & (step.v < 0.0), given["damping"], 0.0)
+
+
+def _damping(name: str, summary: str, acts_on: str, parameter: Parameter) -> Law:
+    return Law(
+        name=name,
+        summary=summary,
+        acts_on="nodes" if acts_on == "nodes" else "elements",
+        parameters=(parameter,),
+        velocities=True,
+        largest=_largest_damping,
+        damping=_at,
+        equation="f = c v_n, inward and in contact only",
+        source="definition of DAMPING=",
+    )
+
+
+DAMPING = _damping(
+    "damping", "damping of inward motion", "elements", Parameter("damping", "FT/L2", "c, per unit length")
+)
+NODAL_DAMPING = _damping(
+    "nodal damping", "damping of inward motion of a node", "nodes", Parameter("damping", "FT/L", "c, of the node")
 )
 
 

@@ -218,55 +218,29 @@ class SuctionHistory:
     """What the elements (m,) remember. A step gives a new one and leaves the old one as it is.
 
     Attributes:
-        flags: (2, m): `armed` and `state`.
-        numbers: (3, m): `v_max`, `factor` and `depth`.
+        armed: there was compression since the last breakout.
+        state: values of `SuctionState`.
+        v_max: the largest pull-out velocity of the uplift episode, which begins when an armed element loses its
+            compressive reaction and ends with the next compression or with breakout. A broken element keeps that of
+            its breakout. 0 in all other states.
+        factor: the cyclic factor.
+        depth: Delta_B for `v_max`.
     """
 
-    flags: StateArray
-    numbers: FloatArray
+    armed: BoolArray
+    state: StateArray
+    v_max: FloatArray
+    factor: FloatArray
+    depth: FloatArray
 
     __repr__ = short_repr
-
-    @property
-    def armed(self) -> BoolArray:
-        """There was compression since the last breakout."""
-        armed: BoolArray = self.flags[0].view(np.bool_)
-        return armed
-
-    @property
-    def state(self) -> StateArray:
-        """Values of `SuctionState`."""
-        state: StateArray = self.flags[1]
-        return state
-
-    @property
-    def v_max(self) -> FloatArray:
-        """The largest pull-out velocity of the uplift episode.
-
-        The episode begins when an armed element loses its compressive reaction and ends with the next compression or
-        with breakout. A broken element keeps that of its breakout. 0 in all other states.
-        """
-        v_max: FloatArray = self.numbers[0]
-        return v_max
-
-    @property
-    def factor(self) -> FloatArray:
-        """The cyclic factor."""
-        factor: FloatArray = self.numbers[1]
-        return factor
-
-    @property
-    def depth(self) -> FloatArray:
-        """Delta_B for `v_max`."""
-        depth: FloatArray = self.numbers[2]
-        return depth
 
     @classmethod
     def of(cls, law: SuctionLaw, armed: BoolArray, v_max: FloatArray, state: StateArray, factor: FloatArray) -> Self:
         """Return the history with these properties."""
         with np.errstate(all="ignore"):
             depth = breakout_uplift(v_max, law.depth_factor, law.depth_exponent, law.regularisation)
-        return cls(np.stack([armed.view(np.int8), state.astype(np.int8)]), np.stack([v_max, factor, depth]))
+        return cls(armed, state.astype(np.int8), v_max, factor, depth)
 
     @classmethod
     def initial(cls, law: SuctionLaw) -> Self:

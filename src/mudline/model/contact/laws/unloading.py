@@ -29,43 +29,24 @@ class UnloadingHistory:
     """What the elements (k,) remember. A step gives a new one and leaves the old one as it is.
 
     Attributes:
-        numbers: (4, k), the rows of which are the properties.
+        z_max: the largest penetration so far, 0 before the first contact.
+        force_max: the virgin force there, F_max; 0 where the path pulls.
+        line: stiffness ku' of the line.
+        bottom: penetration z_p of the trench bottom, where the reaction vanishes.
     """
 
-    numbers: FloatArray
+    z_max: FloatArray
+    force_max: FloatArray
+    line: FloatArray
+    bottom: FloatArray
 
     __repr__ = short_repr
-
-    @property
-    def z_max(self) -> FloatArray:
-        """The largest penetration so far, 0 before the first contact."""
-        z_max: FloatArray = self.numbers[0]
-        return z_max
-
-    @property
-    def force_max(self) -> FloatArray:
-        """The virgin force there, F_max; 0 where the path pulls."""
-        force_max: FloatArray = self.numbers[1]
-        return force_max
-
-    @property
-    def line(self) -> FloatArray:
-        """Stiffness ku' of the line."""
-        line: FloatArray = self.numbers[2]
-        return line
-
-    @property
-    def bottom(self) -> FloatArray:
-        """Penetration z_p of the trench bottom, where the reaction vanishes."""
-        bottom: FloatArray = self.numbers[3]
-        return bottom
 
     @classmethod
     def initial(cls, stiffness: FloatArray) -> UnloadingHistory:
         """Return the history of elements that never touched the seabed, of unloading stiffness `stiffness` > 0."""
-        numbers = np.zeros((4, len(stiffness)))
-        numbers[2] = stiffness
-        return cls(numbers)
+        z_max, force_max, bottom = np.zeros((3, len(stiffness)))
+        return cls(z_max, force_max, stiffness.copy(), bottom)
 
 
 _ROUNDING = 2.0**-50
