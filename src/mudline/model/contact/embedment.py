@@ -8,7 +8,7 @@ from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput, LawAssignment
 from mudline.model.contact.model import ContactModel
 
-_DEPTHS = np.geomspace(1e-7, 20.0, 120)
+_DEPTHS = np.geomspace(1e-7, 1e4, 160)
 """Diameters at which the depth is looked for."""
 _HALVINGS = 60
 

@@ -23,6 +23,8 @@ _REFINED, _REFINEMENTS = 1e-7, 6
 """Share of a force that may be left when a linear system counts as solved; more steps than that are eliminations."""
 _REACH = 3
 """Neighbours of w and theta to which a node is tied by its elements."""
+_ENOUGH, _A_STEP = 500, 40
+"""Evaluations of the equations that a run may take before it is given up: to begin with, and for each step."""
 _TOLERANCE = 1e-6
 """Residual of a node over the weight of the shortest element."""
 
@@ -68,6 +70,10 @@ def hilber_hughes(alpha: float) -> Scheme:
 
 class NotConvergedError(Exception):
     """A step, or the state at rest, was not found."""
+
+
+class LaboriousError(NotConvergedError):
+    """A run asks for so many iterations that it does not go on."""
 
 
 @dataclass(frozen=True)
@@ -362,7 +368,8 @@ class _Marching:
         self._systems: dict[float, _Condensed] = {}
         self._resisted = self._resistance(self.state, self.velocity, self.reaction)
         self.iterations: list[int] = []
-        self.searches = self.cuts = 0
+        self.searches = self.cuts = self.evaluations = 0
+        self.most = _ENOUGH
 
     def _system(self, step: float) -> _Condensed:
         """The linear part of the equations of a step."""
@@ -383,8 +390,8 @@ class _Marching:
         """Go on by a step that ends at a time, in halves where it does not converge. Raises NotConvergedError."""
         try:
             self._try(step, time)
-        except NotConvergedError:
-            if cuts == _CUTS:
+        except NotConvergedError as error:
+            if cuts == _CUTS or isinstance(error, LaboriousError):
                 raise
             self.cuts += 1
             self.advance(0.5 * step, time - 0.5 * step, cuts + 1)
@@ -408,13 +415,18 @@ class _Marching:
 
         def equations(trial: FloatArray) -> _Equations:
             v, a = rates(trial)
+            self.evaluations += 1
+            if self.evaluations > self.most:
+                raise LaboriousError("too many iterations")
             reaction = self.soil.react(trial[::2], v[::2], step)
             self._behind = self._resistance(trial, v, reaction)
             residual = beam.inertia.times((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held
             diagonal = 2.0 * drag * np.abs(v[::2]) * by_velocity - reaction.diagonal
+            beside = -reaction.beside
             if reaction.damping is not None:
-                diagonal += reaction.damping * by_velocity
-            return _Equations(residual, of_force * diagonal, -of_force * reaction.beside, reaction)
+                diagonal += reaction.damping[0] * by_velocity
+                beside = beside + reaction.damping[1] * by_velocity
+            return _Equations(residual, of_force * diagonal, of_force * beside, reaction)
 
         found = _solved(beam, self._system(step), state, equations, _ITERATIONS)
         self.state, self.reaction, self._resisted, self.time = found.state, found.reaction, self._behind, time
@@ -431,6 +443,7 @@ def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Rest, steps: int, perio
     kept: list[tuple[FloatArray, Reaction]] = []
     touching, landings = begin.reaction.per_length > 0.0, 0
     for number in range(1, steps + 1):
+        moving.most += _A_STEP
         moving.advance(step, number * step)
         touches = moving.reaction.per_length > 0.0
         landings += int(np.count_nonzero(touches & ~touching))

@@ -39,6 +39,8 @@ MOST_LEFT, MOST_RIGHT = 60, 40
 _SAMPLES = 65
 _ROUNDED = 1e-6
 _CORRECTIONS, _BALANCES = 3, 8
+_STEEP = 0.3
+"""Largest sqrt(EI/T) q/T, the slope of the line at that length behind its touchdown."""
 _LIFTED = 5.0
 """EI q / T^2 and diameters by which a beam may lift what hangs: half of the first is what it does on a rigid seabed."""
 _SUNK = 3.0
@@ -209,6 +211,12 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: _Between) -> Line
         raise NoRestShapeError(f"the pipe floats: {weight.min():.4g} per unit length where the line would lie")
     catenary = None if lies else rest(model, distance, ends)
     depth = static_depth(given, elements, np.maximum(weight, 0.0) * seabed.upright)
+    lying = [(0.0, model.length)] if catenary is None else catenary.lying
+    lies_here = np.any([(model.arcs[:-1] >= a) & (model.arcs[1:] <= b) for a, b in lying], axis=0)
+    sinking = np.flatnonzero(lies_here & np.isnan(depth))
+    if sinking.size:
+        number = scene.element_ids[elements[sinking[0]]]
+        raise NoRestShapeError(f"the seabed does not carry the weight of element {number}")
     return LineAtRest(
         each.number, elements, nodes, model, places[0, 1:], direction, distance, ends, seabed, catenary, vessel, depth
     )
@@ -353,6 +361,8 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     own = int(elements[node - 1])
     weight, bending = float(pipe.weight[own]) * upright, float(pipe.bending[own])
     size = max(math.sqrt(bending / tension), float(given.length[own]))
+    if size * weight > _STEEP * tension:  # slopes are not small where the line bends
+        return _NO_BEND
     first, last = window(arcs, node, LEFT * size, RIGHT * size)
     others = [
         each.arc if point.beyond else line.model.length - each.arc for each in touchdowns(trial, line.model.length)

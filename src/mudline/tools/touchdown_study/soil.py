@@ -24,7 +24,7 @@ _GAUSS = np.polynomial.legendre.leggauss(3)
 class Reaction(NamedTuple):
     """Seabed reaction: on the nodes (n,), its derivatives to w of a node (n,) and of its right neighbour (n - 1,).
 
-    damping: (n,) minus the derivative to the velocity of a node. per_length: (m,) of the elements, for nodal springs
+    damping: minus the derivatives to velocities, likewise; None without. per_length: (m,) of the elements, for nodal springs
     that of half of both nodes.
     """
 
@@ -32,7 +32,7 @@ class Reaction(NamedTuple):
     diagonal: FloatArray
     beside: FloatArray
     per_length: FloatArray
-    damping: FloatArray | None = None
+    damping: tuple[FloatArray, FloatArray] | None = None
 
 
 class Soil(Protocol):
@@ -138,6 +138,8 @@ class SteppedSoil:
     def __init__(self, given: ContactInput) -> None:
         self._model = ContactModel(given, backend="numpy")
         self._state = self._next = self._model.initial_state()
+        self._with_tangent = bool(given.needs_velocities or given.nodal_laws)
+        self._quarter = 0.25 * given.length
         self._points, self._rates = given.coordinates.copy(), np.zeros_like(given.coordinates)
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
@@ -145,9 +147,12 @@ class SteppedSoil:
         self._points[:, 0], self._rates[:, 0] = w, v
         arguments = self._points, self._rates, self._state, step or None
         result, self._next = self._model.step(*arguments)
-        tangent = self._model.tangent(*arguments)
-        position, damping = (_tridiagonal(each, len(w)) for each in tangent)
-        return Reaction(result.normal_force, position[0], position[1], result.force, -damping[0])
+        if self._with_tangent:
+            position, damping = (_tridiagonal(each, len(w)) for each in self._model.tangent(*arguments))
+            return Reaction(result.normal_force, *position, result.force, (-damping[0], -damping[1]))
+        beside = -self._quarter * result.stiffness
+        diagonal = np.append(beside, 0.0) + np.append(0.0, beside)
+        return Reaction(result.normal_force, diagonal, beside, result.force)
 
     def keep(self) -> None:
         """Take the state behind the last reaction."""
@@ -185,7 +190,7 @@ class ScaledSoil:
         """Return the reaction of the soil times the factor."""
         nodal, diagonal, beside, per_length, damping = self._soil.react(w, v, step)
         factor = self._factor
-        damped = None if damping is None else factor * damping
+        damped = None if damping is None else (factor * damping[0], factor * damping[1])
         return Reaction(factor * nodal, factor * diagonal, factor * beside, factor * per_length, damped)
 
     def keep(self) -> None:

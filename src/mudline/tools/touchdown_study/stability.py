@@ -23,7 +23,7 @@ from mudline.tools.touchdown_study.beam import NotConvergedError
 from mudline.tools.touchdown_study.zone import RAMP, Variant, Zone, jump, ramp, stiffest_factor
 
 PERIODS, MOST_STEPS = 2, 12_000
-STEPPED_SHARE = 8
+STEPPED_SHARE = 16
 """Laws with a history take so many times as long: fewer cases are tried with them."""
 _GROWN = 3.0
 """Of the moment at half of the step: a run with more is unstable."""

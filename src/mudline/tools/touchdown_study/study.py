@@ -105,7 +105,7 @@ class Study:
         """Return a step as people read it; in user units, whose times have no name, as it is."""
         if seconds is None:
             return "-"
-        return f"{shown(1e3 * seconds, 4)} ms" if time_unit(self.units) else shown(seconds, 4)
+        return f"{shown(1e3 * seconds, 6 if seconds >= 1.0 else 4)} ms" if time_unit(self.units) else shown(seconds, 4)
 
     @property
     def time_steps(self) -> Floats:

@@ -289,7 +289,7 @@ def _limits(line: LineAtRest, travel: float, size: float, right: float, a: float
     if right < 2.0 * travel + 4.0 * size:
         found.append(f"The zone is short: {right:.3g} of {2.0 * travel + 4.0 * size:.3g} right of the touchdown.")
     if right > wave / 4.0:
-        found.append(f"The end of the zone reflects: {right:.3g} is more than a quarter of a bending wave, {wave:.3g}.")
+        found.append(f"The end of the zone reflects: {right:.3g} is more than a quarter of a wave, {wave / 4.0:.3g}.")
     if right / a > 0.35:
         found.append(f"Slopes are not small: {right / a:.2f} at the end of the zone.")
     if line.seabed.slope:
