@@ -24,8 +24,8 @@ _GAUSS = np.polynomial.legendre.leggauss(3)
 class Reaction(NamedTuple):
     """Seabed reaction: on the nodes (n,), its derivatives to w of a node (n,) and of its right neighbour (n - 1,).
 
-    damping: minus the derivatives to velocities, likewise; None without. per_length: (m,) of the elements, for nodal springs
-    that of half of both nodes.
+    damping: minus the derivatives to velocities, likewise; None without. per_length: (m,) of the elements, for nodal
+    springs that of half of both nodes.
     """
 
     nodal: FloatArray
@@ -102,7 +102,7 @@ class ElasticSoil:
         for rows in self._nodal:
             z = -w[rows.rows]
             touches = z > rows.law.onset(*rows.columns)
-            force, slope = rows.reaction(z, 0.0, *rows.columns)
+            force, slope = rows.law.reaction(z, 0.0, *rows.columns)
             own = np.zeros(count)
             own[rows.rows] = np.where(touches, force, 0.0)
             nodal += own
@@ -126,7 +126,7 @@ class ElasticSoil:
             force, slope = np.where(force > 0.0, force, 0.0), np.where(force > 0.0, slope, 0.0)
         for each in self._others:
             depth = z[each.rows]
-            found = each.reaction(depth, self._diameter[each.rows], *each.columns)
+            found = each.law.reaction(depth, self._diameter[each.rows], *each.columns)
             touches: BoolArray = depth > self._onset[each.rows]
             force[each.rows], slope[each.rows] = (np.where(touches, part, 0.0) for part in found)
         return force, slope
