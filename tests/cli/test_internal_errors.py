@@ -33,10 +33,10 @@ def test_an_internal_error_loses_no_other_deck(
     module, function, name_of, options = LOOPS[command]
     called = getattr(import_module(f"mudline.{module}"), function)
 
-    def failing(*given: Any) -> Any:  # noqa: ANN401 - as the function
+    def failing(*given: Any, **more: Any) -> Any:  # noqa: ANN401 - as the function
         if name_of(*given).endswith("bad.keyxm"):
             raise IndexError("a\nfault")
-        return called(*given)
+        return called(*given, **more)
 
     monkeypatch.setattr(f"mudline.{module}.{function}", failing)
     monkeypatch.setattr("mudline.tools.running.executors.PAYS", dict.fromkeys(("fork", "forkserver", "spawn"), 0.0))
