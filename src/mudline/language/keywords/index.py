@@ -135,8 +135,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("NON LINEAR STATIC", "analysis", "NonLinearStatic", ("LOAD CASE",), "analysis"),
     Entry("RESTART", "analysis", "Restart", ("LOAD CASE",), "analysis", names=("DECK",)),
     Entry("TIME", "analysis", "TimeSpan", ("LOAD CASE",), "analysis"),
-    Entry("TIME STEPPING", "time_stepping", "TimeStepping", ("LOAD CASE",), "analysis"),
-    Entry("TIME STEPPING", "time_stepping", "BLOCK", ("LOAD CASE",), "analysis"),
+    Entry("TIME STEPPING", "analysis", "TimeStepping", ("LOAD CASE",), "analysis"),
     Entry(
         "ELEMENT SET",
         "postprocessing",

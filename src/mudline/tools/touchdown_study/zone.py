@@ -26,7 +26,7 @@ from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, 
 from mudline.tools.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, has_history, soil_of
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.time_stepping import TimeStepping
+    from mudline.language.keywords.library.analysis import TimeStepping
 
 RAMP = 0.01
 """Diameters over which a force that jumps at the mudline grows instead."""
