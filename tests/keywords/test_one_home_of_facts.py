@@ -35,7 +35,7 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 EXCEPTIONS = {
     "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "export/held.py": "ends on a vessel, by the TYPE= of a boundary",
-    "export/line_model.py": "the blocks that a line of another program says, and curves of which it takes a slope",
+    "export/line_model.py": "the blocks that a line of another program says",
     "export/report.py": "says in words what becomes of a keyword in another program",
     "export/soil.py": "says which settings of a law another program has not",
     "migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a migrated surface would meet",
@@ -44,10 +44,11 @@ EXCEPTIONS = {
     "results/laws_in_use.py": "inner pipes need no law of the seabed",
     "results/warnings.py": "what is not read and makes a line heavier",
     "results/summary.py": "says which of two blocks a curve came from",
+    "scene/sections.py": "curves of which it takes a slope",
     "scene/rules/soil.py": "names the laws that it refuses beside a soil",
     "scene/rules/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",
-    "study/pruning.py": "the blocks that give the stages of a plan, whose lines it shows",
+    "results/stage_times.py": "the blocks that give the stages of a plan, whose lines it shows",
     "variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""
