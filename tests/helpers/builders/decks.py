@@ -40,7 +40,7 @@ $MODEL
 CLEAN_WARNING = (
     "mudline: warning: deck.keyxm:1: RUN003 the positions are the deck's own, far from equilibrium: total reaction "
     "15000 N on 1 element in contact, their submerged weight 3481.78 N, ratio 4.31; give a solved shape with "
-    "--positions\n"
+    "--positions, or try --rest-shape\n"
 )
 """What evaluating it as deck.keyxm warns of: the steel weighs 2322.52 N/m and displaces water of 1974.34 N/m."""
 

@@ -35,7 +35,7 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 EXCEPTIONS = {
     "editing/comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "tools/exporting/held.py": "ends on a vessel, by the TYPE= of a boundary",
-    "tools/exporting/line_model.py": "blocks that a line of another program says, and curves whose slope it takes",
+    "tools/exporting/line_model.py": "the blocks that a line of another program says",
     "tools/exporting/report.py": "says in words what becomes of a keyword in another program",
     "tools/exporting/soil.py": "says which settings of a law another program has not",
     "editing/migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a surface would meet",
@@ -44,10 +44,11 @@ EXCEPTIONS = {
     "model/results/laws_in_use.py": "inner pipes need no law of the seabed",
     "model/results/warnings.py": "what is not read and makes a line heavier",
     "model/results/summary.py": "says which of two blocks a curve came from",
+    "model/scene/sections.py": "curves of which it takes a slope",
     "model/scene/rules/soil.py": "names the laws that it refuses beside a soil",
     "model/scene/rules/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "model/scene/context.py": "a lost line of lines defines a set, as it names one",
-    "tools/study/pruning.py": "the blocks that give the stages of a plan, whose lines it shows",
+    "model/results/stage_times.py": "the blocks that give the stages of a plan, whose lines it shows",
     "editing/variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""

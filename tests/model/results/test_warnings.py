@@ -216,7 +216,8 @@ def test_own_positions_near_equilibrium_are_a_note() -> None:
     ratio = 0.02 * 30000.0 * 100.0 / WEIGHT
     assert note == (
         "the positions are the deck's own coordinates, not a solved shape: total reaction 60000 N on 10 elements in "
-        f"contact, their submerged weight {WEIGHT:.6g} N, ratio {ratio:.3g}"
+        f"contact, their submerged weight {WEIGHT:.6g} N, ratio {ratio:.3g}; --rest-shape gives a shape of the line's "
+        "own weight"
     )
 
 

@@ -273,7 +273,7 @@ class ContactWatch:
             message = (
                 f"no element is in contact in the mean of its nodes, though node {number} lies {distance} deep{at}"
             )
-        solved = ", or give a solved shape with --positions" if self._own else ""
+        solved = ", or give a solved shape with --positions, or try --rest-shape" if self._own else ""
         touches = 0.0 <= gap <= _TOUCHING * float(np.fmax.reduce(scene.diameter[self._elements], initial=0.0))
         lower = "lower the line until it penetrates" if touches else "correct the datum of X, which is 0 at the mudline"
         advice = self._turned() or f"; {lower}{solved}"

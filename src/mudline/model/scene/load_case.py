@@ -14,6 +14,8 @@ import numpy as np
 
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.values import Names
 from mudline.model.scene.data_files import operators
 from mudline.model.scene.deck_values import FOOT, find_file, number
 from mudline.model.scene.numbering import Floats
@@ -68,7 +70,7 @@ def top_motion(
     found = _moved(scene, wave, vessel, direction) if wave is not None else None
     if found is None:
         size = _DEFAULT_HEAVE / FOOT if scene.units == "imperial" else _DEFAULT_HEAVE
-        unread = any(name.startswith("WAVE") for name in scene.deck.keywords("LOAD CASE"))
+        unread = any(name.startswith("WAVE-") for name in scene.deck.keywords("LOAD CASE"))
         why = "its waves are not read" if unread else "no waves"
         found = TopMotion(size, 0.0, _DEFAULT_PERIOD, f"assumed, {why}", 0)
     if heave is not None:
@@ -144,7 +146,7 @@ def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> 
 def _operators_of(scene: ResolvedDeck, vessel: str) -> Iterator[tuple[list[list[float]], float, str]]:
     """Operators of a vessel, its heading, and where they stand; files that cannot be read are passed over."""
     heading, files = 0.0, list[_OperatorFile]()
-    placed = chain(scene.deck.blocks("VESSEL"), scene.deck.blocks("VESSEL,INTEGRATED"))
+    placed = chain.from_iterable(map(scene.deck.blocks, catalogue.definers(Names.VESSEL)))
     for where, each in ((where, each) for where, block in placed for each in block.vessels):
         if folded(str(each.vessel)) == folded(vessel):
             heading = number(each.position, "yaw", 0.0)

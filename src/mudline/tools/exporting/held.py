@@ -10,7 +10,9 @@ import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.language.deck.parameters import evaluated, folded
+from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.values import Names
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
@@ -104,8 +106,9 @@ def held_nodes(scene: Scene) -> tuple[dict[int, frozenset[int]], dict[int, str]]
     freedoms: dict[int, frozenset[int]] = {}
     vessels: dict[int, str] = {}
     decks = [*(evaluated(base.deck)[0] for base in reversed(scene.deck.bases)), scene.deck]
-    known = [str(each.vessel) for deck in decks for keyword in ("VESSEL", "VESSEL,INTEGRATED")
-             for _, block in deck.blocks(keyword) for each in block.vessels]  # fmt: skip
+    keywords = catalogue.definers(Names.VESSEL)
+    placed = (block for deck in decks for keyword in keywords for _, block in deck.blocks(keyword))
+    known = [str(each.vessel) for block in placed for each in block.vessels]
     only = known[0] if len({folded(name) for name in known}) == 1 else ""
     for deck in decks:
         for _, block in deck.blocks("BOUNDARY", "LOAD CASE"):

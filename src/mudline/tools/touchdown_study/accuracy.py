@@ -10,9 +10,9 @@ import numpy as np
 
 from mudline.model.results.stage_times import Timer
 from mudline.model.scene.load_case import OwnSteps
-from mudline.tools.touchdown_study.beam import NotConvergedError, generalised_alpha
+from mudline.tools.touchdown_study.beam import NotConvergedError
 from mudline.tools.touchdown_study.stability import STEPPED_SHARE, change
-from mudline.tools.touchdown_study.zone import Measures, Variant, Zone
+from mudline.tools.touchdown_study.zone import Measures, Variant, Zone, generalised_alpha
 
 SHORT, COARSE, ADVISED = 0.02, 0.05, 0.01
 """Errors up to which a step is short enough, and coarse; those of a step that is advised."""

@@ -1,8 +1,7 @@
 """Tensioned beam on the seabed of a deck: the touchdown zone in its plane, at rest and in motion.
 
-Small slopes, constant tension T, heights w and rotations theta of the nodes. Hermite elements, consistent mass, load
--q, drag at the nodes. The left end lies; the right one is moved, turns freely, and carries the catenary's moment
-EI q / T.
+Small slopes, constant tension T, heights w and rotations theta of the nodes; Hermite elements, consistent mass, load
+-q, drag at nodes. The left end lies; the right one is moved, turns freely, and has the catenary's moment EI q / T.
 """
 
 from __future__ import annotations
@@ -17,8 +16,7 @@ import numpy as np
 from mudline.model.contact.arrays import FloatArray
 from mudline.tools.touchdown_study.soil import Reaction, Soil
 
-_ITERATIONS, _SEARCHES, _CUTS = 25, 10, 6
-_STATIC_ITERATIONS = 200
+_ITERATIONS, _SEARCHES, _CUTS, _STATIC_ITERATIONS = 25, 10, 6, 200
 _REFINED, _REFINEMENTS = 1e-7, 6
 """Share of a force that may be left when a linear system counts as solved; more steps than that are eliminations."""
 _REACH = 3
@@ -58,22 +56,12 @@ class Scheme(NamedTuple):
         return 0.25 * (1.0 - self.alpha_m + self.alpha_f) ** 2
 
 
-def generalised_alpha(rho: float) -> Scheme:
-    """Return generalised-alpha (Chung and Hulbert 1993) with the spectral radius `rho` at infinity."""
-    return Scheme("generalised-alpha", (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0), rho=rho)
-
-
-def hilber_hughes(alpha: float) -> Scheme:
-    """Return the scheme of Hilber, Hughes and Taylor (1977), `alpha` from -1/3 to 0."""
-    return Scheme("hilber-hughes", 0.0, -alpha, alpha=alpha)
-
-
 class NotConvergedError(Exception):
     """A step, or the state at rest, was not found."""
 
 
 class LaboriousError(NotConvergedError):
-    """A run asks for so many iterations that it does not go on."""
+    """A run asks for too many iterations."""
 
 
 @dataclass(frozen=True)
@@ -340,10 +328,8 @@ def at_rest(beam: Beam, soil: Soil) -> Rest:
 class Run(NamedTuple):
     """A run of equal steps; its last period in arrays.
 
-    Attributes:
-        times: (k,) of the last period. heights, turned: (k, n) w and theta. forces: (k, m) reaction per length.
-        mean_iterations, most_iterations: systems solved in a step. searches: halvings of corrections. cuts: of steps.
-        landings: how often elements came down on the seabed in all periods.
+    times: (k,) of the last period. heights, turned: (k, n) w and theta. forces: (k, m) reaction per length.
+    iterations: systems solved in a step. searches, cuts: halvings of corrections, and of steps. landings: of elements.
     """
 
     times: FloatArray

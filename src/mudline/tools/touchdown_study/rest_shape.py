@@ -377,13 +377,23 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
         return _NO_BEND
     stretch = cut_out(given, elements[first : last + 1], nodes[first : last + 2])
     moment = bending * weight / tension
-    end = float(height[last + 1])
+    inside = slice(first, last + 2)
+    drawn = _parabola(arcs[inside] - arc, vertical[inside] / tension)
+    end = float(drawn[-1])
     beam = Beam(stretch.length, bending, tension, weight, 0.0, 0.0, -float(depth[first]), end, moment)
     found = _balanced(beam, stretch, float(vertical[last + 1]))
     if found is None or abs(found[-2] - end) > _LIFTED * (bending * weight / tension**2 + given.diameter[own]):
         return _NO_BEND
     at = np.arange(first, last + 2) if point.beyond else len(nodes) - 1 - np.arange(first, last + 2)
-    return _Bend(at, found[::2] / upright, (float(found[-2]) - end) / upright)
+    bent = height[inside] + found[::2] - drawn  # the catenary goes on from the beam, whose slopes are small
+    return _Bend(at, bent / upright, (float(found[-2]) - end) / upright)
+
+
+def _parabola(s: Floats, slope: Floats) -> Floats:
+    """Heights (k,) of a line without bending stiffness, from its slopes V/T at nodes `s` behind its touchdown."""
+    rising = np.where(s > 0.0, slope, 0.0)
+    steps = np.diff(np.maximum(s, 0.0))
+    return np.append(0.0, np.cumsum(0.5 * (rising[:-1] + rising[1:]) * steps))
 
 
 def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | None:

@@ -24,8 +24,8 @@ _GAUSS = np.polynomial.legendre.leggauss(3)
 class Reaction(NamedTuple):
     """Seabed reaction: on the nodes (n,), its derivatives to w of a node (n,) and of its right neighbour (n - 1,).
 
-    damping: minus the derivatives to velocities, likewise; None without. per_length: (m,) of the elements, for nodal
-    springs that of half of both nodes.
+    damping: minus the derivatives to velocities, likewise; None without. per_length: (m,) of the elements, for springs
+    of nodes that of half of both.
     """
 
     nodal: FloatArray

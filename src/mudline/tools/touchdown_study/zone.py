@@ -20,7 +20,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.oscillation import line_of
 from mudline.model.scene.pipe import Pipe, pipe_of
-from mudline.tools.touchdown_study.beam import Beam, Rest, Run, Scheme, at_rest, generalised_alpha, hilber_hughes, march
+from mudline.tools.touchdown_study.beam import Beam, Rest, Run, Scheme, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
 from mudline.tools.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, has_history, soil_of
@@ -322,6 +322,16 @@ def stiffest_factor(zone: Zone, factor: float) -> float:
     """Return a factor of the soil, less where it would be stiffer than any seabed."""
     most = _LARGE / 47.88 if zone.scene.units == "imperial" else _LARGE
     return min(factor, max(most / zone.stiffness, 1.0)) if factor > 1.0 else factor
+
+
+def generalised_alpha(rho: float) -> Scheme:
+    """Return generalised-alpha (Chung and Hulbert 1993) with the spectral radius `rho` at infinity."""
+    return Scheme("generalised-alpha", (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0), rho=rho)
+
+
+def hilber_hughes(alpha: float) -> Scheme:
+    """Return the scheme of Hilber, Hughes and Taylor (1977), `alpha` from -1/3 to 0."""
+    return Scheme("hilber-hughes", 0.0, -alpha, alpha=alpha)
 
 
 _DEFAULT_RHO, _DEFAULT_HUGHES = 0.4, -0.25

@@ -1,0 +1,130 @@
+"""`mudline study`: its screen, JSON, CSV, picture and options, and `mudline.study`."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+import mudline
+from tests.cli.runner import ROOT, SAMPLES, run
+from tests.tools.touchdown_study.decks import Riser
+
+jsonschema = pytest.importorskip("jsonschema")
+
+
+@pytest.fixture
+def deck(tmp_path: Path) -> Path:
+    path = tmp_path / "riser.keyxm"
+    path.write_text(Riser().text(), encoding="utf-8")
+    return path
+
+
+def test_the_screen_of_a_deck_is_one_screen(deck: Path) -> None:
+    outcome = run("study", deck)
+    assert (outcome.code, outcome.err) == (0, "")
+    lines = outcome.out.splitlines()
+    assert lines[0].startswith("The deck's own step, 200 ms (line ")
+    assert max(map(len, lines)) <= 110
+    assert len(lines) <= 55
+    for words in (
+        "Touchdown zone laid down and lifted: ",
+        "Errors of the time step",
+        "Stiff and extreme: 200 ms",
+        "What the deck needs",
+    ):
+        assert words in outcome.out
+    assert "explicit" not in outcome.out
+
+
+@pytest.mark.parametrize("only", ["accuracy", "stability", "pruning"])
+def test_one_part_alone(deck: Path, only: str) -> None:
+    outcome = run("study", deck, "--only", only)
+    assert ("Errors of the time step" in outcome.out) == (only == "accuracy")
+    assert ("Stiff and extreme" in outcome.out) == (only == "stability")
+    assert ("What the deck needs" in outcome.out) == (only == "pruning")
+
+
+@pytest.mark.parametrize("name", ["flowline-gen.keyxm", "scr-soil.keyxm", ""])
+def test_json_keeps_to_its_schema(deck: Path, name: str) -> None:
+    outcome = run("study", SAMPLES / name if name else deck, "--output-format", "json")
+    found = outcome.json()
+    schema = json.loads((ROOT / "docs" / "schemas" / "study.json").read_text(encoding="utf-8"))
+    jsonschema.validate(found, schema)
+    assert found["format"] == "mudline-study/2"
+    assert (found["model"] is None) == bool(name)
+
+
+def test_csv_has_a_table_for_each_part(deck: Path) -> None:
+    outcome = run("study", deck, "--output-format", "csv")
+    tables = [list(csv.DictReader(io.StringIO(part))) for part in outcome.out.split("\n\n")]
+    assert [next(iter(rows[0])) for rows in tables] == ["step", "case", "stage"]
+    assert [row["own"] for row in tables[0]] == ["false", "true", "false", "false", "false"]
+    assert float(tables[0][1]["touchdown_from"]) < float(tables[0][1]["touchdown_to"])
+
+
+def test_files_of_json_and_a_picture(deck: Path, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    outcome = run("study", deck, "--only", "accuracy", "-o", tmp_path / "s.json", "--plot", tmp_path / "s.svg", "-q")
+    assert (outcome.code, outcome.out) == (0, "")
+    assert json.loads((tmp_path / "s.json").read_text(encoding="utf-8"))["advice"]["own_step"] == 0.2
+    assert (tmp_path / "s.svg").read_bytes().startswith(b"<?xml")
+
+
+def test_the_motion_of_the_top_may_be_given(deck: Path) -> None:
+    outcome = run("study", deck, "--only", "accuracy", "--heave", "2.5", "--period", "9", "--output-format", "json")
+    model = outcome.json()["model"]
+    assert (model["heave"], model["surge"], model["period"]) == (2.5, 0.0, 9.0)
+
+
+@pytest.mark.parametrize("words", [("--heave", "0"), ("--period", "nan"), ("-o", "out.csv"), ("--only", "precision")])
+def test_wrong_usage(deck: Path, words: tuple[str, str]) -> None:
+    outcome = run("study", deck, *words)
+    assert (outcome.code, outcome.out) == (2, "")
+
+
+def test_a_deck_without_elements_is_refused_as_evaluate_does() -> None:
+    outcome = run("study", SAMPLES / "lines-deck.keyxm")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err == run("evaluate", SAMPLES / "lines-deck.keyxm").err
+
+
+def test_the_function_has_arrays_and_a_plot(deck: Path) -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    found = mudline.study(mudline.read(deck), only=["accuracy"])
+    assert found.time_steps.tolist() == [0.4, 0.2, 0.1, 0.05]
+    assert found.errors.shape == (4, 3)
+    _, axes = plt.subplots()
+    assert found.plot(axes) is axes
+    plt.close("all")
+
+
+@pytest.mark.parametrize(("name", "value"), [("heave", -1.0), ("period", 0.0), ("only", ["accuracies"])])
+def test_wrong_arguments(deck: Path, name: str, value: object) -> None:
+    with pytest.raises(ValueError, match=name):
+        mudline.study(mudline.read(deck), **{name: value})  # type: ignore[arg-type]
+
+
+def test_evaluate_at_rest(deck: Path) -> None:
+    outcome = run("evaluate", deck, "--rest-shape", "--output-format", "json")
+    assert outcome.json()["positions"] == "rest shape"
+    assert outcome.err.startswith("mudline: resting shape of line 1: horizontal tension ")
+    both = run("evaluate", deck, "--rest-shape", "--positions", "x.csv")
+    assert both.code == 2
+
+
+def test_evaluate_names_the_resting_shape_where_the_deck_is_far_from_one(deck: Path) -> None:
+    first = run("evaluate", deck).err.splitlines()[0]
+    assert "--rest-shape" in first
+    near = run("evaluate", SAMPLES / "scr-touchdown.keyxm").err
+    assert "--rest-shape" not in near
+
+
+def test_batch_at_rest(deck: Path, tmp_path: Path) -> None:
+    outcome = run("batch", deck, SAMPLES / "scr-soil.keyxm", "--rest-shape", "-o", tmp_path / "out", "--form", "csv")
+    assert outcome.code == 1
+    assert "no resting shape: no held end" in outcome.out
+    assert (tmp_path / "out").is_dir()

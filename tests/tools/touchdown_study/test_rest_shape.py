@@ -1,0 +1,154 @@
+"""The resting shape of decks: worked numbers, balance, where lines stand, and what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mudline
+from mudline.model.contact.touchdown import line_summaries
+from mudline.model.scene.model import Scene
+from mudline.tools.touchdown_study.rest_shape import RestShape, rest_shape
+from tests.helpers.samples import SAMPLES
+from tests.tools.touchdown_study.decks import BUOYS, CHAIN, FLEXIBLE, Riser
+
+OFFSET = "*OFFSET\n VESSEL=Semi\n OFFSET=0.0, -10.0, 2.0\n"
+FLUID = "*INTERNAL FLUID\n SET=ALL\n 600.0, 900.0\n"
+PLANES = (
+    "*SEABED PLANES\n PLANE=A\n POINT=0.0, 0.0, 0.0\n SLOPE=0.0\n BOUNDS=-100.0, 200.0, -50.0, 50.0\n"
+    " PLANE=B\n POINT=0.0, 200.0, 0.0\n SLOPE=3.0\n BOUNDS=200.0, 900.0, -50.0, 50.0\n"
+)
+SLOPE = "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={}\n DIRECTION=0.0\n"
+IMPERIAL = Riser(
+    1640.0, 2428.0, 3280.0, 984.0,
+    section=" OPTION=RIGID\n SET=ALL\n 4.323E9, 1.66E9, 1.0627, 0.9275, 15.23\n",
+    ocean=" 1640.0, 1.9888, 32.185\n",
+    soil="*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.05, 48.0\n 0.1, 68.5\n 0.5, 130.2\n",
+)  # fmt: skip
+
+
+def scene_of(text: str, units: str = "metric") -> Scene:
+    return mudline.from_keyword(text, units=units).scene()._resolved
+
+
+def shape_of(riser: Riser, units: str = "metric") -> tuple[Scene, RestShape]:
+    scene = scene_of(riser.text(), units)
+    return scene, rest_shape(scene)
+
+
+@pytest.mark.parametrize(
+    ("name", "tension", "lying"), [("scr-dynamic.keyxm", 244715.0, 315.692), ("scr-vessel.keyxm", 372236.0, 373.584)]
+)
+def test_worked_numbers(name: str, tension: float, lying: float) -> None:
+    scene = mudline.read(SAMPLES / name).scene()
+    (line,) = rest_shape(scene._resolved).lines
+    assert line.catenary is not None
+    assert line.catenary.tension == pytest.approx(tension, rel=1e-3)
+    assert line.catenary.lying[-1][1] == pytest.approx(lying, rel=1e-3)
+    positions = scene.rest_shape()
+    assert positions.present.all()
+    summary = line_summaries(scene.contact().evaluate(positions.whole[0]))[0]
+    assert summary.reaction == pytest.approx(line.model.weight_to(lying), rel=0.01)
+    assert summary.touchdown[0].arc_length == pytest.approx(lying, abs=2.0)
+
+
+def test_the_seabed_carries_what_lies() -> None:
+    scene, found = shape_of(Riser(section=CHAIN))
+    result = scene.contact().evaluate(found.positions.whole[0])
+    summary = line_summaries(result)[0]
+    assert summary.ratio == pytest.approx(1.0, abs=0.005)
+
+
+def test_the_top_stands_where_the_deck_and_its_vessel_put_it() -> None:
+    riser = Riser(along=(0.6, 0.8), loads=OFFSET + Riser().loads)
+    _, found = shape_of(riser)
+    ends = found.positions.whole[0][[0, -1]]
+    assert ends[1] == pytest.approx([500.0, 0.6 * 740.0 - 10.0, 0.8 * 740.0 + 2.0])
+    assert ends[0][1:] == pytest.approx([0.0, 0.0])
+    across = found.positions.whole[0][:, 1:] @ np.array([ends[1][2], -ends[1][1]])
+    assert across == pytest.approx(0.0, abs=1e-6)
+
+
+def test_the_order_of_nodes_and_units_do_not_matter() -> None:
+    _, plain = shape_of(Riser())
+    _, turned = shape_of(Riser(top_first=True))
+    assert turned.positions.whole[0][::-1] == pytest.approx(plain.positions.whole[0], abs=1e-6)
+    _, imperial = shape_of(IMPERIAL, "imperial")
+    assert imperial.positions.whole[0] * 0.3048 == pytest.approx(plain.positions.whole[0], abs=0.5)
+
+
+def test_elements_keep_their_lengths_where_they_hang() -> None:
+    scene, found = shape_of(Riser())
+    steps = np.linalg.norm(np.diff(found.positions.whole[0], axis=0), axis=1)
+    assert steps == pytest.approx(scene.length, rel=1e-3)
+
+
+def test_contents_weigh() -> None:
+    (plain,), (full,) = shape_of(Riser())[1].lines, shape_of(Riser(loads=FLUID + Riser().loads))[1].lines
+    assert plain.catenary is not None
+    assert full.catenary is not None
+    inside = 900.0 * 9.81 * np.pi / 4.0 * 0.2827**2
+    assert full.model.weights[0] - plain.model.weights[0] == pytest.approx(inside)
+    assert full.catenary.tension / plain.catenary.tension == pytest.approx(
+        full.model.weights[0] / plain.model.weights[0]
+    )
+
+
+@pytest.mark.parametrize("slope", [5.0, -3.0])
+def test_along_a_slope(slope: float) -> None:
+    scene, found = shape_of(Riser(slope=slope, model=SLOPE.format(slope)))
+    result = scene.contact().evaluate(found.positions.whole[0])
+    lying = result.depth[: len(result.depth) // 8]
+    assert (lying[1:] > 0.0).all()
+    (line,) = found.lines
+    assert line.catenary is not None
+    carried = line.model.weight_to(line.catenary.lying[-1][1]) * np.cos(np.radians(slope))
+    assert result.normal_force.sum() == pytest.approx(carried, rel=0.02)
+
+
+def test_a_lazy_wave() -> None:
+    riser = Riser(300.0, 760.0, 1000.0, 420.0, section=FLEXIBLE.format(buoyancy=0.78), sets=BUOYS)
+    scene, found = shape_of(riser)
+    height = found.positions.whole[0][:, 0]
+    assert (np.diff(np.sign(np.diff(height[120:]))) != 0).sum() == 2
+    assert line_summaries(scene.contact().evaluate(found.positions.whole[0]))[0].ratio == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_line_that_lies_from_end_to_end() -> None:
+    scene = mudline.read(SAMPLES / "flowline-gen.keyxm").scene()
+    positions = scene.rest_shape()
+    assert line_summaries(scene.contact().evaluate(positions.whole[0]))[0].ratio == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("riser", "words"),
+    [
+        (Riser(held=False), "no held end at the seabed: nothing in \\*BOUNDARY holds node 1, the lower end"),
+        (Riser(loads="*OFFSET\n VESSEL=Semi\n OFFSET=0.0, 300.0\n"), "the line is taut"),
+        (Riser(loads="*OFFSET\n VESSEL=Semi\n OFFSET=0.0, 115.0\n"), "hangs free of the seabed"),
+        (Riser(loads="*OFFSET\n VESSEL=Semi\n OFFSET=0.0, -400.0\n"), "the line is slack"),
+        (Riser(section=" OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.9, 0.89, 7850.0\n"), "the pipe floats"),
+        (Riser(model=PLANES), "not one plane"),
+    ],
+)
+def test_what_has_no_resting_shape_is_refused(riser: Riser, words: str) -> None:
+    with pytest.raises(mudline.DeckError, match=words):
+        mudline.from_keyword(riser.text(), units="metric").scene().rest_shape()
+
+
+@pytest.mark.slow
+def test_moordyn_with_bending_touches_down_at_the_same_place(tmp_path: Path) -> None:
+    pytest.importorskip("moordyn", reason="MoorDyn's Python package is not installed")
+    from tests.tools.exporting.at_rest import run  # noqa: PLC0415 - needs MoorDyn
+    from tests.tools.exporting.decks import sample  # noqa: PLC0415 - as above
+
+    model = sample("imperial-riser.keyxi")
+    places = np.array(run(model, tmp_path, 100.0)["lines"][0]["places"])
+    clearance = places[:, 2] + model.depth
+    last = np.flatnonzero(clearance < 0.0)[-1]
+    theirs = float(np.interp(0.0, clearance[last : last + 2], places[last : last + 2, 0]))
+    result = model.scene.contact().evaluate(rest_shape(model.scene).positions.whole[0])
+    ours = line_summaries(result)[0].touchdown[0].y * model.units.length
+    assert ours == pytest.approx(theirs, abs=1.0)
