@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck.document import FORMAT, json_schema
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.library.analysis import Database, TimeSpan
+from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeStepping
 from mudline.language.keywords.library.floating_bodies import MatrixRow
 from mudline.language.keywords.library.geometric_sets import GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
@@ -259,6 +259,15 @@ def _time(draw: st.DrawFn, _made: Values) -> Values:
 
 
 @st.composite
+def _time_stepping(draw: st.DrawFn, _made: Values) -> Values:
+    """The parameters of one scheme, given once."""
+    slots = {slot.json: slot for slot in record_schema(TimeStepping).slots}
+    chosen = draw(st.sampled_from(["infinity", "alphas", "hilber_hughes"]))
+    kind = {"type": "HILBER-HUGHES"} if chosen == "hilber_hughes" else {}
+    return kind | {chosen: draw(cell(slots[chosen]))}
+
+
+@st.composite
 def _database(draw: st.DrawFn, made: Values) -> Values:
     """A start for selected times only."""
     found = draw(_of_one(Database, made))
@@ -293,6 +302,7 @@ ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "jonswap_sea": _jonswap_sea,
     "seabed_profile": _seabed_profile,
     "time": _time,
+    "time_stepping": _time_stepping,
     "trench_set": _trench_set,
     "wind_coeff": _moored_alone,
     "varied_parameter": _varied_parameter,
