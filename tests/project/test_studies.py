@@ -10,7 +10,7 @@ import pytest
 from tests.benchmarks.studies import critical, friction
 from tests.benchmarks.studies.__main__ import PAGES, TABLES
 from tests.benchmarks.studies.curves import METHODS, largest_error
-from tests.benchmarks.studies.landings import LANDINGS, LIMITS, LINEAR, PHASES, rebounds
+from tests.benchmarks.studies.landings import LANDINGS, LIMITS, LINEAR, PHASES, SEABEDS, rebounds
 from tests.benchmarks.studies.laws import CLAY
 from tests.benchmarks.studies.motions import PUBLISHED, drag, pull
 from tests.benchmarks.studies.newton import Newton
@@ -65,6 +65,16 @@ def test_what_generalised_alpha_adds_to_the_speed_of_a_landing() -> None:
     }
     assert list(most.values()) == pytest.approx([1.00012, 1.0099, 1.049], abs=2e-4)
     assert max(column([row for row in load(LIMITS) if row["scheme"] == "backward Euler"], "largest [-]")) < 1.0
+
+
+@pytest.mark.parametrize(
+    ("seabed", "speed", "omega_dt", "gain"),
+    [("soft clay", 1.0, 0.736, 0.026), ("soft clay with a jump", 0.02, 0.167, 0.3)],
+)
+def test_other_speeds_of_landing_gain_more(seabed: str, speed: float, omega_dt: float, gain: float) -> None:
+    fall = SEABEDS[seabed]._replace(speed=speed)
+    speeds = rebounds(SCHEMES["generalised-alpha-0"], fall, np.array([omega_dt]), PHASES)
+    assert np.nanmax(speeds) - 1.0 == pytest.approx(gain, rel=0.02)
 
 
 def test_newtons_method_cycles_above_the_closed_form_and_a_bracket_cures_it() -> None:

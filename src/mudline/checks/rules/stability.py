@@ -96,9 +96,10 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     Implicit schemes that are called unconditionally stable are so for linear systems: contact that opens and closes
     adds energy to a bare mass that lands when omega times the step is large; at 0.5 the rebound of Newmark's scheme is
     up to 3 % too fast, above that far more. Only backward Euler never adds energy; generalised-alpha with rho = 0 adds
-    up to 2 % on curves that soften and 1 % at jumps, and both damp. This rule, off unless it is selected, is about such
-    a mass, without bending, tension and water, which soften the landing of a line: whether the step of a deck is short
-    enough for its touchdown zone is what `mudline study` measures. The mass is that of the section without added water;
+    1 % of the speed on a clay that softens and 5 % where its force jumps at the mudline, more at other speeds, and both
+    damp. This rule, off unless it is selected, is about such a mass, without bending, tension and water, which soften
+    the landing of a line: whether the step of a deck is short enough for its touchdown zone is what `mudline study`
+    measures. The mass is that of the section without added water;
     friction with a mobilisation length has its spring under the static normal force; the third value of *TIME is read
     as the step (inferred). Give the step that the message names where `mudline study` finds the deck's own too long.
 
