@@ -51,7 +51,9 @@ CONTACT = "ContactModel ContactResult ContactState ContactWarning Plan PositionE
 
 
 def test_names_are_those_of_the_contract() -> None:
-    assert {*CONTRACT.split(), "read_positions", *CONTACT.split(), "__version__"} == set(mudline.__all__)
+    assert {*CONTRACT.split(), "read_positions", "study", "Study", *CONTACT.split(), "__version__"} == set(
+        mudline.__all__
+    )
     assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
     assert mudline.__version__.count(".") == 2
 
