@@ -46,6 +46,7 @@ PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "ContactResult.to_dataframe": (RESULT.to_dataframe, {"table": "elements"}),
     "ContactResult.to_arrow": (RESULT.to_arrow, {"table": "elements"}),
     "ContactResult.plot": (RESULT.plot, {"path": None, "elements": [1]}),
+    "study": (mudline.study, {"deck": DECK, "only": ["pruning"], "heave": 1.0, "period": 9.0}),
     "ForceCurve": (mudline.ForceCurve, {"points": [(0, 0), (1, 1)], "name": "x"}),
     "ForceCurve.evaluate": (CURVE.evaluate, {"ratios": [0.1], "out": None}),
     "ForceCurve.segment": (CURVE.segment, {"ratios": [0.1]}),
