@@ -28,7 +28,6 @@ PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "from_yaml": (mudline.from_yaml, {"text": DECK.to_yaml()}),
     "read_positions": (mudline.read_positions, {"path": "nowhere.csv", "scene": SCENE}),
     "contact_warnings": (mudline.contact_warnings, {"scene": SCENE, "result": RESULT, "positions": WHERE}),
-    "study": (mudline.study, {"deck": DECK, "only": ["pruning"], "heave": 1.0, "period": 10.0}),
     "Deck": (mudline.Deck, DECK_FIELDS),
     "Deck.blocks": (DECK.blocks, {"keyword": "NODE", "section": "MODEL"}),
     "Deck.keywords": (DECK.keywords, {"section": "MODEL"}),
