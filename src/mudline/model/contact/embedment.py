@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray, IndexArray
-from mudline.model.contact.input import ContactInput, LawAssignment
+from mudline.model.contact.input import ContactInput, ElementError, LawAssignment
 from mudline.model.contact.model import ContactModel
 
 _DEPTHS = np.geomspace(1e-7, 1e4, 160)
@@ -26,8 +26,11 @@ def static_depth(given: ContactInput, elements: IndexArray, weight: FloatArray) 
     def force(depth: FloatArray) -> FloatArray:
         points = single.coordinates.copy()
         points[:, 0] = -np.repeat(depth, 2)
-        with np.errstate(all="ignore"):
-            pushed = model.evaluate(points).normal_force
+        try:
+            with np.errstate(all="ignore"):
+                pushed = model.evaluate(points).normal_force
+        except ElementError:  # a force that overflows carries any weight
+            return np.full(count, np.inf)
         found: FloatArray = pushed.reshape(-1, 2).sum(axis=1) / np.where(single.length > 0.0, single.length, 1.0)
         return found
 

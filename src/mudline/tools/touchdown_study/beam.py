@@ -60,10 +60,6 @@ class NotConvergedError(Exception):
     """A step, or the state at rest, was not found."""
 
 
-class LaboriousError(NotConvergedError):
-    """A run asks for too many iterations."""
-
-
 @dataclass(frozen=True)
 class Beam:
     """The touchdown zone.
@@ -282,7 +278,10 @@ def _solved(
             return _Solved(state, now.reaction, iteration, searches)
         if iteration == most or not np.isfinite(size):
             break
-        change = system.solve(now.residual, now.diagonal, now.beside)
+        try:
+            change = system.solve(now.residual, now.diagonal, now.beside)
+        except np.linalg.LinAlgError as error:
+            raise NotConvergedError("a tangent is singular") from error
         for _ in range(_SEARCHES + 1):
             trial = equations(state + change)
             reached = beam.largest(trial.residual)
@@ -376,8 +375,8 @@ class _Marching:
         """Go on by a step that ends at a time, in halves where it does not converge. Raises NotConvergedError."""
         try:
             self._try(step, time)
-        except NotConvergedError as error:
-            if cuts == _CUTS or isinstance(error, LaboriousError):
+        except NotConvergedError:
+            if cuts == _CUTS or self.evaluations > self.most:
                 raise
             self.cuts += 1
             self.advance(0.5 * step, time - 0.5 * step, cuts + 1)
@@ -403,7 +402,7 @@ class _Marching:
             v, a = rates(trial)
             self.evaluations += 1
             if self.evaluations > self.most:
-                raise LaboriousError("too many iterations")
+                raise NotConvergedError("too many iterations")
             reaction = self.soil.react(trial[::2], v[::2], step)
             self._behind = self._resistance(trial, v, reaction)
             residual = beam.inertia.times((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held

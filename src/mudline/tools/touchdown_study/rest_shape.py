@@ -126,13 +126,17 @@ def rest_shape(scene: Scene) -> RestShape:
     """
     require_elements(scene)
     given, pipe = scene.contact_input("cut" if scene.blocking("keep") else "keep"), pipe_of(scene)
-    found, refused = lines_at_rest(scene, given, pipe)
+    hung, refused = lines_at_rest(scene, given, pipe)
+    values, found = np.full((len(scene.node_ids), 3), np.nan), list[LineAtRest]()
+    for line in hung:
+        try:
+            values[line.nodes] = _places(given, pipe, line)
+            found.append(line)
+        except NoRestShapeError as error:
+            refused.append((line.number, str(error)))
     if not found:
         why = refused[0][1] if refused else "the deck has no line"
         raise scene.refusal(f"no resting shape: {why}; give a solved shape with --positions")
-    values = np.full((len(scene.node_ids), 3), np.nan)
-    for line in found:
-        values[line.nodes] = _places(given, pipe, line)
     present = np.isfinite(values).all(axis=1)
     return RestShape(Positions(values[np.newaxis], present, None), found, refused)
 

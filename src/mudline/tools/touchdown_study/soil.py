@@ -146,7 +146,10 @@ class SteppedSoil:
         """Return the reaction of a step behind the state that was kept."""
         self._points[:, 0], self._rates[:, 0] = w, v
         arguments = self._points, self._rates, self._state, step or None
-        result, self._next = self._model.step(*arguments)
+        try:
+            result, self._next = self._model.step(*arguments)
+        except ValueError:  # a trial of Newton's method so far away that a force overflows
+            return Reaction(w * np.nan, w * np.nan, w[1:] * np.nan, w[1:] * np.nan)
         if self._with_tangent:
             position, damping = (_tridiagonal(each, len(w)) for each in self._model.tangent(*arguments))
             return Reaction(result.normal_force, *position, result.force, (-damping[0], -damping[1]))
