@@ -12,6 +12,7 @@ from tests.benchmarks.studies.__main__ import PAGES, TABLES
 from tests.benchmarks.studies.curves import METHODS, largest_error
 from tests.benchmarks.studies.landings import LANDINGS, LIMITS, LINEAR, PHASES, SEABEDS, rebounds
 from tests.benchmarks.studies.laws import CLAY
+from tests.benchmarks.studies.limits import critical_step
 from tests.benchmarks.studies.motions import PUBLISHED, drag, pull
 from tests.benchmarks.studies.newton import Newton
 from tests.benchmarks.studies.schemes import SCHEMES
@@ -88,7 +89,7 @@ def test_newtons_method_cycles_above_the_closed_form_and_a_bracket_cures_it() ->
     assert not any(column(rows, "20 halvings"))
 
 
-def test_critical_steps_are_those_that_the_rules_use() -> None:
+def test_critical_steps_are_those_at_which_a_motion_begins_to_grow() -> None:
     rows = load(critical.NAME)
     for row in rows:
         limit = float(row["critical step [s]"])
@@ -96,6 +97,19 @@ def test_critical_steps_are_those_that_the_rules_use() -> None:
             assert (row["grows below"], row["grows above"]) == ("False", "True")
         else:
             assert row["grows below"] == str(limit == 0.0)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "step"), [(4.472135955, 0.4472135955), (44.72135955, 0.04472135955), (1414.213562, 0.001414213562)]
+)
+def test_published_steps_of_500_kg(frequency: float, step: float) -> None:
+    assert critical_step("central-difference", frequency) == pytest.approx(step, rel=1e-9)
+    assert critical_step("velocity-verlet", frequency) == pytest.approx(step, rel=1e-9)
+
+
+def test_what_does_not_swing_has_any_step() -> None:
+    assert critical_step("central-difference", np.nan) == critical_step("central-difference", 0.0) == np.inf
+    assert critical_step("newmark", 2.0) == np.inf
 
 
 def test_curves_come_out_again() -> None:

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.stiffest import CRITICAL_OMEGA_DT, critical_step
 from tests.benchmarks.dynamics.beam import Beam, read_beam
 from tests.benchmarks.dynamics.lifting import DAMPING
 from tests.benchmarks.dynamics.schemes import DECK
+from tests.benchmarks.studies.limits import CRITICAL_OMEGA_DT, critical_step
 from tests.benchmarks.tables import Cell
 
 EXPLICIT = tuple(CRITICAL_OMEGA_DT)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.stiffest import critical_step
+from tests.benchmarks.studies.limits import critical_step
 from tests.benchmarks.studies.motion import Forces, History, Motion, Scheme, march
 from tests.benchmarks.studies.schemes import SCHEMES
 from tests.benchmarks.tables import Cell, digits, load, save, table

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.stiffest import CRITICAL_OMEGA_DT
+from tests.benchmarks.studies.limits import CRITICAL_OMEGA_DT
 
 History = Any
 """The state of a system between steps; only the system itself reads it."""

@@ -217,7 +217,7 @@ _ALL: tuple[Scheme, ...] = (
 SCHEMES: dict[str, Scheme] = {scheme.name: scheme for scheme in _ALL}
 """In the order in which tables show them; the last two are unstable on every undamped oscillator.
 
-To add a scheme: its row here and, if it is explicit, its critical step in `mudline.model.contact.stiffest`.
+To add a scheme: its row here and, if it is explicit, its critical step in `limits.py`.
 """
 STABLE = {name: scheme for name, scheme in SCHEMES.items() if scheme.limit > 0.0}
 """Those that are stable on an oscillator at some step."""

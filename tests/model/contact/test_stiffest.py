@@ -12,10 +12,7 @@ from hypothesis import strategies as st
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.laws.suction import release_stiffness
-from mudline.model.contact.stiffest import (
-    critical_step,
-    rounded_down,
-)
+from mudline.model.contact.stiffest import rounded_down
 from mudline.model.curves import ForceCurve
 from tests.helpers.builders.contact import (
     CLAY,
@@ -221,19 +218,6 @@ def test_the_stiffest_of_all_laws_per_length() -> None:
     found = ContactModel(inputs).stiffest()
     np.testing.assert_array_equal(found.per_length(np.full(3, 2.0)), [1e6, 2e5, 2e5])
     assert np.isnan(ContactModel(chain([NONE])).stiffest().per_length(np.ones(1))).all()
-
-
-@pytest.mark.parametrize(
-    ("frequency", "step"), [(4.472135955, 0.4472135955), (44.72135955, 0.04472135955), (1414.213562, 0.001414213562)]
-)
-def test_published_steps_of_500_kg(frequency: float, step: float) -> None:
-    assert critical_step("central-difference", frequency) == pytest.approx(step, rel=1e-9)
-    assert critical_step("velocity-verlet", frequency) == pytest.approx(step, rel=1e-9)
-
-
-def test_what_does_not_swing_has_any_step() -> None:
-    assert critical_step("central-difference", np.nan) == critical_step("central-difference", 0.0) == np.inf
-    assert critical_step("newmark", 2.0) == np.inf
 
 
 def test_steps_have_three_digits_that_are_not_above_them() -> None:

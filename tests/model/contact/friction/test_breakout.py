@@ -180,7 +180,7 @@ def test_state_is_saved_and_taken_up_again() -> None:
     assert states[2].breakout[3].tolist() == [0.1, 0.1]
 
 
-def test_critical_step_has_the_spring_below_the_peak() -> None:
+def test_the_stiffest_spring_is_that_below_the_peak() -> None:
     given_pipe = pipe()
     stiffness = law_of(ContactModel(given_pipe).stiffest(drawn([(0.0, 0.0)])), "friction").stiffness
     assert stiffness == pytest.approx([max(PEAK * N / AT, 1e5)])
