@@ -144,11 +144,6 @@ class Comment(BaseModel):
         return with_fields(self, [("before", self.before), ("text", self.text)])
 
 
-def _no_comments() -> list[Comment]:
-    """A function of our own: of the class `list` pydantic parses the signature, in each model that has the field."""
-    return []
-
-
 Path = tuple[str | int, ...]
 """Keys and indices as JSON has them, from a part inwards; a table is followed by row and column."""
 
@@ -255,7 +250,8 @@ class Record(Part):
 
     rule: ClassVar[str]
     sticky: ClassVar[str] = ""
-    comments: list[Comment] = Field(default_factory=_no_comments)
+    # Of the class `list` pydantic parses the signature, in each model that has the field.
+    comments: list[Comment] = Field(default_factory=lambda: [])  # noqa: PIE807 - as above
 
     @classmethod
     def carries(cls, given: dict[str, object], last: object) -> object:
