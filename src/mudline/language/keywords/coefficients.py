@@ -10,6 +10,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, DIRECTION
 from mudline.language.keywords.values import Contents, Name, Names, Real
 from mudline.language.keywords.vessels import Body
 
@@ -20,10 +21,10 @@ TAG = "a line of this word alone: the block is that of a mooring analysis, which
 class Coefficients(Row):
     """Coefficients at a heading."""
 
-    heading: Annotated[Real, about("heading", unit="deg")]
-    surge: Annotated[Real, about("coefficient in surge")]
-    sway: Annotated[Real, about("coefficient in sway")]
-    yaw: Annotated[Real, about("coefficient in yaw")]
+    heading: Annotated[Real, about("heading", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("coefficient in surge", usual=ANY)]
+    sway: Annotated[Real, about("coefficient in sway", usual=ANY)]
+    yaw: Annotated[Real, about("coefficient in yaw", usual=ANY)]
 
 
 class BodyCoefficients(Record):

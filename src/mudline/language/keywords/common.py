@@ -7,6 +7,7 @@ from typing import Annotated
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Part, Record, Row, record_schema
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import MODEL, OF_ITS_CURVE
 from mudline.language.keywords.values import Name, Real
 
 CONSTANT_FRICTION = (
@@ -34,11 +35,14 @@ class CurvePoint(Row):
             "embedment ratio: mean depth of the element's nodes over external diameter",
             unit="-",
             heading="Embedment Ratio",
+            usual=MODEL,
         ),
     ]
     force: Annotated[
         Real,
-        about("seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH, heading="Seabed Force"),
+        about(
+            "seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH, heading="Seabed Force", usual=OF_ITS_CURVE
+        ),
     ]
 
 

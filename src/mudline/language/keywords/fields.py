@@ -9,7 +9,11 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.language.keywords.json_schema import with_limits
+from mudline.language.keywords.usual import Usual
 from mudline.language.keywords.values import Contents, Names
+
+Expected = Usual | tuple[Usual, ...] | str
+"""What values are usual, or why nothing is said of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +39,14 @@ class FieldInfo:
     holds: Contents | None = None
     heading: str = ""
     opaque: tuple[str, ...] | None = None
+    usual: Expected = ()
+
+    @property
+    def usuals(self) -> tuple[Usual, ...]:
+        """What values are usual."""
+        if isinstance(self.usual, str):
+            return ()
+        return (self.usual,) if isinstance(self.usual, Usual) else self.usual
 
     def fault(self, value: float) -> str:
         """What is wrong with a number, or nothing; NaN stands for one that could not be read."""

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import ListRow, Record
+from mudline.language.keywords.usual import COUNT
 from mudline.language.keywords.values import Ident, Names, Whole
 
 Node = Annotated[Ident, about("node number, or its label", names=Names.NODE)]
@@ -20,7 +21,7 @@ class ElementSpan(ListRow):
 
     start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
     end: Annotated[Ident, about("last element", names=Names.ELEMENT)]
-    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1, usual=COUNT)] = None
 
 
 class ElementList(Record):

@@ -11,6 +11,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, Usual
 from mudline.language.keywords.values import Contents, Name, Names, Real
 from mudline.language.keywords.vessels import Body
 
@@ -21,12 +22,12 @@ _SIX = 6
 class MatrixRow(Row):
     """A line of a 6x6 matrix."""
 
-    heave: Annotated[Real, about("column of heave")]
-    surge: Annotated[Real, about("column of surge")]
-    sway: Annotated[Real, about("column of sway")]
-    yaw: Annotated[Real, about("column of yaw")]
-    roll: Annotated[Real, about("column of roll")]
-    pitch: Annotated[Real, about("column of pitch")]
+    heave: Annotated[Real, about("column of heave", usual=ANY)]
+    surge: Annotated[Real, about("column of surge", usual=ANY)]
+    sway: Annotated[Real, about("column of sway", usual=ANY)]
+    yaw: Annotated[Real, about("column of yaw", usual=ANY)]
+    roll: Annotated[Real, about("column of roll", usual=ANY)]
+    pitch: Annotated[Real, about("column of pitch", usual=ANY)]
 
 
 Matrix = Annotated[Table, rows(MatrixRow, "matrix of 6 lines and 6 columns", inferred=_LINES)]
@@ -41,7 +42,17 @@ class FrequencyMatrix(Record):
     """The matrix at a frequency."""
 
     rule = "frequency_matrix"
-    frequency: Annotated[Real, setting("FREQ", "frequency", unit="Hz", at_least=0, inferred="its unit, as of waves")]
+    frequency: Annotated[
+        Real,
+        setting(
+            "FREQ",
+            "frequency",
+            unit="Hz",
+            at_least=0,
+            inferred="its unit, as of waves",
+            usual=Usual(1e-6, 20.0, "a frequency in Hz or rad/s", remark=True),
+        ),
+    ]
     matrix: Matrix
 
     @model_validator(mode="after")

@@ -23,7 +23,7 @@ from pydantic_core import CoreSchema, core_schema
 from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
 from mudline.language.keywords.annotations import choices_of, is_list, kind_of, metadata_of, parts_of
-from mudline.language.keywords.fields import AS_TEXT, FieldInfo, Setting
+from mudline.language.keywords.fields import AS_TEXT, Expected, FieldInfo, Setting
 from mudline.language.keywords.json_schema import cell_schema, with_limits
 from mudline.language.keywords.table import (
     AS_TABLES,
@@ -119,9 +119,11 @@ def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
-def curve_points(row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "") -> Rows:
+def curve_points(
+    row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "", usual: Expected = ()
+) -> Rows:
     """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
-    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa)
+    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, usual=usual)
 
 
 class Comment(BaseModel):

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Row
+from mudline.language.keywords.usual import ANY, COUNT
 from mudline.language.keywords.values import Name, Real, Title, Whole
 
 LOCATION = "place on the section, of outputs that have one"
@@ -19,7 +20,7 @@ class SummaryRequest(Block):
     subject = "post-processing"
 
     title: Annotated[Title | None, setting("TITLE", "title of the output", default="blank")] = None
-    scale: Annotated[Real | None, setting("SCALE", "factor on the values", default="1")] = None
+    scale: Annotated[Real | None, setting("SCALE", "factor on the values", default="1", usual=ANY)] = None
     units: Annotated[
         Name | None, setting("UNITS", "unit of the output", default="of its kind", inline=True, behind="SCALE")
     ] = None
@@ -27,7 +28,8 @@ class SummaryRequest(Block):
 
 
 LocalNode = Annotated[
-    Whole, setting("DATA2", "place on the element; 1 first node, 2 middle, 3 second node", at_least=1, at_most=3)
+    Whole,
+    setting("DATA2", "place on the element; 1 first node, 2 middle, 3 second node", at_least=1, at_most=3, usual=COUNT),
 ]
 
 

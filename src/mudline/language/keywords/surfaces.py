@@ -8,6 +8,7 @@ from mudline.language.keywords.common import CONSTANT_FRICTION
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Block, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, FRICTION, MOBILISATION, MODEL, POSITION, Usual
 from mudline.language.keywords.values import Real, Successor
 
 _CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
@@ -18,19 +19,19 @@ SURFACE_SUCCESSORS = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE"
 class ProfilePoint(Row):
     """A point of an inline profile."""
 
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    elevation: Annotated[Real, about("elevation of the seabed there", unit="L")]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    elevation: Annotated[Real, about("elevation of the seabed there", unit="L", usual=POSITION)]
 
 
 class FrictionCoefficients(Row):
     """Friction coefficients of a legacy surface."""
 
     longitudinal: Annotated[
-        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
     ] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
-        None
-    )
+    transverse: Annotated[
+        Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
+    ] = None
 
 
 class FrictionLengths(Row):
@@ -38,17 +39,33 @@ class FrictionLengths(Row):
 
     longitudinal_length: Annotated[
         Real | None,
-        about("largest longitudinal characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+        about(
+            "largest longitudinal characteristic length",
+            unit="L",
+            default=_CHARACTERISTIC_LENGTH,
+            above=0,
+            usual=Usual(high=100.0, why="10 ft by default", remark=True),
+        ),
     ] = None
     transverse_length: Annotated[
         Real | None,
-        about("largest transverse characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+        about(
+            "largest transverse characteristic length",
+            unit="L",
+            default=_CHARACTERISTIC_LENGTH,
+            above=0,
+            usual=Usual(high=100.0, why="10 ft by default", remark=True),
+        ),
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
-    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
-        None
-    )
-    transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
+    constant: Annotated[
+        Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION, usual=ANY)
+    ] = None
+    longitudinal_mobilisation: Annotated[
+        Real | None, about("longitudinal mobilisation length", unit="L", above=0, usual=MOBILISATION)
+    ] = None
+    transverse_mobilisation: Annotated[
+        Real | None, about("transverse mobilisation length", unit="L", above=0, usual=MOBILISATION)
+    ] = None
 
 
 class Surface(Block):
@@ -57,7 +74,7 @@ class Surface(Block):
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[
         Real | None,
-        about("slope of the seabed about the origin", unit="deg", default="flat", inferred=_SLOPE),
+        about("slope of the seabed about the origin", unit="deg", default="flat", inferred=_SLOPE, usual=MODEL),
     ] = None
     profile: Annotated[
         Table | None,

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.usual import COUNT, NUMBER
 from mudline.language.keywords.values import Name, Whole
 
 
@@ -14,14 +15,14 @@ class AuxiliaryRange(ListRow):
 
     start: Annotated[Whole, about("first auxiliary element")]
     end: Annotated[Whole, about("last auxiliary element")]
-    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1, usual=COUNT)] = None
 
 
 class AuxiliaryList(Record):
     """Auxiliary elements, 20 on a line at most."""
 
     rule = "auxiliary_list"
-    elements: Annotated[list[Whole], about("numbers of auxiliary elements")]
+    elements: Annotated[list[Whole], about("numbers of auxiliary elements", usual=NUMBER)]
 
 
 class AuxiliaryGenerate(Record):

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import POSITION
 from mudline.language.keywords.values import Ident, Name, Names, Real
 from mudline.language.keywords.vessels import Dimensions
 
@@ -13,9 +14,9 @@ from mudline.language.keywords.vessels import Dimensions
 class Location(Row):
     """A place."""
 
-    x: Annotated[Real, about("vertical coordinate", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    z: Annotated[Real, about("horizontal coordinate Z", unit="L")]
+    x: Annotated[Real, about("vertical coordinate", unit="L", usual=POSITION)]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L", usual=POSITION)]
 
 
 class DrawnBody(Record):

@@ -11,6 +11,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record
 from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.usual import OF_A_KIND
 from mudline.language.keywords.values import (
     Count,
     Equation,
@@ -50,21 +51,24 @@ class FixedNode(Record):
 
     rule = "fixed_node"
     node: Annotated[Ident, about("node number, or its label", names=Names.NODE)]
-    dof: Annotated[Whole, about(_DOF)]
-    value: Annotated[Real | None, about(_VALUE, default="0")] = None
+    dof: Annotated[Whole, about(_DOF, usual=OF_A_KIND)]
+    value: Annotated[Real | None, about(_VALUE, default="0", usual=OF_A_KIND)] = None
     fixation: Fixation = None
 
 
 class FixedValues(ListRow):
     """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
 
-    start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE)]
-    end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE)]
+    start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE, usual=OF_A_KIND)]
+    end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE, usual=OF_A_KIND)]
     third: Annotated[
-        Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
+        Whole | None,
+        about("of three values the degree of freedom, of five the increment", inferred=_FOUR, usual=OF_A_KIND),
     ] = None
-    fourth: Annotated[Either | None, about("of five values the degree of freedom", inferred=_FOUR)] = None
-    fifth: Annotated[Real | None, about(_VALUE, default="0")] = None
+    fourth: Annotated[Either | None, about("of five values the degree of freedom", inferred=_FOUR, usual=OF_A_KIND)] = (
+        None
+    )
+    fifth: Annotated[Real | None, about(_VALUE, default="0", usual=OF_A_KIND)] = None
 
 
 class FixedRange(Record):

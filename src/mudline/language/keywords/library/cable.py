@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
+from mudline.language.keywords.usual import ALONG
 from mudline.language.keywords.values import Ident, Names, Real, Whole
 
 _LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"
@@ -18,7 +19,7 @@ class CableLine(OpenRecord):
     cable: Annotated[Whole, about("number of the cable", defines=Names.CABLE, inferred=_LINE)]
     start: Annotated[Ident, about("node where it starts", names=Names.NODE)]
     end: Annotated[Ident, about("node where it ends", names=Names.NODE)]
-    length: Annotated[Real, about("length", unit="L", above=0)]
+    length: Annotated[Real, about("length", unit="L", above=0, usual=ALONG)]
 
 
 class Cables(OpenBlock):

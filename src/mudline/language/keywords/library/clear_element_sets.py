@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import WIDTH
 from mudline.language.keywords.values import Ident, Names, Real
 
 _GROUPS = 2
@@ -19,7 +20,9 @@ class ClearRange(Record):
     rule = "clear_range"
     start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
     end: Annotated[Ident, about("last element", names=Names.ELEMENT)]
-    diameter: Annotated[Real | None, about("external diameter", unit="L", default="of the model", above=0)] = None
+    diameter: Annotated[
+        Real | None, about("external diameter", unit="L", default="of the model", above=0, usual=WIDTH)
+    ] = None
 
 
 class ClearSets(Block):

@@ -9,6 +9,7 @@ from pydantic import Field
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.lists import Element
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import COUNT
 from mudline.language.keywords.values import Name, Names, Whole
 
 
@@ -17,7 +18,9 @@ class CheckedPlace(Record):
 
     rule = "checked_place"
     element: Element
-    node: Annotated[Whole, about("place on the element; 1 first node, 2 middle, 3 second", at_least=1, at_most=3)]
+    node: Annotated[
+        Whole, about("place on the element; 1 first node, 2 middle, 3 second", at_least=1, at_most=3, usual=COUNT)
+    ]
     output: Annotated[
         Literal["ALL", "LFRD", "LRFD", "WSD", "VMS", "METHOD1", "METHOD2", "METHOD3", "METHOD4A", "METHOD4B"],
         setting("OUTPUT", "the code; LFRD is how the manual spells LRFD", inline=True),

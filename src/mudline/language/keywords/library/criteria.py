@@ -9,6 +9,7 @@ from pydantic import model_validator
 from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import ANY, COUNT
 from mudline.language.keywords.values import Name, Names, Real, Whole
 
 
@@ -32,9 +33,9 @@ class Criterion(Record):
         setting("CRITERION", "quantity"),
     ]
     monitor: Annotated[Name, setting("MONITOR", "element, element set or guide where it is looked at", inline=True)]
-    target: Annotated[Real, setting("TARGET", "value to be reached", inline=True)]
+    target: Annotated[Real, setting("TARGET", "value to be reached", inline=True, usual=ANY)]
     tolerance: Annotated[
-        Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True)
+        Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True, usual=ANY)
     ] = None
 
 
@@ -62,12 +63,12 @@ class Criteria(Block):
     vector: Annotated[
         Name | None, setting("VECTOR", "of NODE and VESSEL: direction, of *VECTOR", inline=True, names=Names.VECTOR)
     ] = None
-    iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1)] = None
+    iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1, usual=COUNT)] = None
     least: Annotated[
-        Real | None, setting("MIN ADJUSTMENT", "smallest change", inline=True, behind="MAX ITERATIONS")
+        Real | None, setting("MIN ADJUSTMENT", "smallest change", inline=True, behind="MAX ITERATIONS", usual=ANY)
     ] = None
     largest: Annotated[
-        Real | None, setting("MAX ADJUSTMENT", "largest change", inline=True, behind="MAX ITERATIONS")
+        Real | None, setting("MAX ADJUSTMENT", "largest change", inline=True, behind="MAX ITERATIONS", usual=ANY)
     ] = None
 
     @model_validator(mode="after")

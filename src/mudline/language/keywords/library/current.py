@@ -11,21 +11,24 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.loads import Direction
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import CURRENT, POSITION
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class UniformCurrent(Row):
     """One velocity from the seabed to the surface."""
 
-    velocity: Annotated[Real, about("velocity", unit="L/T")]
+    velocity: Annotated[Real, about("velocity", unit="L/T", usual=CURRENT)]
     direction: Direction = None
 
 
 class CurrentPoint(Row):
     """The velocity at an elevation."""
 
-    elevation: Annotated[Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L")]
-    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+    elevation: Annotated[
+        Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L", usual=POSITION)
+    ]
+    velocity: Annotated[Real, about("velocity there", unit="L/T", usual=CURRENT)]
     direction: Direction = None
 
 

@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, OF_A_KIND
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class DamperPoint(Row):
     """A point of a curve."""
 
-    variable: Annotated[Real, about("time or velocity")]
-    coefficient: Annotated[Real, about("damping coefficient there", unit="FT/L", at_least=0)]
+    variable: Annotated[Real, about("time or velocity", usual=OF_A_KIND)]
+    coefficient: Annotated[Real, about("damping coefficient there", unit="FT/L", at_least=0, usual=ANY)]
 
 
 class DamperCurve(Record):

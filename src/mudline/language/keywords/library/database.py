@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.usual import OF_THE_RUN
 from mudline.language.keywords.values import Real
 
 
@@ -24,9 +25,10 @@ class Database(Block):
     keyword: Literal["DATABASE"] = "DATABASE"
     time: Annotated[Literal["ALL", "SELECTED", "END", "NONE"], setting("TIME", "the times")]
     start: Annotated[
-        Real | None, about("of SELECTED: first time", unit="T", default="the start of the run", at_least=0)
+        Real | None,
+        about("of SELECTED: first time", unit="T", default="the start of the run", at_least=0, usual=OF_THE_RUN),
     ] = None
-    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0)] = None
+    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0, usual=OF_THE_RUN)] = None
 
     @model_validator(mode="after")
     def _fits(self) -> Database:

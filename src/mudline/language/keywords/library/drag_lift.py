@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, LIFT
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class LiftPoint(Row):
     """A point of a curve."""
 
-    ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-")]
-    coefficient: Annotated[Real, about("drag lift coefficient there", unit="-")]
+    ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-", usual=ANY)]
+    coefficient: Annotated[Real, about("drag lift coefficient there", unit="-", usual=LIFT)]
 
 
 class LiftCurve(Record):

@@ -10,6 +10,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.lists import Freedom
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import DIRECTION, DRIFT_PERIOD, OF_A_KIND
 from mudline.language.keywords.values import Contents, Name, Names, Real
 from mudline.language.keywords.vessels import Vessel
 
@@ -20,9 +21,9 @@ class Sinusoid(Row):
     """A drift in one degree of freedom."""
 
     dof: Freedom
-    amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees")]
-    phase: Annotated[Real, about("phase", unit="deg")]
-    period: Annotated[Real, about("period", unit="T", above=0)]
+    amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees", usual=OF_A_KIND)]
+    phase: Annotated[Real, about("phase", unit="deg", usual=DIRECTION)]
+    period: Annotated[Real, about("period", unit="T", above=0, usual=DRIFT_PERIOD)]
 
 
 class VesselDrift(Record):

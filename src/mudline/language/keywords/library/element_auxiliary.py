@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Block, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import NUMBER
 from mudline.language.keywords.values import Whole
 
 _FORM = "the line: a number and 2 nodes; the manual page was not seen"
@@ -15,9 +16,9 @@ _FORM = "the line: a number and 2 nodes; the manual page was not seen"
 class AuxiliaryElement(Row):
     """An auxiliary element."""
 
-    element: Annotated[Whole, about("number", inferred=_FORM)]
-    first: Annotated[Whole, about("its first auxiliary node")]
-    second: Annotated[Whole, about("its second auxiliary node")]
+    element: Annotated[Whole, about("number", inferred=_FORM, usual=NUMBER)]
+    first: Annotated[Whole, about("its first auxiliary node", usual=NUMBER)]
+    second: Annotated[Whole, about("its second auxiliary node", usual=NUMBER)]
 
 
 class AuxiliaryElements(Block):

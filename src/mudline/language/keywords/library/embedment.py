@@ -10,6 +10,7 @@ from mudline.language.keywords.common import NO_SET, POINTS, CurvePoint
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block, Record, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import CURVE_FORCE
 from mudline.language.keywords.values import Facts, Name, Names, Successor
 
 
@@ -21,7 +22,9 @@ class EmbedmentCurve(Record):
         Name | None,
         setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
-    points: Annotated[Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio")]
+    points: Annotated[
+        Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", usual=CURVE_FORCE)
+    ]
 
 
 class Embedment(Block):

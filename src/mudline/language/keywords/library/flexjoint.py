@@ -10,21 +10,34 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import OF_ITS_CURVE, ROTATION, ROTATION_CURVE, Usual
 from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, RealOrName
 
 
 class JointWeights(Row):
     """The weights of a joint: in water first."""
 
-    water: Annotated[Real | None, about("weight in water; it comes first", unit="F", default="0")] = None
-    air: Annotated[Real | None, about("weight in air, not below that in water", unit="F", default="0")] = None
+    water: Annotated[
+        Real | None,
+        about(
+            "weight in water; it comes first",
+            unit="F",
+            default="0",
+            usual=Usual(high=1.0, why="water lifts", of="/air"),
+        ),
+    ] = None
+    air: Annotated[
+        Real | None, about("weight in air, not below that in water", unit="F", default="0", usual=OF_ITS_CURVE)
+    ] = None
 
 
 class JointPoint(Row):
     """A point of a curve: moment first."""
 
-    moment: Annotated[Real, about("moment; it comes first", unit="FL")]
-    angle: Annotated[Real, about("angle there", unit="deg", inferred="its unit")]
+    moment: Annotated[Real, about("moment; it comes first", unit="FL", usual=OF_ITS_CURVE)]
+    angle: Annotated[
+        Real, about("angle there", unit="deg", inferred="its unit", usual=Usual(-90.0, 90.0, "no joint turns farther"))
+    ]
 
 
 class FlexJoint(Record):
@@ -39,10 +52,14 @@ class FlexJoint(Record):
     type_: Annotated[
         Literal["LINEAR", "NONLINEAR"], setting("TYPE", "a stiffness, or a curve", inferred="the block may be repeated")
     ] = Field(alias="type")
-    stiffness: Annotated[RealOrName | None, about("of LINEAR: rotational stiffness", unit="FL", at_least=0)] = None
+    stiffness: Annotated[
+        RealOrName | None, about("of LINEAR: rotational stiffness", unit="FL", at_least=0, usual=ROTATION)
+    ] = None
     points: Annotated[
         Table | None,
-        curve_points(JointPoint, "of NONLINEAR: two points or more", "moment-angle curve", abscissa="angle"),
+        curve_points(
+            JointPoint, "of NONLINEAR: two points or more", "moment-angle curve", abscissa="angle", usual=ROTATION_CURVE
+        ),
     ] = None
 
     @classmethod

@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import EA_CURVE, OF_ITS_CURVE, Usual
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class ForceStrainPoint(Row):
     """A point of a curve: force first."""
 
-    force: Annotated[Real, about("axial force; it comes first", unit="F")]
-    strain: Annotated[Real, about("strain there", unit="-")]
+    force: Annotated[Real, about("axial force; it comes first", unit="F", usual=OF_ITS_CURVE)]
+    strain: Annotated[Real, about("strain there", unit="-", usual=Usual(-5.0, 5.0, "rubber stretches fivefold"))]
 
 
 class ForceStrainCurve(Record):
@@ -26,7 +27,13 @@ class ForceStrainCurve(Record):
     ]
     points: Annotated[
         Table,
-        curve_points(ForceStrainPoint, "two points or more, in any order", "force-strain curve", abscissa="strain"),
+        curve_points(
+            ForceStrainPoint,
+            "two points or more, in any order",
+            "force-strain curve",
+            abscissa="strain",
+            usual=EA_CURVE,
+        ),
     ]
 
 

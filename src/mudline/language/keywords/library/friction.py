@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.keeping import OpenBlock
+from mudline.language.keywords.usual import Usual
 from mudline.language.keywords.values import Real
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"
@@ -23,10 +24,24 @@ class LinearFriction(OpenBlock):
 
     keyword: Literal["FRICTION"] = "FRICTION"
     longitudinal: Annotated[
-        Real | None, about("stiffness along the line" + _NEEDS, unit="F/L2", default="0", inferred="per unit length")
+        Real | None,
+        about(
+            "stiffness along the line" + _NEEDS,
+            unit="F/L2",
+            default="0",
+            inferred="per unit length",
+            usual=Usual(478.0, 2.1e11, remark=True),
+        ),
     ] = None
     transverse: Annotated[
-        Real | None, about("stiffness across the line" + _NEEDS, unit="F/L2", default="0", inferred="per unit length")
+        Real | None,
+        about(
+            "stiffness across the line" + _NEEDS,
+            unit="F/L2",
+            default="0",
+            inferred="per unit length",
+            usual=Usual(478.0, 2.1e11, remark=True),
+        ),
     ] = None
 
 

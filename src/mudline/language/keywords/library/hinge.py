@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.lists import Element
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import ROTATION
 from mudline.language.keywords.values import Facts, Real
 
 
@@ -17,7 +18,15 @@ class HingeElement(Record):
     element: Element
     stiffness: Annotated[
         Real | None,
-        setting("STIFFNESS", "rotational stiffness, per degree", unit="FL", default="0", at_least=0, inline=True),
+        setting(
+            "STIFFNESS",
+            "rotational stiffness, per degree",
+            unit="FL",
+            default="0",
+            at_least=0,
+            inline=True,
+            usual=ROTATION,
+        ),
     ] = None
 
 

@@ -9,6 +9,7 @@ from pydantic import Field
 from mudline.language.keywords.common import AdditionalSets
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ALONG
 from mudline.language.keywords.values import Facts, Name, Real
 
 _DISTANCE = "; a negative one counts back from the end of the line, bend radii do not count"
@@ -18,8 +19,10 @@ class SectionStretch(Row):
     """Values of SECTION=."""
 
     set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
-    start: Annotated[Real, about("distance along the line where the section starts" + _DISTANCE, unit="L")]
-    end: Annotated[Real | None, about("distance along the line where it ends" + _DISTANCE, unit="L")] = None
+    start: Annotated[Real, about("distance along the line where the section starts" + _DISTANCE, unit="L", usual=ALONG)]
+    end: Annotated[Real | None, about("distance along the line where it ends" + _DISTANCE, unit="L", usual=ALONG)] = (
+        None
+    )
 
 
 class PathSection(Record):

@@ -9,6 +9,7 @@ from pydantic import Field
 from mudline.language.keywords.common import AdditionalSets
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ALONG
 from mudline.language.keywords.values import Facts, Name, Real
 
 _RANGE = "it is not negative; the manual gives no range"
@@ -18,15 +19,19 @@ class SectionLength(Row):
     """Values of SECTION=."""
 
     set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
-    length: Annotated[Real, about("length of the section", unit="L", at_least=0, inferred=_RANGE)]
+    length: Annotated[Real, about("length of the section", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)]
 
 
 class SectionMesh(Row):
     """Element lengths along a section."""
 
-    start: Annotated[Real | None, about("shortest element at the start", unit="L", at_least=0, inferred=_RANGE)] = None
-    longest: Annotated[Real | None, about("longest element", unit="L", at_least=0, inferred=_RANGE)] = None
-    end: Annotated[Real | None, about("shortest element at the end", unit="L", at_least=0, inferred=_RANGE)] = None
+    start: Annotated[
+        Real | None, about("shortest element at the start", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)
+    ] = None
+    longest: Annotated[Real | None, about("longest element", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)] = None
+    end: Annotated[
+        Real | None, about("shortest element at the end", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)
+    ] = None
 
 
 class GroupSection(Record):

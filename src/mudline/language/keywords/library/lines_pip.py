@@ -9,19 +9,20 @@ from pydantic import Field, model_validator
 from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ALONG, ANY
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class Spacing(Row):
     """Where connections are, measured from the start of the primary line."""
 
-    spacing: Annotated[Real | None, about("distance between two", unit="L", above=0)] = None
-    start: Annotated[Real | None, about("distance of the first", unit="L", at_least=0)] = None
-    end: Annotated[Real | None, about("distance of the last", unit="L", at_least=0)] = None
+    spacing: Annotated[Real | None, about("distance between two", unit="L", above=0, usual=ALONG)] = None
+    start: Annotated[Real | None, about("distance of the first", unit="L", at_least=0, usual=ALONG)] = None
+    end: Annotated[Real | None, about("distance of the last", unit="L", at_least=0, usual=ALONG)] = None
 
 
 class _Stiffness(Row):
-    stiffness: Annotated[Real, about("stiffness", unit="F/L", at_least=0)]
+    stiffness: Annotated[Real, about("stiffness", unit="F/L", at_least=0, usual=ANY)]
 
 
 class _Curve(Row):
@@ -69,9 +70,9 @@ class LinePair(Record):
         Literal["PIP", "POP"] | None,
         setting("TYPE", "pipe in pipe, or on pipe", default="PIP", inline=True, inferred="it may be left out"),
     ] = Field(default=None, alias="type")
-    offset: Annotated[Real | None, setting("OFFSET", "offset along the line", unit="L", default="0", inline=True)] = (
-        None
-    )
+    offset: Annotated[
+        Real | None, setting("OFFSET", "offset along the line", unit="L", default="0", inline=True, usual=ALONG)
+    ] = None
     links: list[PipLink] = []
 
 

@@ -9,6 +9,7 @@ from pydantic import Field
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.lists import Node
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import Usual
 from mudline.language.keywords.values import Real
 
 
@@ -17,7 +18,12 @@ class PointMass(Record):
 
     rule = "point_mass"
     node: Node
-    mass: Annotated[Real, about("mass, or rotary inertia", unit="M", at_least=0)]
+    mass: Annotated[
+        Real,
+        about(
+            "mass, or rotary inertia", unit="M", at_least=0, usual=Usual(high=1e7, why="heavier is a hull", remark=True)
+        ),
+    ]
     type_: Annotated[
         Literal["MASS", "NO WEIGHT MASS", "ROTARY INERTIA"] | None,
         setting("TYPE", "mass, mass without weight, or rotary inertia (ML2)", default="MASS", inline=True),

@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import EI_CURVE, OF_ITS_CURVE
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class MomentCurvaturePoint(Row):
     """A point of a curve: moment first."""
 
-    moment: Annotated[Real, about("bending moment; it comes first", unit="FL")]
-    curvature: Annotated[Real, about("curvature there", unit="1/L")]
+    moment: Annotated[Real, about("bending moment; it comes first", unit="FL", usual=OF_ITS_CURVE)]
+    curvature: Annotated[Real, about("curvature there", unit="1/L", usual=OF_ITS_CURVE)]
 
 
 class MomentCurvatureCurve(Record):
@@ -28,7 +29,11 @@ class MomentCurvatureCurve(Record):
     points: Annotated[
         Table,
         curve_points(
-            MomentCurvaturePoint, "points in any order; at least two", "moment-curvature curve", abscissa="curvature"
+            MomentCurvaturePoint,
+            "points in any order; at least two",
+            "moment-curvature curve",
+            abscissa="curvature",
+            usual=EI_CURVE,
         ),
     ]
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import POSITION
 from mudline.language.keywords.values import Facts, Names, Real, Whole
 
 
@@ -14,9 +15,12 @@ class NodeRow(Row):
     """Columns of the table of nodes."""
 
     node: Annotated[Whole, about("node number", defines=Names.NODE)]
-    x: Annotated[Real, about("vertical coordinate, positive upwards; the mudline of a flat seabed is at 0", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate", unit="L")]
-    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
+    x: Annotated[
+        Real,
+        about("vertical coordinate, positive upwards; the mudline of a flat seabed is at 0", unit="L", usual=POSITION),
+    ]
+    y: Annotated[Real, about("horizontal coordinate", unit="L", usual=POSITION)]
+    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0", usual=POSITION)] = None
 
 
 class NodeRange(ListRow):

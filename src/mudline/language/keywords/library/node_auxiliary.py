@@ -7,16 +7,17 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Block, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import NUMBER, POSITION
 from mudline.language.keywords.values import Real, Whole
 
 
 class AuxiliaryNode(Row):
     """An auxiliary node."""
 
-    node: Annotated[Whole, about("number, that of no node of the structure")]
-    x: Annotated[Real, about("vertical coordinate", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate", unit="L")]
-    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
+    node: Annotated[Whole, about("number, that of no node of the structure", usual=NUMBER)]
+    x: Annotated[Real, about("vertical coordinate", unit="L", usual=POSITION)]
+    y: Annotated[Real, about("horizontal coordinate", unit="L", usual=POSITION)]
+    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0", usual=POSITION)] = None
 
 
 class AuxiliaryNodes(Block):

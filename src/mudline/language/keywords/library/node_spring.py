@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.lists import Freedom, Node
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import OF_A_KIND
 from mudline.language.keywords.values import Real
 
 
@@ -16,7 +17,9 @@ class NodeSpring(Record):
     rule = "node_spring_line"
     node: Node
     dof: Freedom
-    stiffness: Annotated[Real, about("stiffness: force per length, of a rotation moment per degree", at_least=0)]
+    stiffness: Annotated[
+        Real, about("stiffness: force per length, of a rotation moment per degree", at_least=0, usual=OF_A_KIND)
+    ]
 
 
 class NodeSprings(Block):

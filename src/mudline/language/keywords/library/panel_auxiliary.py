@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Block, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import NUMBER
 from mudline.language.keywords.values import Whole
 
 _FORM = "the line: a number and 3 nodes; the manual page was not seen"
@@ -15,10 +16,10 @@ _FORM = "the line: a number and 3 nodes; the manual page was not seen"
 class AuxiliaryPanel(Row):
     """An auxiliary panel."""
 
-    panel: Annotated[Whole, about("number", inferred=_FORM)]
-    first: Annotated[Whole, about("its first auxiliary node")]
-    second: Annotated[Whole, about("its second auxiliary node")]
-    third: Annotated[Whole, about("its third auxiliary node")]
+    panel: Annotated[Whole, about("number", inferred=_FORM, usual=NUMBER)]
+    first: Annotated[Whole, about("its first auxiliary node", usual=NUMBER)]
+    second: Annotated[Whole, about("its second auxiliary node", usual=NUMBER)]
+    third: Annotated[Whole, about("its third auxiliary node", usual=NUMBER)]
 
 
 class AuxiliaryPanels(Block):

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.summary import AXIS, SummaryRequest
+from mudline.language.keywords.usual import COUNT
 from mudline.language.keywords.values import Ident, Name, Names, Whole
 
 
@@ -19,10 +20,10 @@ class ParaKinematic(SummaryRequest):
 
     keyword: Literal["PARA KINEMATIC"] = "PARA KINEMATIC"
     node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
-    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6)]
+    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6, usual=COUNT)]
     quantity: Annotated[
         Whole,
-        setting("DATA3", "1 motion, 2 displacement, 3 velocity, 4 acceleration", at_least=1, at_most=4),
+        setting("DATA3", "1 motion, 2 displacement, 3 velocity, 4 acceleration", at_least=1, at_most=4, usual=COUNT),
     ]
     axis: Annotated[Name | None, setting("DATA4", AXIS, default="global")] = None
 

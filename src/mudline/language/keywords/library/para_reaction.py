@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.summary import AXIS, SummaryRequest
+from mudline.language.keywords.usual import COUNT
 from mudline.language.keywords.values import Ident, Name, Names, Whole
 
 
@@ -19,7 +20,7 @@ class ParaReaction(SummaryRequest):
 
     keyword: Literal["PARA REACTION"] = "PARA REACTION"
     node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
-    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6)]
+    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6, usual=COUNT)]
     axis: Annotated[Name | None, setting("DATA3", AXIS, default="global")] = None
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import ANY
 from mudline.language.keywords.values import Facts, Name, Names, RealOrName
 
 
@@ -19,6 +20,7 @@ class Parameter(Record):
         about(
             "number, equation, text, or a list between slashes: /a:1 b:2 3/ gives name_a, name_b and name_1",
             inferred="unnamed items are counted by themselves; a colon or a semicolon joins name and value",
+            usual=ANY,
         ),
     ]
 

@@ -9,11 +9,14 @@ from pydantic import Field
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.lists import Node
 from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.usual import ANY, COUNT
 from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
 
 _CURVES = "the curve is one of *PIP STIFFNESS, as of *LINES PIP"
 _SLIDING = "the form of many sliding connections: that of one, with GEN= in place of its node"
-Stiffness = Annotated[Real | None, setting("STIFFNESS", "stiffness, or give CURVE=", unit="F/L", inline=True)]
+Stiffness = Annotated[
+    Real | None, setting("STIFFNESS", "stiffness, or give CURVE=", unit="F/L", inline=True, usual=ANY)
+]
 CurveName = Annotated[
     Name | None,
     setting(
@@ -21,7 +24,8 @@ CurveName = Annotated[
     ),
 ]
 AxialStiffness = Annotated[
-    Real | None, setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True)
+    Real | None,
+    setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True, usual=ANY),
 ]
 AxialCurve = Annotated[Name | None, setting("AXIAL_NONLINEAR", "of sliding ones: axial curve", inline=True)]
 
@@ -31,7 +35,7 @@ class PipRange(ListRow):
 
     start: Annotated[Ident, about("first node", names=Names.NODE)]
     end: Annotated[Ident, about("last node", names=Names.NODE)]
-    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1, usual=COUNT)] = None
 
 
 class PipPair(Record):
@@ -75,7 +79,9 @@ class PipConnections(Block):
     keyword: Literal["PIP CONNECTION"] = "PIP CONNECTION"
     orientation: Annotated[Name | None, setting("ORIENTATION", "from present or from initial positions")] = None
     bandwidth: Annotated[Literal["UPDATED"] | None, setting("BANDWIDTH", "renumbered as the pipes slide")] = None
-    tolerance: Annotated[Real | None, setting("PENETRATION_TOLERANCE", "tolerance of penetration", at_least=0)] = None
+    tolerance: Annotated[
+        Real | None, setting("PENETRATION_TOLERANCE", "tolerance of penetration", at_least=0, usual=ANY)
+    ] = None
     connections: list[PipPair | PipPairs] = []
 
 

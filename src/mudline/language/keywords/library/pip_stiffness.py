@@ -10,24 +10,29 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, FORCE_CURVE, OF_ITS_CURVE
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class PipPoint(Row):
     """A point of a curve."""
 
-    deflection: Annotated[Real, about("deflection", unit="L", at_least=0)]
-    force: Annotated[Real, about("contact force there", unit="F")]
+    deflection: Annotated[Real, about("deflection", unit="L", at_least=0, usual=OF_ITS_CURVE)]
+    force: Annotated[Real, about("contact force there", unit="F", usual=OF_ITS_CURVE)]
 
 
 class PowerLaw(Row):
     """The law of TYPE=POWER LAW."""
 
-    largest: Annotated[Real, about("largest contact force", unit="F", at_least=0)]
+    largest: Annotated[Real, about("largest contact force", unit="F", at_least=0, usual=ANY)]
     exponent: Annotated[
         Real | None,
         about(
-            "exponent", default="5", above=0, inferred="the default: a page on theory says 10, that of the keyword 5"
+            "exponent",
+            default="5",
+            above=0,
+            inferred="the default: a page on theory says 10, that of the keyword 5",
+            usual=ANY,
         ),
     ] = None
 
@@ -53,6 +58,7 @@ class PipCurve(Record):
             "of DATA PAIRS: points in any order; at least two",
             "pipe-in-pipe stiffness",
             abscissa="deflection",
+            usual=FORCE_CURVE,
         ),
     ] = None
 

@@ -10,28 +10,42 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import DIRECTION, LONG_WAVE, SHIFT_RAO, TURN_RAO, Usual
 from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
 from mudline.language.keywords.vessels import Vessel
 
 
 class Six(Row):
-    """Values of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations; phases in degrees."""
+    """Amplitudes of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations."""
 
-    heave: Annotated[Real, about("of heave")]
-    surge: Annotated[Real, about("of surge")]
-    sway: Annotated[Real, about("of sway")]
-    yaw: Annotated[Real, about("of yaw")]
-    roll: Annotated[Real, about("of roll")]
-    pitch: Annotated[Real, about("of pitch")]
+    heave: Annotated[Real, about("of heave", usual=SHIFT_RAO)]
+    surge: Annotated[Real, about("of surge", usual=SHIFT_RAO)]
+    sway: Annotated[Real, about("of sway", usual=SHIFT_RAO)]
+    yaw: Annotated[Real, about("of yaw", usual=TURN_RAO)]
+    roll: Annotated[Real, about("of roll", usual=TURN_RAO)]
+    pitch: Annotated[Real, about("of pitch", usual=TURN_RAO)]
+
+
+class SixPhases(Row):
+    """Phases of six motions."""
+
+    heave: Annotated[Real, about("of heave", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("of surge", unit="deg", usual=DIRECTION)]
+    sway: Annotated[Real, about("of sway", unit="deg", usual=DIRECTION)]
+    yaw: Annotated[Real, about("of yaw", unit="deg", usual=DIRECTION)]
+    roll: Annotated[Real, about("of roll", unit="deg", usual=DIRECTION)]
+    pitch: Annotated[Real, about("of pitch", unit="deg", usual=DIRECTION)]
 
 
 class FrequencyRao(Record):
     """Three lines: a frequency, six amplitudes, six phases."""
 
     rule = "frequency_rao"
-    frequency: Annotated[Real, about("wave frequency", at_least=0)]
-    amplitudes: Annotated[Six, about("amplitudes for a unit wave")]
-    phases: Annotated[Six, about("phases, positive for a lag")]
+    frequency: Annotated[
+        Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
+    ]
+    amplitudes: Annotated[Six, about("amplitudes for a unit wave", usual=LONG_WAVE)]
+    phases: Annotated[SixPhases, about("phases, positive for a lag")]
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
@@ -51,19 +65,21 @@ class RaoLine(Row):
     """A line of LAYOUT=LINE."""
 
     heading: Annotated[Real, about("wave heading", unit="deg", at_least=-180, at_most=180)]
-    frequency: Annotated[Real, about("wave frequency", at_least=0)]
-    heave: Annotated[Real, about("amplitude of heave")]
-    heave_phase: Annotated[Real, about("its phase", unit="deg")]
-    surge: Annotated[Real, about("amplitude of surge")]
-    surge_phase: Annotated[Real, about("its phase", unit="deg")]
-    sway: Annotated[Real, about("amplitude of sway")]
-    sway_phase: Annotated[Real, about("its phase", unit="deg")]
-    yaw: Annotated[Real, about("amplitude of yaw")]
-    yaw_phase: Annotated[Real, about("its phase", unit="deg")]
-    roll: Annotated[Real, about("amplitude of roll")]
-    roll_phase: Annotated[Real, about("its phase", unit="deg")]
-    pitch: Annotated[Real, about("amplitude of pitch")]
-    pitch_phase: Annotated[Real, about("its phase", unit="deg")]
+    frequency: Annotated[
+        Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
+    ]
+    heave: Annotated[Real, about("amplitude of heave", usual=(SHIFT_RAO, LONG_WAVE))]
+    heave_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
+    surge_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
+    sway_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
+    yaw_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
+    roll_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
+    pitch_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
 
 
 class VesselRao(Record):

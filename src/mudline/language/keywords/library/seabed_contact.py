@@ -8,6 +8,7 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import ANY
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
@@ -23,6 +24,7 @@ class ContactSet(Record):
             "normal stiffness of a node; replaces the stiffness or curve per unit length of this set",
             unit="F/L",
             at_least=0,
+            usual=ANY,
         ),
     ] = None
     smoothing: Annotated[
@@ -34,6 +36,7 @@ class ContactSet(Record):
             unit="L",
             default="AUTO",
             above=0,
+            usual=ANY,
         ),
     ] = None
     form: Annotated[
@@ -48,6 +51,7 @@ class ContactSet(Record):
             unit="FT/L2",
             at_least=0,
             default="0",
+            usual=ANY,
         ),
     ] = None
 

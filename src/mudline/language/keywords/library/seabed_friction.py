@@ -8,40 +8,72 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ANY, DIRECTION, FRICTION, Usual
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
 class Coefficients(Row):
     """Values of COEFFICIENTS=."""
 
-    first: Annotated[Real, about("friction coefficient along u1", unit="-", at_least=0)]
-    second: Annotated[Real, about("friction coefficient along u2", unit="-", at_least=0)]
+    first: Annotated[Real, about("friction coefficient along u1", unit="-", at_least=0, usual=FRICTION)]
+    second: Annotated[Real, about("friction coefficient along u2", unit="-", at_least=0, usual=FRICTION)]
 
 
 class TangentialStiffness(Row):
     """Values of STIFFNESS=."""
 
-    first: Annotated[Real, about("tangential spring of a node along u1", unit="F/L", above=0)]
+    first: Annotated[Real, about("tangential spring of a node along u1", unit="F/L", above=0, usual=ANY)]
     second: Annotated[
-        Real | None, about("tangential spring of a node along u2", unit="F/L", default="as along u1", above=0)
+        Real | None,
+        about("tangential spring of a node along u2", unit="F/L", default="as along u1", above=0, usual=ANY),
     ] = None
 
 
 class Peak(Row):
     """Values of PEAK=."""
 
-    factor: Annotated[Real, about("lateral resistance over the normal force at breakout", unit="-", above=0)]
+    factor: Annotated[
+        Real,
+        about(
+            "lateral resistance over the normal force at breakout",
+            unit="-",
+            above=0,
+            usual=Usual(high=10.0, why="a buried pipe has 1 to 5", remark=True),
+        ),
+    ]
     displacement: Annotated[
         Real | None,
-        about("displacement from the place of first contact at which it is reached", unit="L", above=0, default="none"),
+        about(
+            "displacement from the place of first contact at which it is reached",
+            unit="L",
+            above=0,
+            default="none",
+            usual=Usual(high=5.0, why="soil yields within a few diameters", remark=True),
+        ),
     ] = None
 
 
 class Residual(Row):
     """Values of RESIDUAL=."""
 
-    factor: Annotated[Real, about("lateral resistance over the normal force after breakout", unit="-", at_least=0)]
-    displacement: Annotated[Real, about("displacement at which it is reached", unit="L", above=0)]
+    factor: Annotated[
+        Real,
+        about(
+            "lateral resistance over the normal force after breakout",
+            unit="-",
+            at_least=0,
+            usual=Usual(high=10.0, why="a buried pipe has 1 to 5", remark=True),
+        ),
+    ]
+    displacement: Annotated[
+        Real,
+        about(
+            "displacement at which it is reached",
+            unit="L",
+            above=0,
+            usual=Usual(high=5.0, why="soil yields within a few diameters", remark=True),
+        ),
+    ]
 
 
 class FrictionSet(Record):
@@ -58,6 +90,7 @@ class FrictionSet(Record):
             "AXIAL: u1 along the line in the plane of the seabed; an angle: u1 from +Y about its normal",
             unit="deg",
             default="AXIAL",
+            usual=DIRECTION,
         ),
     ] = None
     criterion: Annotated[

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.usual import DIRECTION, MODEL
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 _SETTINGS = ("INTERPOLATION", "SLOPE", "FILE")
@@ -44,11 +45,17 @@ class SeabedProfile(Block):
             inline=True,
             behind="INTERPOLATION",
             inferred=("the profile is taken at Y cos + Z sin, from `counter-clockwise about X`; for an elastic seabed"),
+            usual=DIRECTION,
         ),
     ] = None
     slope: Annotated[
         Real | None,
-        setting("SLOPE", "of SLOPING: slope of a plane through the origin, positive towards +Y; mandatory", unit="deg"),
+        setting(
+            "SLOPE",
+            "of SLOPING: slope of a plane through the origin, positive towards +Y; mandatory",
+            unit="deg",
+            usual=MODEL,
+        ),
     ] = None
     file: Annotated[
         Name | None,

@@ -9,6 +9,7 @@ from pydantic import Field
 from mudline.language.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ANY, BED, FRICTION, LEAST_SIDE, MOBILISATION, Usual
 from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _RANGE = "it is above 0, as friction divides by it; the manual gives no range"
@@ -19,32 +20,48 @@ class SeabedFriction(Row):
     """Values of FRICTION=."""
 
     longitudinal: Annotated[
-        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
     ] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
-        None
-    )
+    transverse: Annotated[
+        Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
+    ] = None
     longitudinal_mobilisation: Annotated[
-        Real | None, about("longitudinal mobilisation length", unit="L", above=0, inferred=_RANGE)
+        Real | None, about("longitudinal mobilisation length", unit="L", above=0, inferred=_RANGE, usual=MOBILISATION)
     ] = None
     transverse_mobilisation: Annotated[
-        Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE)
+        Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE, usual=MOBILISATION)
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
+    constant: Annotated[
+        Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION, usual=ANY)
+    ] = None
     longitudinal_stiffness: Annotated[
         Real | None,
-        about("longitudinal friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
+        about(
+            "longitudinal friction stiffness of modal and frequency runs",
+            unit="F/L2",
+            at_least=0,
+            inferred=_MODAL,
+            usual=Usual(478.0, 2.1e11, remark=True),
+        ),
     ] = None
     transverse_stiffness: Annotated[
         Real | None,
-        about("transverse friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
+        about(
+            "transverse friction stiffness of modal and frequency runs",
+            unit="F/L2",
+            at_least=0,
+            inferred=_MODAL,
+            usual=Usual(478.0, 2.1e11, remark=True),
+        ),
     ] = None
 
 
 class SeabedSuction(Row):
     """Values of SUCTION=."""
 
-    stiffness: Annotated[Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=SUCTION_STIFFNESS)]
+    stiffness: Annotated[
+        Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=SUCTION_STIFFNESS, usual=LEAST_SIDE)
+    ]
     extent: Annotated[
         Real | None,
         about(
@@ -52,6 +69,7 @@ class SeabedSuction(Row):
             unit="L",
             above=0,
             inferred="it is above 0, as a zone without a height holds nothing; the manual gives no range",
+            usual=Usual(high=10.0, why="a few diameters", remark=True),
         ),
     ] = None
 
@@ -71,11 +89,15 @@ class SeabedSet(Record):
             unit="F/L2",
             at_least=0,
             names=Names.CURVE,
+            usual=BED,
         ),
     ] = None
     friction: Annotated[SeabedFriction | None, setting("FRICTION", "friction coefficients and mobilisation")] = None
     lateral: Annotated[
-        Real | None, setting("LATERAL", "lateral resistance; replaces transverse friction", unit="F/L2", at_least=0)
+        Real | None,
+        setting(
+            "LATERAL", "lateral resistance; replaces transverse friction", unit="F/L2", at_least=0, usual=LEAST_SIDE
+        ),
     ] = None
     suction: Annotated[SeabedSuction | None, setting("SUCTION", "suction stiffness and zone")] = None
 

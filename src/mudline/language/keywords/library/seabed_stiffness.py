@@ -8,6 +8,7 @@ from mudline.language.keywords.common import POINTS, CurvePoint
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block, Record, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import CURVE_FORCE
 from mudline.language.keywords.values import Facts, Name, Names
 
 
@@ -16,7 +17,9 @@ class StiffnessCurve(Record):
 
     rule = "stiffness_curve"
     name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES", defines=Names.CURVE)]
-    points: Annotated[Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio")]
+    points: Annotated[
+        Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", usual=CURVE_FORCE)
+    ]
 
 
 class SeabedStiffness(Block):

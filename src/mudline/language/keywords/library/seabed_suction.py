@@ -8,38 +8,47 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ANY, MODEL, Usual
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
 class MaximumForce(Row):
     """Values of FORCE=: largest suction per unit length, factor times velocity to a power."""
 
-    factor: Annotated[Real, about("factor of the largest suction force per unit length", unit="F/L", at_least=0)]
-    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0)]
+    factor: Annotated[
+        Real, about("factor of the largest suction force per unit length", unit="F/L", at_least=0, usual=ANY)
+    ]
+    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0, usual=ANY)]
 
 
 class SuctionDepth(Row):
     """Values of DEPTH=: uplift at breakout, factor times velocity to a power."""
 
-    factor: Annotated[Real, about("factor of the uplift at breakout", unit="L", above=0)]
-    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0)]
+    factor: Annotated[Real, about("factor of the uplift at breakout", unit="L", above=0, usual=ANY)]
+    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0, usual=ANY)]
 
 
 class CutOff(Row):
     """Values of CUTOFF=: corners of the trapezoid as fractions of the uplift at breakout."""
 
-    first: Annotated[Real, about("end of the rise", unit="-", default="0.2")]
-    second: Annotated[Real, about("start of the fall", unit="-", default="0.8")]
+    first: Annotated[Real, about("end of the rise", unit="-", default="0.2", usual=MODEL)]
+    second: Annotated[Real, about("start of the fall", unit="-", default="0.8", usual=MODEL)]
 
 
 class CyclicLoading(Row):
     """Values of CYCLIC= with a floor."""
 
-    factor: Annotated[Real, about("factor on the largest force for each completed uplift cycle", unit="-", at_least=0)]
+    factor: Annotated[
+        Real, about("factor on the largest force for each completed uplift cycle", unit="-", at_least=0, usual=ANY)
+    ]
     floor: Annotated[
         Real,
         about(
-            "share of the first largest force below which the cycles do not lower it", unit="-", at_least=0, at_most=1
+            "share of the first largest force below which the cycles do not lower it",
+            unit="-",
+            at_least=0,
+            at_most=1,
+            usual=MODEL,
         ),
     ]
 
@@ -56,6 +65,7 @@ class SuctionSet(Record):
             "undrained shear strength of the soil; gives force and depth after Bridge et al. (2004)",
             unit="F/L2",
             at_least=0,
+            usual=Usual(95.0, 1e6, "less is a fluid, more is rock", code="UNT002", meant=3e3, within=30.0),
         ),
     ] = None
     force: Annotated[MaximumForce | None, setting("FORCE", "law of the largest suction force")] = None
@@ -80,6 +90,7 @@ class SuctionSet(Record):
             unit="L/T",
             default="1e-3 m/s",
             above=0,
+            usual=ANY,
         ),
     ] = None
 

@@ -9,38 +9,45 @@ from pydantic import Field, ValidationInfo, field_validator
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import MODEL, POSITION
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
 class TrenchGeometry(Row):
     """Values of GEOMETRY=."""
 
-    depth: Annotated[Real, about("depth of the trench", unit="L", above=0)]
-    bottom_width: Annotated[Real, about("width at the bottom", unit="L", above=0)]
-    upper_width: Annotated[Real, about("width at the top", unit="L", above=0)]
+    depth: Annotated[Real, about("depth of the trench", unit="L", above=0, usual=MODEL)]
+    bottom_width: Annotated[Real, about("width at the bottom", unit="L", above=0, usual=MODEL)]
+    upper_width: Annotated[Real, about("width at the top", unit="L", above=0, usual=MODEL)]
 
 
 class ResistancePoint(Row):
     """A row below PEAK=TABLE."""
 
-    offset: Annotated[Real, about("distance from the centreline; not negative, larger in each row", unit="L")]
-    resistance: Annotated[Real, about("lateral resistance per unit length there", unit="F/L", at_least=0)]
+    offset: Annotated[
+        Real, about("distance from the centreline; not negative, larger in each row", unit="L", usual=MODEL)
+    ]
+    resistance: Annotated[Real, about("lateral resistance per unit length there", unit="F/L", at_least=0, usual=MODEL)]
 
 
 class TrenchResidual(Row):
     """Values of RESIDUAL=."""
 
-    resistance: Annotated[Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0)]
-    displacement: Annotated[Real, about("distance from the centreline from which on it holds", unit="L", above=0)]
+    resistance: Annotated[
+        Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0, usual=MODEL)
+    ]
+    displacement: Annotated[
+        Real, about("distance from the centreline from which on it holds", unit="L", above=0, usual=MODEL)
+    ]
 
 
 class Centreline(Row):
     """Values of CENTRELINE=: two points of a straight line."""
 
-    y0: Annotated[Real, about("Y of the first point", unit="L")]
-    z0: Annotated[Real, about("Z of the first point", unit="L")]
-    y1: Annotated[Real, about("Y of the second point", unit="L")]
-    z1: Annotated[Real, about("Z of the second point", unit="L")]
+    y0: Annotated[Real, about("Y of the first point", unit="L", usual=POSITION)]
+    z0: Annotated[Real, about("Z of the first point", unit="L", usual=POSITION)]
+    y1: Annotated[Real, about("Y of the second point", unit="L", usual=POSITION)]
+    z1: Annotated[Real, about("Z of the second point", unit="L", usual=POSITION)]
 
 
 class TrenchSet(Record):
@@ -66,6 +73,7 @@ class TrenchSet(Record):
             "rows below",
             unit="F/L",
             at_least=0,
+            usual=MODEL,
         ),
     ] = None
     table: Annotated[
@@ -87,7 +95,12 @@ class TrenchSet(Record):
     smoothing: Annotated[
         Real | None,
         setting(
-            "SMOOTHING", "half width of parabolas in the corners of the resistance", unit="L", at_least=0, default="0"
+            "SMOOTHING",
+            "half width of parabolas in the corners of the resistance",
+            unit="L",
+            at_least=0,
+            default="0",
+            usual=MODEL,
         ),
     ] = None
     centreline: Annotated[

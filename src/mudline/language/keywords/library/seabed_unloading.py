@@ -8,6 +8,7 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import LEAST_BED
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
@@ -18,7 +19,7 @@ class UnloadingSet(Record):
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     stiffness: Annotated[
         Real,
-        setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2"),
+        setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2", usual=LEAST_BED),
     ]
 
 

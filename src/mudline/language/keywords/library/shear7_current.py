@@ -7,14 +7,17 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import COUNT, CURRENT, MODEL, POSITION
 from mudline.language.keywords.values import Real, Whole
 
 
 class VelocityPoint(Row):
     """The velocity at an elevation."""
 
-    elevation: Annotated[Real, about("elevation; of XL the place along the line over its length", unit="L")]
-    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+    elevation: Annotated[
+        Real, about("elevation; of XL the place along the line over its length", unit="L", usual=POSITION)
+    ]
+    velocity: Annotated[Real, about("velocity there", unit="L/T", usual=CURRENT)]
 
 
 class ShearCurrent(Block):
@@ -30,9 +33,9 @@ class ShearCurrent(Block):
 
     keyword: Literal["CURRENT"] = "CURRENT"
     probability: Annotated[
-        Real | None, setting("PROBABILITY", "how probable it is", default="1", at_least=0, at_most=1)
+        Real | None, setting("PROBABILITY", "how probable it is", default="1", at_least=0, at_most=1, usual=MODEL)
     ] = None
-    number: Annotated[Whole | None, setting("ID", "number of the profile", inline=True)] = None
+    number: Annotated[Whole | None, setting("ID", "number of the profile", inline=True, usual=COUNT)] = None
     option: Annotated[
         Literal["ASCEND", "DESCEND", "XL"] | None,
         setting("OPTION", "up from X = 0, down from the water line, or along the line", default="ASCEND", inline=True),

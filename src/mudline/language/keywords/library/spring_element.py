@@ -10,14 +10,15 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, FORCE_CURVE, OF_ITS_CURVE
 from mudline.language.keywords.values import Facts, Ident, Name, Names, Real
 
 
 class SpringPoint(Row):
     """A point of a curve."""
 
-    displacement: Annotated[Real, about("extension, positive as the spring grows longer", unit="L")]
-    force: Annotated[Real, about("force there", unit="F")]
+    displacement: Annotated[Real, about("extension, positive as the spring grows longer", unit="L", usual=OF_ITS_CURVE)]
+    force: Annotated[Real, about("force there", unit="F", usual=OF_ITS_CURVE)]
 
 
 class Springs(Record):
@@ -32,10 +33,12 @@ class Springs(Record):
         setting("SET", "element set", names=Names.SET, inferred="in place of ELEMENT=: the input table knows it"),
     ] = Field(default=None, alias="set")
     type_: Annotated[Literal["LINEAR", "NONLINEAR"], setting("TYPE", "a stiffness, or a curve")] = Field(alias="type")
-    stiffness: Annotated[Real | None, about("of LINEAR: stiffness", unit="F/L", at_least=0)] = None
+    stiffness: Annotated[Real | None, about("of LINEAR: stiffness", unit="F/L", at_least=0, usual=ANY)] = None
     points: Annotated[
         Table | None,
-        curve_points(SpringPoint, "of NONLINEAR: two points or more", "spring curve", abscissa="displacement"),
+        curve_points(
+            SpringPoint, "of NONLINEAR: two points or more", "spring curve", abscissa="displacement", usual=FORCE_CURVE
+        ),
     ] = None
 
     @classmethod

@@ -7,14 +7,17 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import E_CURVE, Usual
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class StressStrainPoint(Row):
     """A point of a curve: stress first."""
 
-    stress: Annotated[Real, about("stress; it comes first", unit="F/L2")]
-    strain: Annotated[Real, about("strain there", unit="-")]
+    stress: Annotated[
+        Real, about("stress; it comes first", unit="F/L2", usual=Usual(high=5e9, why="the strongest wire has 3 GPa"))
+    ]
+    strain: Annotated[Real, about("strain there", unit="-", usual=Usual(-5.0, 5.0, "rubber stretches fivefold"))]
 
 
 class StressStrainCurve(Record):
@@ -31,6 +34,7 @@ class StressStrainCurve(Record):
             "points in any order; at least two; without negative strains it is taken to be symmetric",
             "stress-strain curve",
             abscissa="strain",
+            usual=E_CURVE,
         ),
     ]
 

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.usual import OF_THE_RUN
 from mudline.language.keywords.values import Real
 
 
@@ -21,9 +22,12 @@ class SummaryTime(Block):
 
     keyword: Literal["TIME"] = "TIME"
     start: Annotated[
-        Real | None, setting("START", "time at which it starts; -1 is the last stored step", unit="T", at_least=-1)
+        Real | None,
+        setting(
+            "START", "time at which it starts; -1 is the last stored step", unit="T", at_least=-1, usual=OF_THE_RUN
+        ),
     ] = None
-    end: Annotated[Real | None, setting("END", "time at which it ends", unit="T")] = None
+    end: Annotated[Real | None, setting("END", "time at which it ends", unit="T", usual=OF_THE_RUN)] = None
 
 
 BLOCK = SummaryTime

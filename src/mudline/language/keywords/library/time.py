@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import OF_THE_RUN, STEP
 from mudline.language.keywords.values import Real
 
 _START = "time at which the run starts"
@@ -18,32 +19,39 @@ _RAMP = "time over which loads grow"
 class FixedSpan(Row):
     """The line under STEP=FIXED."""
 
-    start: Annotated[Real, about(_START, unit="T")]
-    end: Annotated[Real, about(_END, unit="T")]
+    start: Annotated[Real, about(_START, unit="T", usual=OF_THE_RUN)]
+    end: Annotated[Real, about(_END, unit="T", usual=OF_THE_RUN)]
     increment: Annotated[
         Real | None,
-        about("time step; a static run may leave it out", unit="T", default="end - start", above=0, also="step"),
+        about(
+            "time step; a static run may leave it out",
+            unit="T",
+            default="end - start",
+            above=0,
+            also="step",
+            usual=STEP,
+        ),
     ] = None
-    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0)] = None
+    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0, usual=OF_THE_RUN)] = None
 
 
 class VariableSpan(Row):
     """The first line under STEP=VARIABLE."""
 
-    start: Annotated[Real, about(_START, unit="T")]
-    end: Annotated[Real, about(_END, unit="T")]
-    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0)] = None
+    start: Annotated[Real, about(_START, unit="T", usual=OF_THE_RUN)]
+    end: Annotated[Real, about(_END, unit="T", usual=OF_THE_RUN)]
+    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0, usual=OF_THE_RUN)] = None
 
 
 class StepLimits(Record):
     """A line of limits of a variable step; of several all but the first say from when they hold."""
 
     rule = "step_limits"
-    suggested: Annotated[Real, about("time step to begin with", unit="T", above=0)]
-    least: Annotated[Real, about("smallest time step", unit="T", above=0)]
-    largest: Annotated[Real, about("largest time step", unit="T", above=0)]
-    length: Annotated[Real | None, about("step length", default="0.055", above=0)] = None
-    since: Annotated[Real | None, about("time from which the line holds", unit="T")] = None
+    suggested: Annotated[Real, about("time step to begin with", unit="T", above=0, usual=STEP)]
+    least: Annotated[Real, about("smallest time step", unit="T", above=0, usual=OF_THE_RUN)]
+    largest: Annotated[Real, about("largest time step", unit="T", above=0, usual=STEP)]
+    length: Annotated[Real | None, about("step length", default="0.055", above=0, usual=OF_THE_RUN)] = None
+    since: Annotated[Real | None, about("time from which the line holds", unit="T", usual=OF_THE_RUN)] = None
 
 
 class TimeSpan(Block):

@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import EI_CURVE, OF_ITS_CURVE
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class TorqueTwistPoint(Row):
     """A point of a curve: torque first."""
 
-    torque: Annotated[Real, about("torque; it comes first", unit="FL")]
-    twist: Annotated[Real, about("twist per unit length there", unit="1/L")]
+    torque: Annotated[Real, about("torque; it comes first", unit="FL", usual=OF_ITS_CURVE)]
+    twist: Annotated[Real, about("twist per unit length there", unit="1/L", usual=OF_ITS_CURVE)]
 
 
 class TorqueTwistCurve(Record):
@@ -26,7 +27,9 @@ class TorqueTwistCurve(Record):
     ]
     points: Annotated[
         Table,
-        curve_points(TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist"),
+        curve_points(
+            TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist", usual=EI_CURVE
+        ),
     ]
 
 

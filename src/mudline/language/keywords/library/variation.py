@@ -8,15 +8,16 @@ from pydantic import model_validator
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.usual import OF_THE_RUN
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
 class ValueRange(ListRow):
     """First and last value, and the step between them."""
 
-    start: Annotated[Real, about("first value")]
-    end: Annotated[Real, about("last value")]
-    increment: Annotated[Real | None, about("step", default="1")] = None
+    start: Annotated[Real, about("first value", usual=OF_THE_RUN)]
+    end: Annotated[Real, about("last value", usual=OF_THE_RUN)]
+    increment: Annotated[Real | None, about("step", default="1", usual=OF_THE_RUN)] = None
 
 
 class VariedParameter(Record):

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record
+from mudline.language.keywords.usual import DIRECTION, Usual
 from mudline.language.keywords.values import Real
 from mudline.language.keywords.vessels import Vessel
 
@@ -19,8 +20,8 @@ class Velocity(Record):
         Literal["GLOBAL", "LOCAL"] | None,
         setting("AXIS", "axis from which the direction counts: global Y or surge", default="GLOBAL", inline=True),
     ] = None
-    speed: Annotated[Real, about("speed", unit="L/T")]
-    angle: Annotated[Real | None, about("direction, anticlockwise", unit="deg", default="0")] = None
+    speed: Annotated[Real, about("speed", unit="L/T", usual=Usual(-30.0, 30.0, "ships are no faster"))]
+    angle: Annotated[Real | None, about("direction, anticlockwise", unit="deg", default="0", usual=DIRECTION)] = None
 
 
 class VesselVelocity(Block):

@@ -11,39 +11,54 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.loads import Direction
 from mudline.language.keywords.model import Row
+from mudline.language.keywords.usual import (
+    CUTOFF,
+    DIRECTIONS,
+    EXPONENT,
+    HARMONICS,
+    INCREMENT,
+    PEAKEDNESS,
+    PHILLIPS,
+    PROGRESSION,
+    SEA_FREQUENCY,
+    SEA_HEIGHT,
+    SEA_PERIOD,
+)
 from mudline.language.keywords.values import Other, Real, Whole
 
 _MORE = "more forms follow on the page, which were not seen: their lines are passed through unchanged"
-_CUT = about("largest frequency", unit="Hz", above=0)
-_COUNT = about("number of directions", at_least=1)
+_CUT = about("largest frequency", unit="Hz", above=0, usual=CUTOFF)
+_COUNT = about("number of directions", at_least=1, usual=DIRECTIONS)
 
 
 class _Shape(Row):
-    peak: Annotated[Real, about("peak frequency", unit="Hz", above=0)]
-    phillips: Annotated[Real, about("Phillips constant", unit="-", above=0)]
-    peakedness: Annotated[Real, about("peakedness", unit="-", above=0)]
+    peak: Annotated[Real, about("peak frequency", unit="Hz", above=0, usual=SEA_FREQUENCY)]
+    phillips: Annotated[Real, about("Phillips constant", unit="-", above=0, usual=PHILLIPS)]
+    peakedness: Annotated[Real, about("peakedness", unit="-", above=0, usual=PEAKEDNESS)]
 
 
 class _Height(Row):
-    height: Annotated[Real, about("significant wave height", unit="L", at_least=0)]
-    period: Annotated[Real, about("mean zero up-crossing period (HSTZ) or peak period (HSTP)", unit="T", above=0)]
+    height: Annotated[Real, about("significant wave height", unit="L", at_least=0, usual=SEA_HEIGHT)]
+    period: Annotated[
+        Real, about("mean zero up-crossing period (HSTZ) or peak period (HSTP)", unit="T", above=0, usual=SEA_PERIOD)
+    ]
 
 
 class _Area(Row):
-    increment: Annotated[Real, about("largest frequency increment", unit="Hz", above=0)]
+    increment: Annotated[Real, about("largest frequency increment", unit="Hz", above=0, usual=INCREMENT)]
     cutoff: Annotated[Real, _CUT]
-    harmonics: Annotated[Whole, about("number of harmonics", at_least=1)]
+    harmonics: Annotated[Whole, about("number of harmonics", at_least=1, usual=HARMONICS)]
 
 
 class _Progression(Row):
     cutoff: Annotated[Real, _CUT]
-    factor: Annotated[Real, about("progression factor of the frequencies", unit="-", above=0)]
+    factor: Annotated[Real, about("progression factor of the frequencies", unit="-", above=0, usual=PROGRESSION)]
 
 
 class _Directions(Row):
     directions: Annotated[Whole, _COUNT]
     direction: Direction = None
-    exponent: Annotated[Real | None, about("spreading exponent", unit="-", at_least=0)] = None
+    exponent: Annotated[Real | None, about("spreading exponent", unit="-", at_least=0, usual=EXPONENT)] = None
 
 
 class AreaShape(_Directions, _Area, _Shape):  # the last base's fields first

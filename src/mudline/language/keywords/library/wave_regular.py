@@ -10,12 +10,13 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.loads import Direction
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import AMPLITUDE, COUNT, DIRECTION, WAVE_PERIOD
 from mudline.language.keywords.values import Real, Whole
 
-_AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0)
-_LEAST = about("smallest period", unit="T", above=0)
-_LARGEST = about("largest period", unit="T", above=0)
-_NUMBER = about("number of periods", at_least=1)
+_AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0, usual=AMPLITUDE)
+_LEAST = about("smallest period", unit="T", above=0, usual=WAVE_PERIOD)
+_LARGEST = about("largest period", unit="T", above=0, usual=WAVE_PERIOD)
+_NUMBER = about("number of periods", at_least=1, usual=COUNT)
 _FIELDS = "a line of four values has no direction"
 
 
@@ -23,9 +24,11 @@ class Wave(Row):
     """A wave, in the time domain or under OPTION=ONE."""
 
     amplitude: Annotated[Real, _AMPLITUDE]
-    period: Annotated[Real, about("wave period", unit="T", above=0)]
+    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
     direction: Direction = None
-    phase: Annotated[Real | None, about("phase; not in the frequency domain", unit="deg", default="0")] = None
+    phase: Annotated[
+        Real | None, about("phase; not in the frequency domain", unit="deg", default="0", usual=DIRECTION)
+    ] = None
 
 
 class Band(Row):

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.loads import Direction
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.usual import AMPLITUDE, HEIGHT, WAVE_PERIOD
 from mudline.language.keywords.values import Real
 
 _AIRY = "of the Airy wave that moves the vessel"
@@ -24,12 +25,14 @@ class StokesWave(Block):
 
     keyword: Literal["WAVE-STOKES"] = "WAVE-STOKES"
     option: Annotated[Literal["SUPERPOSE"] | None, setting("OPTION", "how the response of a vessel is found")] = None
-    height: Annotated[Real, about("wave height", unit="L", at_least=0)]
-    period: Annotated[Real, about("wave period", unit="T", above=0)]
+    height: Annotated[Real, about("wave height", unit="L", at_least=0, usual=HEIGHT)]
+    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
     direction: Direction = None
-    airy_amplitude: Annotated[Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0)] = None
+    airy_amplitude: Annotated[
+        Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0, usual=AMPLITUDE)
+    ] = None
     airy_period: Annotated[
-        Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0)
+        Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0, usual=WAVE_PERIOD)
     ] = None
 
 
