@@ -19,9 +19,9 @@ from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, reco
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import WALL, YOUNG
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_values import LARGEST_MOBILISATION, number
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.sections import surroundings
+from mudline.model.scene.sections import surroundings, weights
 
 _STEEL_E = YOUNG[1]
 _STEEL_DENSITY = WALL[2]
@@ -40,6 +40,8 @@ _DEEP = 5.0
 """m: nearer to the mudline soil may be of any weakness."""
 _SHALLOW = 100.0
 """m: in shallower water offsets are compared with this depth."""
+_SHORT = 3.2
+"""m: mobilisation lengths up to the usual characteristic length of 10 ft are no slip of units."""
 _SHARE = 0.3
 """Of the weight in air that a line with contents has in water at least."""
 _LEAST_FORCE = 100.0
@@ -207,35 +209,42 @@ def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
 # --------------------------------------------------------------------------------------------------- seabed and soil
 
 
-def _on(of: Numbers, law: Mask) -> tuple[float, float]:
-    """The largest weight and external diameter of elements, NaN where they are not known.
+def _carried(of: Numbers, elements: Mask) -> tuple[float, float]:
+    """The largest weight and external diameter of the sections of elements, NaN where they are not known.
 
     The weight is the submerged one, or what a pipe that floats has with its contents: a share of that in air.
     """
-    scene, units = of.context.scene, of.units
-    in_air = scene.mass_per_length * surroundings(scene.deck).gravity
-    weights = np.fmax(scene.submerged_weight, _SHARE * in_air)
-    weight, width = (float(np.fmax.reduce(values[law], initial=math.nan)) for values in (weights, scene.diameter))
-    return weight * units.size("F/L"), width * units.size("L")
+    scene = of.context.scene
+    around, table = surroundings(scene.deck), scene.section_table
+    held = np.zeros(len(table.sections) + 1, dtype=np.bool_)
+    held[table.of_element[elements]] = True  # the last one stands for none
+    sections = [section for section, is_held in zip(table.sections, held.tolist(), strict=False) if is_held]
+    of_sections = [weights(section.entry, around) for section in sections]
+    weight = np.fmax.reduce([max(submerged, _SHARE * in_air) for in_air, submerged in of_sections], initial=math.nan)
+    width = np.fmax.reduce([section.diameter for section in sections], initial=math.nan)
+    return float(weight) * of.units.size("F/L"), float(width) * of.units.size("L")
 
 
 def _sinking(of: Numbers, name: str, value: float) -> float:
     """Diameters that pipes on a linear bed sink under their own weight."""
     laws, place = of.context.scene.laws, of.where.inside(name)
-    places = [index for index, law in enumerate(laws.set_laws) if law.where == place and law.kind is LawKind.LINEAR]
-    weight, width = _on(of, np.isin(laws.of_element, places)) if places else (math.nan, math.nan)
+    index = next((at for at, law in enumerate(laws.set_laws) if law.where == place), -1)
+    if index < 0 or laws.set_laws[index].kind is not LawKind.LINEAR:
+        return math.nan
+    weight, width = _carried(of, laws.of_element == index)
     return over(weight, value * width) if weight > 0.0 else math.nan
 
 
 def _times_weight(of: Numbers, _name: str, _value: float) -> float:
     """The largest force of a curve over the weight of the pipes that follow it."""
-    laws = of.context.scene.laws
-    index = next((index for index, curve in enumerate(laws.curves) if curve.where == of.where), -1)
-    if of.table is None or index < 0 or not laws.curves[index].whole or swapped(laws.curves[index]):
+    scene = of.context.scene
+    index = next((at for at, curve in enumerate(scene.laws.curves) if curve.where == of.where), -1)
+    if index < 0 or not scene.laws.curves[index].whole or swapped(scene.laws.curves[index]):
         return math.nan
-    largest = float(np.abs(laws.curves[index].points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
-    followers = np.isin(np.arange(len(of.context.scene.element_ids)), laws.followers(index))
-    weight, width = _on(of, followers)
+    largest = float(np.abs(scene.laws.curves[index].points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
+    followers = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    followers[scene.laws.followers(index)] = True
+    weight, width = _carried(of, followers)
     if not weight > 0.0:
         weight = _LEAST_FORCE * (min(width / 0.1, 1.0) if width > 0.0 else 1.0) if of.units.known else math.nan
     return over(largest, weight) if largest > 0.0 else math.nan
@@ -244,15 +253,15 @@ def _times_weight(of: Numbers, _name: str, _value: float) -> float:
 def _times_pipe(of: Numbers, _name: str, value: float) -> float:
     """A mobilisation length over the widest pipe that it holds for, in units that are not known over ten of them."""
     scene = of.context.scene
-    if value in (10.0 * of.units.size("L"), *LARGEST_MOBILISATION.values()) or (value <= 3.2 and of.units.known):
+    if value == 10.0 * of.units.size("L") or (value <= _SHORT and of.units.known):
         return math.nan
     resistance, friction = scene.resistance, scene.extensions.get("SEABED FRICTION")
-    at = {where: index for index, where in enumerate(resistance.places)}
-    index = at.get(of.where, at.get(Where(of.where.section, of.where.block, of.where.path[:-1]), -1))
+    around = Where(of.where.section, of.where.block, of.where.path[:-1])  # of the set, for the values of FRICTION=
+    index = next((at for at, where in enumerate(resistance.places) if where in (of.where, around)), -1)
     on_it = resistance.of_element == index
     if friction is not None:
         on_it &= friction.of_element < 0
-    width = _on(of, on_it)[1] if index >= 0 else math.nan
+    width = _carried(of, on_it)[1] if index >= 0 else math.nan
     return over(value, width * (1.0 if of.units.known else 10.0))
 
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
-from itertools import chain, pairwise
+from itertools import chain, pairwise, takewhile
 from types import SimpleNamespace
 from typing import cast
 
@@ -20,7 +20,8 @@ from mudline.checks.measures import CONDITIONS, MEASURES, Numbers, over
 from mudline.checks.rules.coordinates import UNT006, height_over_depth, odd_coordinates
 from mudline.checks.rules.curve_ends import curves_over_lengths
 from mudline.checks.unit_slips import Units, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
-from mudline.language.codes.fields import SYN015
+from mudline.language.codes.fields import SYN003, SYN015
+from mudline.language.codes.lines import SYN001
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
 from mudline.language.keywords.ranges import in_words
@@ -452,3 +453,18 @@ def water_in_another_mass(context: LintContext, found: Found) -> Iterator[Joined
         "in the deck's unit of mass"
     )
     yield Joined(cause, [one for one in everything if one is not cause], message=message, place=span)
+
+
+@joint(*_CODES.values(), UNT008)
+def lines_of_another_keyword(context: LintContext, found: Found) -> Iterator[Joined]:
+    """What is unusual beside a line that does not fit its keyword: the lines may belong to one that is missing."""
+    text = context.text
+    if text is None:
+        return
+    unusual = [one for code in (*_CODES, UNT008.code) for one in found.get(code, ())]
+    by_line = {text.place(one).line: one for one in unusual}
+    for cause in (*found.get(SYN001.code, ()), *found.get(SYN003.code, ())):
+        first = text.place(cause).line
+        last = len(text.source.line_starts) + 1 if cause.code == SYN001 else first + 2
+        below = takewhile(lambda line: text.source.line(line)[:1] not in ("*", "$"), range(first, last))
+        yield Joined(cause, [by_line[line] for line in (first - 1, *below) if line in by_line])

@@ -30,7 +30,7 @@ class LinearFriction(OpenBlock):
             unit="F/L2",
             default="0",
             inferred="per unit length",
-            usual=Usual(478.0, 2.1e11, remark=True),
+            usual=Usual(95.0, 2.1e11, remark=True),
         ),
     ] = None
     transverse: Annotated[
@@ -40,7 +40,7 @@ class LinearFriction(OpenBlock):
             unit="F/L2",
             default="0",
             inferred="per unit length",
-            usual=Usual(478.0, 2.1e11, remark=True),
+            usual=Usual(95.0, 2.1e11, remark=True),
         ),
     ] = None
 

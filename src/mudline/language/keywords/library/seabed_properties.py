@@ -41,7 +41,7 @@ class SeabedFriction(Row):
             unit="F/L2",
             at_least=0,
             inferred=_MODAL,
-            usual=Usual(478.0, 2.1e11, remark=True),
+            usual=Usual(95.0, 2.1e11, remark=True),
         ),
     ] = None
     transverse_stiffness: Annotated[
@@ -51,7 +51,7 @@ class SeabedFriction(Row):
             unit="F/L2",
             at_least=0,
             inferred=_MODAL,
-            usual=Usual(478.0, 2.1e11, remark=True),
+            usual=Usual(95.0, 2.1e11, remark=True),
         ),
     ] = None
 
