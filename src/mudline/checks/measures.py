@@ -311,3 +311,5 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "as a stiffness": _as_stiffness,
     "times the weight of the soil above and the diameter": _times_soil,
 }
+WEIGHED = ("diameters that the pipe sinks under its weight", "times the weight of the pipe at its largest force")
+"""Measures in which the weight of the pipe has a part."""

@@ -9,14 +9,14 @@ from dataclasses import replace
 from functools import cache
 from itertools import chain, pairwise, takewhile
 from types import SimpleNamespace
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
 from mudline.checks.joints import Found, Joined, joint
-from mudline.checks.measures import CONDITIONS, MEASURES, Numbers, over
+from mudline.checks.measures import CONDITIONS, MEASURES, WEIGHED, Numbers, over
 from mudline.checks.rules.coordinates import UNT006, height_over_depth, odd_coordinates
 from mudline.checks.rules.curve_ends import curves_over_lengths
 from mudline.checks.unit_slips import Units, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
@@ -46,16 +46,18 @@ _CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, U
 def unusual_values(context: LintContext) -> list[Problem]:
     """What is outside of the usual values of its field; several rules need it, and ask `context.once`.
 
-    Lines in which SYN015 found decimal commas are left out.
+    Left out are lines in which SYN015 found decimal commas, and what is compared with a weight that is not usual.
     """
     units = units_of(context)
     with np.errstate(all="ignore"):  # numbers may be as large as they like
-        found = [
-            problem
+        told = [
+            one
             for placed in context.scene.context.placed.values()
             for where, block in placed
-            for problem in _inside(context, units, block, None, where)
+            for one in _inside(context, units, block, None, where)
         ]
+    heavy = any(problem.code in (UNT001, UNT004, UNT006) for _, problem in told)
+    found = [problem for usual, problem in told if not (heavy and usual.of in WEIGHED)]
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and found else set()
     return [one for one in found if not commas or not text or text.place(one).line not in commas]
@@ -69,6 +71,13 @@ def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
 # ------------------------------------------------------------------------------------------------------- what is judged
 
 
+class Told(NamedTuple):
+    """A finding, and the range that its value is outside of."""
+
+    usual: Usual
+    problem: Problem
+
+
 @cache
 def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, ...]]:
     """The fields of a part that have usual values, and those that hold tables or parts with such fields."""
@@ -79,20 +88,28 @@ def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, .
     return own, tuple(slot for slot in slots if slot.parts)
 
 
-def _inside(context: LintContext, units: Units, part: Part, holder: Part | None, where: Where) -> Iterator[Problem]:
+def _inside(context: LintContext, units: Units, part: Part, holder: Part | None, where: Where) -> Iterator[Told]:
     """What is unusual in a part and in those inside it: of a part one finding of each code, with others under it."""
     own, outer = _judged(type(part))
     of = Numbers(context, units, part, holder, where, record_schema(type(part)).slots)
-    by_code: dict[Code, list[Problem]] = {}
+    by_code: dict[Code, list[Told]] = {}
     for slot in own:
         value = getattr(part, slot.name, None)
         if isinstance(value, float | int | Part):
             given = math.nan if isinstance(value, Part) else float(value)
-            if (found := _told(of, slot, given, where.inside(slot.json))) is not None:
-                by_code.setdefault(found.code, []).append(found)
-    for first, *others in by_code.values():
+            for one in _told(of, slot, given, where.inside(slot.json)):
+                by_code.setdefault(one.problem.code, []).append(one)
+    commas = [one for found in by_code.values() for one in found if _COMMA in one.problem.message]
+    rows = (
+        [commas + [one for found in by_code.values() for one in found if one not in commas]]
+        if commas
+        else by_code.values()
+    )
+    for first, *others in rows:
         more = f"; and {counted(len(others), 'more field')} of it" if others else ""
-        yield replace(first, message=first.message + more, following=tuple(others))
+        problem = first.problem
+        following = tuple(one.problem for one in others)
+        yield Told(first.usual, replace(problem, message=problem.message + more, following=following))
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
@@ -104,11 +121,10 @@ def _inside(context: LintContext, units: Units, part: Part, holder: Part | None,
                 yield from _inside(context, units, one, part, where.inside(slot.json, index))
 
 
-def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Problem]:
+def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Told]:
     """What is unusual in a table: of a column the first row; where that is nothing, in the whole of it."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     names = [column.name for column in columns]
-    found = None
     for index, column in enumerate(columns):
         values = table.column(index) if column.about.usuals else np.zeros(0)
         limits = np.fmin.reduce(values, initial=0.0), np.fmax.reduce(values, initial=0.0)
@@ -118,28 +134,23 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Problem]:
         for at, value in enumerate(values.tolist()):
             cells = SimpleNamespace(**dict(zip(names, table.values[at].tolist(), strict=False)))
             row = Numbers(of.context, of.units, cells, of.part, of.where, columns)
-            found = _told(row, column, value, of.where.inside(slot.json, at, index))
-            if found is not None:
-                yield found
+            if found := _told(row, column, value, of.where.inside(slot.json, at, index)):
+                yield from found
                 return
-    whole = replace(of, table=table, rows=cast("Rows", slot.about))
-    found = _told(whole, slot, math.nan, of.where)
-    if found is not None:
-        yield found
+    yield from _told(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan, of.where)
 
 
 # ----------------------------------------------------------------------------------------------------------- judgement
 
 
-def _told(of: Numbers, slot: FieldSpec, value: float, where: Where) -> Problem | None:
-    """The finding about a value (as the deck has it), for the first of its ranges that it is outside of."""
-    if slot.about.fault(value):
-        return None
-    usual = next((usual for usual in slot.about.usuals if _is_unusual(of, slot, usual, value)), None)
-    if usual is None:
-        return None
-    code = UNT008 if usual.remark else _CODES[usual.code]
-    return Problem(code, f"{_seen(of, slot, usual, value)}: {_advice(of, slot, usual, value, where)}", where=where)
+def _told(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[Told]:
+    """The finding about a value (as the deck has it), for the first of its ranges that it is outside of; or none."""
+    for usual in slot.about.usuals if not slot.about.fault(value) else ():
+        if _is_unusual(of, slot, usual, value):
+            code = UNT008 if usual.remark else _CODES[usual.code]
+            message = f"{_seen(of, slot, usual, value)}: {_advice(of, slot, usual, value, where)}"
+            return [Told(usual, Problem(code, message, where=where))]
+    return []
 
 
 def _quantity(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> float:
@@ -178,6 +189,7 @@ def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, st
 
 
 _TIMES = {1e3: "smaller", 1e-3: "larger"}
+_COMMA = "a comma of thousands seems to stand in"
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3},\d{3}(?:\.\d*)?(?![\d.,]*\d)")
 
 
@@ -246,7 +258,7 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
         left = line[: comma.start()].count(",")
         joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
         if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
-            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}"
+            return f"{_COMMA} {comma[0]}, write {comma[0].replace(',', '')}"
     return ""
 
 
