@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from mudline.checks.engine import lint_bytes
-from mudline.checks.measures import CONDITIONS, MEASURES
 from mudline.checks.registry import select
+from mudline.checks.rules.measures import CONDITIONS, MEASURES
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import FieldSpec, fields_of
 from mudline.language.keywords.values import Kind
-from tests.checks.usual_slips import LAZY_WAVE, PIPELINE, Slip
+from tests.checks.usual_slips import CONDUCTOR, FLOWLINE, LAZY_WAVE, PIPELINE, Slip
 
 DECKS = Path(__file__).parents[1] / "data" / "usual"
 NUMBERS = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME, Kind.WHOLE_OR_LABEL)
@@ -48,14 +48,17 @@ def test_ranges_have_an_order_a_measure_that_exists_and_a_reason() -> None:
 
 @pytest.mark.parametrize("deck", sorted(DECKS.glob("*.key*")), ids=lambda deck: deck.name)
 def test_a_right_deck_has_no_finding(deck: Path) -> None:
-    assert lint_bytes(deck.read_bytes(), deck.name, select(), folder=DECKS) == []
+    found = lint_bytes(deck.read_bytes(), deck.name, select(), folder=DECKS)
+    assert {one.code for one in found} <= {"LEG001"}  # an older keyword
 
 
 MISSED = {"100, 45.0E6": "an info: the mass of a hull may be a point mass"}
 """Slips of which less is said, and why."""
 
 
-@pytest.mark.parametrize("slip", [*LAZY_WAVE, *PIPELINE], ids=lambda slip: f"{slip.deck}: {slip.typed.strip()}")
+@pytest.mark.parametrize(
+    "slip", [*LAZY_WAVE, *PIPELINE, *CONDUCTOR, *FLOWLINE], ids=lambda slip: f"{slip.deck}: {slip.typed.strip()}"
+)
 def test_a_slip_is_found(slip: Slip) -> None:
     text = (DECKS / slip.deck).read_text(encoding="utf-8")
     assert text.count(slip.right) >= 1

@@ -12,7 +12,7 @@ import numpy as np
 from mudline.checks.context import LintContext, entries_of_sets
 from mudline.checks.joints import Found, Joined, joint
 from mudline.checks.rules.coordinates import UNT006
-from mudline.checks.rules.unusual_values import UNT004, UNT005
+from mudline.checks.rules.unusual import UNT004, UNT005
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity

@@ -5,6 +5,7 @@ Text is read as it is, so that a check reports such a value at its place; no doc
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import cache
 
@@ -20,7 +21,7 @@ def range_fault(value: float, slot: FieldSpec) -> str:
 
 def in_words(slot: FieldSpec) -> str:
     """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
-    meaning = slot.about.meaning.partition(";")[0]
+    meaning = re.split("[;,]", slot.about.meaning)[0]
     if slot.key:
         return slot.label
     if slot.label.islower():  # words of the meaning; a symbol has capitals

@@ -11,10 +11,10 @@ class Usual:
     """Values that are usual, from `low` to `high`, both in SI units (angles in degrees), and `why`.
 
     `of` is a measure that is compared in place of the number itself: `/do` is the number over the field `do` of its
-    row, all others are in `mudline.checks.measures`. `when` is a condition, of the same module, without which nothing
-    is compared. Values outside are a warning of `code`; where it is a `remark`, as neither mechanics nor a source says
-    more, an info. Zero is nothing to remark on, nor are values from `also[0]` to `also[1]`, nor powers of ten where
-    they are `placeholder`s.
+    row, all others are in `mudline.checks.rules.measures`. `when` is a condition, of the same module, without which
+    nothing is compared. Values outside are a warning of `code`; where it is a `remark`, as neither mechanics nor a
+    source says more, an info. Zero is nothing to remark on, nor are values from `also[0]` to `also[1]`, nor powers of
+    ten where they are `placeholder`s.
 
     `meant` is what the field mostly holds: a unit in which a number is within a factor `within` of it explains the
     number. With `explained` only such a number is reported.
@@ -96,7 +96,10 @@ MOBILISATION = Usual(
     code="UNT006",
 )
 CURVE_FORCE = Usual(
-    low=0.1, why="the soil carries the pipe", of="times the weight of the pipe at its largest force", code="UNT002"
+    low=0.1,
+    why="the soil carries the pipe",
+    of="times the weight of the pipe, or 100 N/m, at its largest force",
+    code="UNT002",
 )
 ROTATION = Usual(1e-1, 1e9, remark=True)
 SECANT = "columns exchanged, or another unit"

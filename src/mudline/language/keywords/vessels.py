@@ -35,16 +35,16 @@ class Position(Row):
 class Motion(Row):
     """Six displacements of a vessel."""
 
-    x: Annotated[Real, about("along the global X axis", unit="L", usual=VERTICAL_OFFSET)]
-    y: Annotated[Real | None, about("along the global Y axis", unit="L", default="0", usual=OFFSET)] = None
-    z: Annotated[Real | None, about("along the global Z axis", unit="L", default="0", usual=OFFSET)] = None
-    yaw: Annotated[Real | None, about("about the vertical axis", unit="deg", default="0", usual=DIRECTION)] = None
-    roll: Annotated[Real | None, about("about the surge axis of the vessel", unit="deg", default="0", usual=HEEL)] = (
-        None
-    )
-    pitch: Annotated[Real | None, about("about the sway axis of the vessel", unit="deg", default="0", usual=HEEL)] = (
-        None
-    )
+    x: Annotated[Real, about("shift along the global X axis", unit="L", usual=VERTICAL_OFFSET)]
+    y: Annotated[Real | None, about("shift along the global Y axis", unit="L", default="0", usual=OFFSET)] = None
+    z: Annotated[Real | None, about("shift along the global Z axis", unit="L", default="0", usual=OFFSET)] = None
+    yaw: Annotated[Real | None, about("turn about the vertical axis", unit="deg", default="0", usual=DIRECTION)] = None
+    roll: Annotated[
+        Real | None, about("turn about the surge axis of the vessel", unit="deg", default="0", usual=HEEL)
+    ] = None
+    pitch: Annotated[
+        Real | None, about("turn about the sway axis of the vessel", unit="deg", default="0", usual=HEEL)
+    ] = None
 
 
 class LocalDistance(Row):

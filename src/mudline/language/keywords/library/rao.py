@@ -18,23 +18,23 @@ from mudline.language.keywords.vessels import Vessel
 class Six(Row):
     """Amplitudes of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations."""
 
-    heave: Annotated[Real, about("of heave", usual=SHIFT_RAO)]
-    surge: Annotated[Real, about("of surge", usual=SHIFT_RAO)]
-    sway: Annotated[Real, about("of sway", usual=SHIFT_RAO)]
-    yaw: Annotated[Real, about("of yaw", usual=TURN_RAO)]
-    roll: Annotated[Real, about("of roll", usual=TURN_RAO)]
-    pitch: Annotated[Real, about("of pitch", usual=TURN_RAO)]
+    heave: Annotated[Real, about("amplitude of heave", usual=SHIFT_RAO)]
+    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
+    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
+    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
+    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
+    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
 
 
 class SixPhases(Row):
     """Phases of six motions."""
 
-    heave: Annotated[Real, about("of heave", unit="deg", usual=DIRECTION)]
-    surge: Annotated[Real, about("of surge", unit="deg", usual=DIRECTION)]
-    sway: Annotated[Real, about("of sway", unit="deg", usual=DIRECTION)]
-    yaw: Annotated[Real, about("of yaw", unit="deg", usual=DIRECTION)]
-    roll: Annotated[Real, about("of roll", unit="deg", usual=DIRECTION)]
-    pitch: Annotated[Real, about("of pitch", unit="deg", usual=DIRECTION)]
+    heave: Annotated[Real, about("phase of heave", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("phase of surge", unit="deg", usual=DIRECTION)]
+    sway: Annotated[Real, about("phase of sway", unit="deg", usual=DIRECTION)]
+    yaw: Annotated[Real, about("phase of yaw", unit="deg", usual=DIRECTION)]
+    roll: Annotated[Real, about("phase of roll", unit="deg", usual=DIRECTION)]
+    pitch: Annotated[Real, about("phase of pitch", unit="deg", usual=DIRECTION)]
 
 
 class FrequencyRao(Record):
@@ -69,17 +69,17 @@ class RaoLine(Row):
         Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
     ]
     heave: Annotated[Real, about("amplitude of heave", usual=(SHIFT_RAO, LONG_WAVE))]
-    heave_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    heave_phase: Annotated[Real, about("phase of heave", unit="deg", usual=DIRECTION)]
     surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
-    surge_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    surge_phase: Annotated[Real, about("phase of surge", unit="deg", usual=DIRECTION)]
     sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
-    sway_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    sway_phase: Annotated[Real, about("phase of sway", unit="deg", usual=DIRECTION)]
     yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
-    yaw_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    yaw_phase: Annotated[Real, about("phase of yaw", unit="deg", usual=DIRECTION)]
     roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
-    roll_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    roll_phase: Annotated[Real, about("phase of roll", unit="deg", usual=DIRECTION)]
     pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
-    pitch_phase: Annotated[Real, about("its phase", unit="deg", usual=DIRECTION)]
+    pitch_phase: Annotated[Real, about("phase of pitch", unit="deg", usual=DIRECTION)]
 
 
 class VesselRao(Record):

@@ -48,20 +48,25 @@ _LEAST_FORCE = 100.0
 """N/m that a curve is compared with where the weight of the pipe is not known; less for cables of less than 0.1 m."""
 
 
+NOWHERE = Where()
+
+
 @dataclass(frozen=True, eq=False)
 class Numbers:
     """The numbers of a part, in SI where the units are known; `changed` ones instead of its own.
 
     `where` is the place of the part, `holder` the part around it, `columns` are its fields in the order of a line. Of a
-    table, `part` is what holds it, `table` has the rows and `rows` declares them.
+    table, `part` is what holds it, `table` has the rows and `rows` declares them. The weights of pipes are known if it
+    `weighs` them.
     """
 
     context: LintContext
     units: Units
-    part: Any
-    holder: Any
-    where: Where
-    columns: Sequence[FieldSpec]
+    weighs: bool = True
+    part: Any = None
+    holder: Any = None
+    where: Where = NOWHERE
+    columns: Sequence[FieldSpec] = ()
     table: Table | None = None
     rows: Rows | None = None
     changed: Mapping[str, float] = field(default_factory=dict)
@@ -222,7 +227,7 @@ def _carried(of: Numbers, elements: Mask) -> tuple[float, float]:
     of_sections = [weights(section.entry, around) for section in sections]
     weight = np.fmax.reduce([max(submerged, _SHARE * in_air) for in_air, submerged in of_sections], initial=math.nan)
     width = np.fmax.reduce([section.diameter for section in sections], initial=math.nan)
-    return float(weight) * of.units.size("F/L"), float(width) * of.units.size("L")
+    return float(weight) * of.units.size("F/L") if of.weighs else math.nan, float(width) * of.units.size("L")
 
 
 def _sinking(of: Numbers, name: str, value: float) -> float:
@@ -306,10 +311,13 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "as heave in a wave of 40 s and longer": _long_heave,
     "as steepness, 2 pi H / g T2": lambda of, _, value: _steepness(of, value),
     "diameters that the pipe sinks under its weight": _sinking,
-    "times the weight of the pipe at its largest force": _times_weight,
+    "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,
     "times the diameter of the pipe": _times_pipe,
     "as a stiffness": _as_stiffness,
     "times the weight of the soil above and the diameter": _times_soil,
 }
-WEIGHED = ("diameters that the pipe sinks under its weight", "times the weight of the pipe at its largest force")
+WEIGHED = (
+    "diameters that the pipe sinks under its weight",
+    "times the weight of the pipe, or 100 N/m, at its largest force",
+)
 """Measures in which the weight of the pipe has a part."""
