@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import WALL, YOUNG
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.numbering import Floats, Mask
+from mudline.model.scene.numbering import Floats
 from mudline.model.scene.sections import surroundings, weights
 
 _STEEL_E = YOUNG[1]
@@ -42,6 +42,10 @@ _SHALLOW = 100.0
 """m: in shallower water offsets are compared with this depth."""
 _SHORT = 3.2
 """m: mobilisation lengths up to the usual characteristic length of 10 ft are no slip of units."""
+_MOST_PAIRS = 10_000_000
+"""Laws times sections, beyond which nothing is known of weights."""
+_DIGITS = 16
+"""Of the number of a node."""
 _SHARE = 0.3
 """Of the weight in air that a line with contents has in water at least."""
 _LEAST_FORCE = 100.0
@@ -202,72 +206,105 @@ def _steepness(of: Numbers, height: float) -> float:
 
 def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
     """How far a vessel is at first from the farthest of the nodes that it holds."""
-    scene, vessel = of.context.scene, folded(str(getattr(of.holder, "vessel", "")))
-    lines = (line for _, block in of.context.blocks("BOUNDARY", "LOAD CASE") for line in kept_lines(block))
-    held = [line.split(",")[0].strip() for line in lines if folded(line.partition(",")[2].split(",")[0]) == vessel]
-    nodes = np.isin(scene.node_ids, [int(node) for node in held if node.isdecimal()])
+    scene = of.context.scene
+    held = of.context.once(_held_nodes).get(folded(str(getattr(of.holder, "vessel", ""))), [])
+    nodes = scene.coordinates[np.isin(scene.node_ids, held)] if held else ()
     place = np.array([of("x"), of("y"), of("z")])
-    distances = np.linalg.norm(scene.coordinates[nodes] * of.units.size("L") - place, axis=1)
-    return float(distances.max(initial=-math.inf)) if len(distances) else math.nan
+    return max((float(np.linalg.norm(node * of.units.size("L") - place)) for node in nodes), default=math.nan)
+
+
+def _held_nodes(context: LintContext) -> dict[str, list[int]]:
+    """The nodes that each vessel holds, by its name."""
+    found: dict[str, list[int]] = {}
+    for _, block in context.blocks("BOUNDARY", "LOAD CASE"):
+        for line in kept_lines(block):
+            node, _, vessel = line.partition(",")
+            if node.strip().isdecimal() and len(node) < _DIGITS:
+                found.setdefault(folded(vessel.partition(",")[0]), []).append(int(node))
+    return found
 
 
 # --------------------------------------------------------------------------------------------------- seabed and soil
 
 
-def _carried(of: Numbers, elements: Mask) -> tuple[float, float]:
-    """The largest weight and external diameter of the sections of elements, NaN where they are not known.
+class _Laid(NamedTuple):
+    """What lies on each law of the seabed: weight and diameter of its pipes, NaN where they are not known."""
+
+    weight: list[float]
+    width: list[float]
+    laws: dict[Where, int]
+    curves: dict[Where, int]
+    of_curve: dict[int, list[int]]
+
+
+def _laid(context: LintContext) -> _Laid:
+    """The largest weight and diameter of the sections on each law, in the deck's units.
 
     The weight is the submerged one, or what a pipe that floats has with its contents: a share of that in air.
     """
-    scene = of.context.scene
-    around, table = surroundings(scene.deck), scene.section_table
-    held = np.zeros(len(table.sections) + 1, dtype=np.bool_)
-    held[table.of_element[elements]] = True  # the last one stands for none
-    sections = [section for section, is_held in zip(table.sections, held.tolist(), strict=False) if is_held]
-    of_sections = [weights(section.entry, around) for section in sections]
-    weight = np.fmax.reduce([max(submerged, _SHARE * in_air) for in_air, submerged in of_sections], initial=math.nan)
-    width = np.fmax.reduce([section.diameter for section in sections], initial=math.nan)
-    return float(weight) * of.units.size("F/L") if of.weighs else math.nan, float(width) * of.units.size("L")
+    laws, table, around = context.scene.laws, context.scene.section_table, surroundings(context.scene.deck)
+    weight, width = [math.nan] * len(laws.set_laws), [math.nan] * len(laws.set_laws)
+    held = np.zeros((len(laws.set_laws) + 1, len(table.sections) + 1), dtype=np.bool_)
+    if held.size <= _MOST_PAIRS:
+        held[laws.of_element, table.of_element] = True  # the last ones stand for none
+        both = [weights(section.entry, around) for section in table.sections]
+        heavy = np.array([max(submerged, _SHARE * in_air) for in_air, submerged in both])
+        wide = np.array([section.diameter for section in table.sections])
+        for law, row in enumerate(held[:-1, :-1]):
+            weight[law] = float(np.fmax.reduce(heavy[row], initial=math.nan))
+            width[law] = float(np.fmax.reduce(wide[row], initial=math.nan))
+    of_curve: dict[int, list[int]] = {}
+    for index, given in enumerate(laws.set_laws):
+        of_curve.setdefault(given.curve, []).append(index)
+    of_laws = {given.where: index for index, given in enumerate(laws.set_laws) if given.kind is LawKind.LINEAR}
+    curves = {curve.where: index for index, curve in enumerate(laws.curves)}
+    return _Laid(weight, width, of_laws, curves, of_curve)
 
 
 def _sinking(of: Numbers, name: str, value: float) -> float:
     """Diameters that pipes on a linear bed sink under their own weight."""
-    laws, place = of.context.scene.laws, of.where.inside(name)
-    index = next((at for at, law in enumerate(laws.set_laws) if law.where == place), -1)
-    if index < 0 or laws.set_laws[index].kind is not LawKind.LINEAR:
+    laid = of.context.once(_laid)
+    law = laid.laws.get(of.where.inside(name))
+    if law is None or not of.weighs or not laid.weight[law] > 0.0:
         return math.nan
-    weight, width = _carried(of, laws.of_element == index)
-    return over(weight, value * width) if weight > 0.0 else math.nan
+    return over(laid.weight[law] * of.units.size("F/L"), value * laid.width[law] * of.units.size("L"))
 
 
 def _times_weight(of: Numbers, _name: str, _value: float) -> float:
     """The largest force of a curve over the weight of the pipes that follow it."""
-    scene = of.context.scene
-    index = next((at for at, curve in enumerate(scene.laws.curves) if curve.where == of.where), -1)
-    if index < 0 or not scene.laws.curves[index].whole or swapped(scene.laws.curves[index]):
+    laid, curves = of.context.once(_laid), of.context.scene.laws.curves
+    index = laid.curves.get(of.where)
+    if index is None or not curves[index].whole or swapped(curves[index]):
         return math.nan
-    largest = float(np.abs(scene.laws.curves[index].points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
-    followers = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    followers[scene.laws.followers(index)] = True
-    weight, width = _carried(of, followers)
-    if not weight > 0.0:
-        weight = _LEAST_FORCE * (min(width / 0.1, 1.0) if width > 0.0 else 1.0) if of.units.known else math.nan
-    return over(largest, weight) if largest > 0.0 else math.nan
+    largest = float(np.abs(curves[index].points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
+    laws = laid.of_curve.get(index, [])
+    weight, width = (
+        float(np.fmax.reduce([each[law] for law in laws], initial=math.nan)) for each in (laid.weight, laid.width)
+    )
+    if weight > 0.0 and of.weighs:
+        return over(largest, weight * of.units.size("F/L")) if largest > 0.0 else math.nan
+    thin = min(width * of.units.size("L") / 0.1, 1.0) if width > 0.0 else 1.0
+    return over(largest, _LEAST_FORCE * thin) if largest > 0.0 and of.units.known else math.nan
 
 
 def _times_pipe(of: Numbers, _name: str, value: float) -> float:
     """A mobilisation length over the widest pipe that it holds for, in units that are not known over ten of them."""
-    scene = of.context.scene
     if value == 10.0 * of.units.size("L") or (value <= _SHORT and of.units.known):
         return math.nan
-    resistance, friction = scene.resistance, scene.extensions.get("SEABED FRICTION")
-    around = Where(of.where.section, of.where.block, of.where.path[:-1])  # of the set, for the values of FRICTION=
-    index = next((at for at, where in enumerate(resistance.places) if where in (of.where, around)), -1)
-    on_it = resistance.of_element == index
-    if friction is not None:
-        on_it &= friction.of_element < 0
-    width = _carried(of, on_it)[1] if index >= 0 else math.nan
+    widths = of.context.once(_resisted)
+    of_set = Where(of.where.section, of.where.block, of.where.path[:-1])  # for the values of FRICTION=
+    width = widths.get(of.where, widths.get(of_set, math.nan)) * of.units.size("L")
     return over(value, width * (1.0 if of.units.known else 10.0))
+
+
+def _resisted(context: LintContext) -> dict[Where, float]:
+    """The widest pipe that each place with friction holds for, in the deck's units."""
+    scene = context.scene
+    resistance, friction = scene.resistance, scene.extensions.get("SEABED FRICTION")
+    widest = np.full(len(resistance.places) + 1, np.nan)
+    used = np.ones(len(resistance.of_element), dtype=np.bool_) if friction is None else friction.of_element < 0
+    np.fmax.at(widest, resistance.of_element[used], scene.diameter[used])
+    return dict(zip(resistance.places, widest.tolist(), strict=False))
 
 
 def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:

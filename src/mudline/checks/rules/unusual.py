@@ -90,6 +90,8 @@ def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, .
 def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Told]:
     """What is unusual in a part and in those inside it: of a part one finding of each code, with others under it."""
     own, outer = _judged(type(part))
+    if not (own or outer):
+        return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
     by_code: dict[Code, list[Told]] = {}
     for slot in own:
@@ -125,7 +127,9 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Told]:
     columns = record_schema(cast("type[Part]", slot.row)).columns
     names = [column.name for column in columns]
     for index, column in enumerate(columns):
-        values = table.column(index) if column.about.usuals else np.zeros(0)
+        if not column.about.usuals:
+            continue
+        values = table.column(index)
         limits = np.fmin.reduce(values, initial=0.0), np.fmax.reduce(values, initial=0.0)
         low, high = (float(limit) * of.units.size(column.about.unit) for limit in limits)
         if all(not usual.of and usual.low <= low and high <= usual.high for usual in column.about.usuals):
@@ -218,6 +222,8 @@ def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Whe
     """What to do about a value: the unit, the exchange or the comma that explains it."""
     if of.table is not None:
         return _advice_on_curve(of, slot, usual)
+    if usual.of.startswith("m "):  # a distance in space, of which the number is a part
+        return "correct it"
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
     if found := _explanation(of, slot, usual, value) or ("" if alone else _exchange(of, slot, where)):
         return found
