@@ -233,7 +233,7 @@ def test_a_diameter_of_a_steel_pipe(suffix: str, row: str, column: int, words: s
             "RIGID",
             "207.0E9, 79.6E9, 0.25, 0.22, 7850.0, , , , 350.0, 350.0",
             45,
-            "1.4e+03 times Do, expected at most 11.5",
+            "1400 times Do, expected at most 11.5",
         ),
         ("FLEXIBLE", ", , , 3.5E6, 0.5, 0.001, 0.0, 0.02, 17.0, 17.0", 38, "mm"),
         ("MOORING", "493.0E6, 126.5, 600.0", 18, "600.0 looks like mm"),
