@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from mudline.language.keywords.fields import FieldInfo
-from mudline.language.keywords.format import TAKES, range_text, unit_text
+from mudline.language.keywords.format import TAKES, range_text, unit_text, usual_text
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Row, Rows, record_schema
 from tests.docs.marking import marked
 
@@ -58,13 +58,14 @@ def _tables(parts: Sequence[type[Part]], path: str) -> Iterator[tuple[str, list[
 
 
 def _fields(slots: Iterable[FieldSpec], *, named: bool = True) -> Iterator[str]:
-    columns = ("field", *(("in JSON",) if named else ()), "takes", "unit", "default", "range", "meaning")
+    columns = ("field", *(("in JSON",) if named else ()), "takes", "unit", "default", "range", "usual", "meaning")
     yield f"| {' | '.join(columns)} |"
     yield "|" + " --- |" * len(columns)
     for slot in slots:
         names = (f"`{slot.label}`", f"`{slot.json}`") if named else (f"`{slot.label}`",)
         default = "mandatory" if slot.required else slot.about.default
-        cells = (*names, _takes(slot), _unit(slot.about.unit), default, range_text(slot.about), _meaning(slot.about))
+        ranges = range_text(slot.about), usual_text(slot.about)
+        cells = (*names, _takes(slot), _unit(slot.about.unit), default, *ranges, _meaning(slot.about))
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 

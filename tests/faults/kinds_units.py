@@ -103,7 +103,7 @@ def gravity_without_point(draft: Draft) -> None:
     draft.scale(ocean_row(draft), 2, 100.0)
 
 
-@kind("UNT001")
+@kind("UNT001", "SBD010")
 def gravity_is_negative(draft: Draft) -> None:
     """-9.81, as gravity acts downwards."""
     only(draft, "metric", "imperial")

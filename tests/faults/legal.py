@@ -286,7 +286,7 @@ def _single() -> dict[str, tuple[Units, Model]]:
         ),
         "bending-curve": replace(
             riser(u, Flexible(90.0e3, 550.0e6, 190.0, 0.2032, 0.35, 0.35, "Bending"), linear_bed(u), depth=300.0),
-            extra=["*MOMENT-CURVATURE", "CURVE=Bending", "0.0, 0.0", "0.01, 2400.0", "0.3, 24000.0"],
+            extra=["*MOMENT-CURVATURE", "CURVE=Bending", "0.0, 0.0", "2400.0, 0.01", "24000.0, 0.3"],
         ),
         "internal-fluid": replace(
             flowline(u, FLOWLINE, linear_bed(u)), extra=["*ELEMENT SETS", "SET=_InternalFluid", "GEN=1, 20"]

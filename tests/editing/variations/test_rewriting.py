@@ -279,4 +279,6 @@ def test_findings_are_those_of_the_source(form: str) -> None:
     before = sorted(finding.code for finding in lint_bytes(source, f"study.{suffix}", select()))
     assert "CRV002" in before
     for new in found.decks:
-        assert sorted(finding.code for finding in lint_bytes(found.content(new), new.path, select())) == before
+        codes = sorted(finding.code for finding in lint_bytes(found.content(new), new.path, select()))
+        unusual = ["UNT007"] if "201" in new.path else []  # a wave period of 201 s
+        assert codes == sorted([*before, *unusual])

@@ -39,7 +39,11 @@ async def hover(editor: Editor, mark: str, behind: str = "", text: str = DECK) -
     [
         ("$MODEL", "$", ["**$MODEL**", "`*SEABED STIFFNESS`"]),
         ("*SEABED PROPERTIES", "*", ["Rigid or elastic seabed", "FRICTION=", "follows the last record"]),
-        ("STIFFNESS=Clay", "", ["linear stiffness per unit length", "unit N/m2", "range >= 0"]),
+        (
+            "STIFFNESS=Clay",
+            "",
+            ["linear stiffness per unit length", "unit N/m2", "range >= 0", "usual 478 to 2.1e+11 N/m2"],
+        ),
         ("STIFFNESS=Clay", "STIFFNESS=C", ["curve Clay: 3 points, ratio 0 to 0.5", "followed by 2 elements"]),
         ("SET=Pipe\n STIFF", "SET=P", ["set **Pipe**: 2 elements", "1, 2", "D = 0.5 m"]),
         ("=[deeper-depth]", "=[deeper", ["parameter **deeper** = 200", "=[depth*2]"]),

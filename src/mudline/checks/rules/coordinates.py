@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
@@ -10,8 +11,11 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.checks.context import LintContext
+from mudline.checks.rules.seabed_position import bounds_of, depths
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
 
@@ -27,6 +31,10 @@ LONGEST_SKIP, AROUND = 5.0, 1.2
 """Likewise, of an element that leaves out a node at which the next one begins; the way by that node to its own way."""
 TURNED = -0.985
 """Cosine between two elements of a line that runs back over itself, to 10 degrees."""
+HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
+"""Water depths that a model may be high."""
+TALLEST = 500.0
+"""m that a model may rise above the sea, as no wind turbine does."""
 BETTER = 3.0
 """Times as far from its neighbours that a node with two halves of a number is as with the number."""
 COMMA_ROWS = 1000
@@ -292,3 +300,26 @@ def _fits(table: Table, row: int, column: int, number: float, beside: list[int],
         float(np.linalg.norm(neighbours - at, axis=1).sum()) for at in (values[row, 1:4], np.array([*meant, 0.0]))
     )
     return written > times * corrected
+
+
+def height_over_depth(context: LintContext) -> Iterator[Problem]:
+    """What UNT006 finds in the water depth, against the heights of nodes.
+
+    Unless all of them lie above the sea, which GEO005 reports.
+    """
+    scene, oceans = context.scene, context.blocks("OCEAN")
+    if not oceans or not len(scene.node_ids):
+        return
+    where, depth = oceans[-1][0], number(oceans[-1][1], "depth")
+    bounds, metres = context.once(bounds_of), METRES.get(scene.units)
+    height = bounds.highest
+    above_sea = (height - depth) * (metres or math.inf)
+    if not 0.0 < depth < math.inf or -bounds.deepest > depth or not height < math.inf:
+        return
+    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
+        highest = scene.node_ids[context.once(depths).argmin()]
+        message = (
+            f"node {highest} lies {height:.5g} high in water {depth!r} deep, expected "
+            "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
+        )
+        yield Problem(UNT006, message, where=where.inside("depth"))

@@ -7,13 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.checks.context import Found, Joined, LintContext, joint
-from mudline.checks.rules.curve_shape import is_upside_down
+from mudline.checks.rules.coordinates import UNT006
+from mudline.checks.rules.curve_shape import LARGEST_RATIO, is_upside_down
 from mudline.checks.rules.seabed_position import DEEPEST, bounds_of
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.model.curves import ForceCurve
 from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Mask, looked_up
 from mudline.model.scene.seabed import SeabedKind
 
 CRV007 = Code("CRV007", "force-at-zero", Severity.WARNING)
@@ -24,6 +27,8 @@ CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
 
 STEEPEST = 100.0
 """Ratio of two slopes of a curve."""
+FEWEST_POINTS, MOST_ROUND, ROUNDING = 3, 0.5, 1e-3
+"""Points of a curve over metres, the share of them that may be round numbers, and how well depths are rounded."""
 _SMALL = 0.01
 """Part of the largest force of a curve that counts as none."""
 
@@ -220,3 +225,56 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
                 f"{scene.element_ids[deepest]} at {ratios[deepest]:.4g}: add points down to there"
             )
             yield Problem(CRV014, message, where=entry.where)
+
+
+def curves_over_lengths(context: LintContext) -> Iterator[Problem]:
+    """What UNT006 finds in curves: depths where ratios belong."""
+    for curve, diameter in _in_lengths(context.scene):
+        message = (
+            f"every ratio of this curve is a round number of diameters of {diameter:.4g} (the last one "
+            f"{curve.points[:, 0].max() / diameter:.3g}): if these are depths, write them divided by the diameter"
+        )
+        yield Problem(UNT006, message, where=curve.where)
+
+
+def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
+    """Curves of which every ratio is a round number of diameters and most are not round numbers; with the diameter.
+
+    All elements on the curve must have one diameter.
+    """
+    laws = scene.laws
+    candidates = [index for index, curve in enumerate(laws.curves) if _may_be_in_lengths(curve)]
+    if not candidates:
+        return
+    of_grant = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
+    of_element = looked_up(of_grant, laws.of_element)
+    smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
+    with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
+        np.minimum.at(smallest, of_element, scene.diameter)
+        np.maximum.at(largest, of_element, scene.diameter)
+    for index in candidates:
+        curve, diameter = laws.curves[index], float(smallest[index])
+        if diameter == largest[index] and _is_round(_ratios(curve) / diameter).all():
+            yield curve, diameter
+
+
+def _may_be_in_lengths(curve: SceneCurve) -> bool:
+    """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
+    if not curve.usable or np.count_nonzero(curve.points[:, 0]) < FEWEST_POINTS:
+        return False
+    ratios = _ratios(curve)
+    if ratios.max() > LARGEST_RATIO:
+        return False
+    return bool(_is_round(ratios).mean() < MOST_ROUND)
+
+
+def _ratios(curve: SceneCurve) -> Floats:
+    found: Floats = curve.points[curve.points[:, 0] != 0.0, 0]
+    return found
+
+
+def _is_round(values: Floats) -> Mask:
+    """Which numbers have two significant digits, as far as rounding in the deck lets that be seen."""
+    with np.errstate(divide="ignore", over="ignore", under="ignore", invalid="ignore"):
+        digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))  # inf for the smallest floats
+        return np.abs(digits - digits.round(1)) <= ROUNDING * digits

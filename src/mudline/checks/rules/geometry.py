@@ -11,7 +11,7 @@ import numpy as np
 
 from mudline.checks.context import Found, Joined, LintContext, entries_of_sets, joint
 from mudline.checks.rules.coordinates import UNT006
-from mudline.checks.rules.unit_densities import UNT004, UNT005
+from mudline.checks.rules.unusual import UNT004, UNT005
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity

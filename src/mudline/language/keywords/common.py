@@ -7,6 +7,7 @@ from typing import Annotated
 from mudline.language.keywords.fields import about
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import DIRECTION
 from mudline.language.keywords.values import Ident, Names, Real, Whole
 
 NO_SET = (
@@ -19,7 +20,9 @@ Element = Annotated[Ident, about("element number, or its label", names=Names.ELE
 Freedom = Annotated[
     Whole, about("degree of freedom; 1 vertical, 2 and 3 horizontal, 4 to 6 rotations", at_least=1, at_most=6)
 ]
-Direction = Annotated[Real | None, about("direction, anticlockwise from the global Y axis", unit="deg", default="0")]
+Direction = Annotated[
+    Real | None, about("direction, anticlockwise from the global Y axis", unit="deg", default="0", usual=DIRECTION)
+]
 
 
 def require_one(part: Part, *names: str) -> None:

@@ -11,6 +11,7 @@ from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.language.keywords.table import LARGEST_WHOLE, Column
+from mudline.language.keywords.usual import Usual
 from mudline.language.keywords.values import Contents, Equation, Kind, Label, Names
 
 
@@ -29,6 +30,9 @@ def with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, A
     if limits and "anyOf" in schema:
         return schema | {"anyOf": [with_limits(one, limits) for one in schema["anyOf"]]}
     return schema
+
+
+Expected = Usual | tuple[Usual, ...] | str
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +58,14 @@ class FieldInfo:
     holds: Contents | None = None
     heading: str = ""
     opaque: tuple[str, ...] | None = None
+    usual: Expected = ()
+
+    @property
+    def usuals(self) -> tuple[Usual, ...]:
+        """What values are usual."""
+        if isinstance(self.usual, str):
+            return ()
+        return (self.usual,) if isinstance(self.usual, Usual) else self.usual
 
     def fault(self, value: float) -> str:
         """What is wrong with a number, or nothing; NaN stands for one that could not be read."""

@@ -96,6 +96,7 @@ def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
 _UNITS = {
     "metric": {"F": "N", "L": "m", "M": "kg", "T": "s"},
     "imperial": {"F": "lbf", "L": "ft", "M": "slug", "T": "s"},
+    "tonnes": {"F": "kN", "L": "m", "M": "t", "T": "s"},
     "user": {"F": "force", "L": "length", "M": "mass", "T": "time"},
 }
 
@@ -116,3 +117,24 @@ def range_text(about: FieldInfo) -> str:
     if about.at_most is not None:
         return f"{about.at_least:g} to {about.at_most:g}"
     return f">= {about.at_least:g}" if about.at_least is not None else ""
+
+
+def usual_text(about: FieldInfo) -> str:
+    """What values of a field are usual, in metric units, with the reason of each range; "" where nothing is said."""
+    unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")
+    return "; ".join(
+        " ".join(
+            [
+                one.span(),
+                *(
+                    [f"times {one.of[1:].capitalize()}" if one.of.startswith("/") else one.of]
+                    if one.of
+                    else [unit] * bool(unit)
+                ),
+                *([f"of {one.when}"] if one.when else []),
+                *([f"({one.why})"] if one.why else []),
+            ]
+        )
+        for one in about.usuals
+        if not one.explained
+    )

@@ -24,6 +24,7 @@ from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
 from mudline.language.keywords.fields import (
     AS_TEXT,
+    Expected,
     FieldInfo,
     Setting,
     cell_schema,
@@ -128,9 +129,11 @@ def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
-def curve_points(row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "") -> Rows:
+def curve_points(
+    row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "", usual: Expected = ()
+) -> Rows:
     """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
-    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa)
+    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, usual=usual)
 
 
 class Comment(BaseModel):

@@ -5,6 +5,7 @@ Text is read as it is, so that a check reports such a value at its place; no doc
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import cache
 
@@ -15,12 +16,12 @@ from mudline.language.keywords.table import Table
 def range_fault(value: float, slot: FieldSpec) -> str:
     """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
     fault = slot.about.fault(value)
-    return f"{_in_words(slot)} is {value!r}: {fault}" if fault else ""
+    return f"{in_words(slot)} is {value!r}: {fault}" if fault else ""
 
 
-def _in_words(slot: FieldSpec) -> str:
+def in_words(slot: FieldSpec) -> str:
     """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
-    meaning = slot.about.meaning.partition(";")[0]
+    meaning = re.split("[;,]", slot.about.meaning)[0]
     if slot.key:
         return slot.label
     if slot.label.islower():  # words of the meaning; a symbol has capitals

@@ -145,6 +145,12 @@ def submerged_weight(table: SectionTable, around: Surroundings, on_land: Floats 
     return np.where(np.isfinite(found), found, np.nan)
 
 
+def weights(entry: GeometricSet, around: Surroundings) -> tuple[float, float]:
+    """Weight in air and less buoyancy of a section per length, in the deck's units; NaN where it is not known."""
+    in_air = _mass(entry) * around.gravity
+    return in_air, in_air - around.density * _displaced(entry) * around.gravity
+
+
 def _mass(entry: GeometricSet) -> float:
     """Mass per length of a section, NaN where it is not known."""
     return number(entry.section, "mass") if entry.rigid is None else _wall(entry.rigid)

@@ -14,7 +14,7 @@ from mudline.basics.short_repr import counted
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text
+from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text, usual_text
 from mudline.language.keywords.model import FieldSpec
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
@@ -94,7 +94,7 @@ def keyword_help(name: str, section: str) -> str:
 
 
 def field_help(slot: FieldSpec, units: str) -> str:
-    """What a field means, its unit, default and range."""
+    """What a field means, its unit, default, range and usual values."""
     about = slot.about
     facts = [
         f"takes {', '.join(slot.choices)}" if slot.choices else f"takes a {TAKES[slot.kind]}" if slot.kind else "",
@@ -103,6 +103,7 @@ def field_help(slot: FieldSpec, units: str) -> str:
         "mandatory" if slot.required else "",
         f"default {about.default}" if about.default else "",
         f"range {range_text(about)}" if range_text(about) else "",
+        f"usual {usual_text(about)}" if about.usuals else "",
     ]
     lines = [f"**{slot.label}** {about.meaning}", "; ".join(filter(None, facts))]
     if about.inferred:

@@ -10,6 +10,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, STEP, Usual
 from mudline.language.keywords.values import Name, Names, Other, Real, Whole
 
 _PAGE = (
@@ -43,32 +44,39 @@ _RAMP = "time over which loads grow"
 class FixedSpan(Row):
     """The line under STEP=FIXED."""
 
-    start: Annotated[Real, about(_START, unit="T")]
-    end: Annotated[Real, about(_END, unit="T")]
+    start: Annotated[Real, about(_START, unit="T", usual=OF_THE_RUN)]
+    end: Annotated[Real, about(_END, unit="T", usual=OF_THE_RUN)]
     increment: Annotated[
         Real | None,
-        about("time step; a static run may leave it out", unit="T", default="end - start", above=0, also="step"),
+        about(
+            "time step; a static run may leave it out",
+            unit="T",
+            default="end - start",
+            above=0,
+            also="step",
+            usual=STEP,
+        ),
     ] = None
-    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0)] = None
+    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0, usual=OF_THE_RUN)] = None
 
 
 class VariableSpan(Row):
     """The first line under STEP=VARIABLE."""
 
-    start: Annotated[Real, about(_START, unit="T")]
-    end: Annotated[Real, about(_END, unit="T")]
-    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0)] = None
+    start: Annotated[Real, about(_START, unit="T", usual=OF_THE_RUN)]
+    end: Annotated[Real, about(_END, unit="T", usual=OF_THE_RUN)]
+    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0, usual=OF_THE_RUN)] = None
 
 
 class StepLimits(Record):
     """A line of limits of a variable step; of several all but the first say from when they hold."""
 
     rule = "step_limits"
-    suggested: Annotated[Real, about("time step to begin with", unit="T", above=0)]
-    least: Annotated[Real, about("smallest time step", unit="T", above=0)]
-    largest: Annotated[Real, about("largest time step", unit="T", above=0)]
-    length: Annotated[Real | None, about("step length", default="0.055", above=0)] = None
-    since: Annotated[Real | None, about("time from which the line holds", unit="T")] = None
+    suggested: Annotated[Real, about("time step to begin with", unit="T", above=0, usual=STEP)]
+    least: Annotated[Real, about("smallest time step", unit="T", above=0, usual=OF_THE_RUN)]
+    largest: Annotated[Real, about("largest time step", unit="T", above=0, usual=STEP)]
+    length: Annotated[Real | None, about("step length", default="0.055", above=0, usual=OF_THE_RUN)] = None
+    since: Annotated[Real | None, about("time from which the line holds", unit="T", usual=OF_THE_RUN)] = None
 
 
 class TimeSpan(Block):
@@ -122,9 +130,16 @@ class NonLinearStatic(Block):
     example = "*NON LINEAR STATIC\n 5, 0.001, 40\n"
 
     keyword: Literal["NON LINEAR STATIC"] = "NON LINEAR STATIC"
-    steps: Annotated[Whole | None, about("number of steps", default="1", at_least=1)] = None
-    tolerance: Annotated[Real | None, about("tolerance", unit="-", default="0.001", above=0)] = None
-    iterations: Annotated[Whole | None, about("largest number of iterations", default="20", at_least=1)] = None
+    steps: Annotated[Whole | None, about("number of steps", default="1", at_least=1, usual=COUNT)] = None
+    tolerance: Annotated[
+        Real | None,
+        about(
+            "tolerance", unit="-", default="0.001", above=0, usual=Usual(high=0.1, why="0.001 by default", remark=True)
+        ),
+    ] = None
+    iterations: Annotated[
+        Whole | None, about("largest number of iterations", default="20", at_least=1, usual=COUNT)
+    ] = None
 
 
 class Criterion(Record):
@@ -147,9 +162,9 @@ class Criterion(Record):
         setting("CRITERION", "quantity"),
     ]
     monitor: Annotated[Name, setting("MONITOR", "element, element set or guide where it is looked at", inline=True)]
-    target: Annotated[Real, setting("TARGET", "value to be reached", inline=True)]
+    target: Annotated[Real, setting("TARGET", "value to be reached", inline=True, usual=ANY)]
     tolerance: Annotated[
-        Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True)
+        Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True, usual=ANY)
     ] = None
 
 
@@ -177,12 +192,12 @@ class Criteria(Block):
     vector: Annotated[
         Name | None, setting("VECTOR", "of NODE and VESSEL: direction, of *VECTOR", inline=True, names=Names.VECTOR)
     ] = None
-    iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1)] = None
+    iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1, usual=COUNT)] = None
     least: Annotated[
-        Real | None, setting("MIN ADJUSTMENT", "smallest change", inline=True, behind="MAX ITERATIONS")
+        Real | None, setting("MIN ADJUSTMENT", "smallest change", inline=True, behind="MAX ITERATIONS", usual=ANY)
     ] = None
     largest: Annotated[
-        Real | None, setting("MAX ADJUSTMENT", "largest change", inline=True, behind="MAX ITERATIONS")
+        Real | None, setting("MAX ADJUSTMENT", "largest change", inline=True, behind="MAX ITERATIONS", usual=ANY)
     ] = None
 
     @model_validator(mode="after")
@@ -203,10 +218,12 @@ class ContactModelling(Block):
     example = "*CONTACT MODELLING\n RAMP=0.01, POWER=1.5\n"
 
     keyword: Literal["CONTACT MODELLING"] = "CONTACT MODELLING"
-    ramp: Annotated[Real, setting("RAMP", "distance over which contact grows; 0 without", unit="L", at_least=0)]
-    power: Annotated[Real | None, setting("POWER", "exponent of the growth", default="1.5", above=0, inline=True)] = (
-        None
-    )
+    ramp: Annotated[
+        Real, setting("RAMP", "distance over which contact grows; 0 without", unit="L", at_least=0, usual=ANY)
+    ]
+    power: Annotated[
+        Real | None, setting("POWER", "exponent of the growth", default="1.5", above=0, inline=True, usual=ANY)
+    ] = None
 
 
 _WORDS = "the words of the manual are taken as they are, and not checked"
@@ -255,9 +272,10 @@ class Database(Block):
     keyword: Literal["DATABASE"] = "DATABASE"
     time: Annotated[Literal["ALL", "SELECTED", "END", "NONE"], setting("TIME", "the times")]
     start: Annotated[
-        Real | None, about("of SELECTED: first time", unit="T", default="the start of the run", at_least=0)
+        Real | None,
+        about("of SELECTED: first time", unit="T", default="the start of the run", at_least=0, usual=OF_THE_RUN),
     ] = None
-    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0)] = None
+    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0, usual=OF_THE_RUN)] = None
 
     @model_validator(mode="after")
     def _fits(self) -> Database:

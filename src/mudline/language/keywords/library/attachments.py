@@ -9,6 +9,7 @@ from pydantic import Field
 from mudline.language.keywords.common import Node
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.usual import ALONG, COUNT, LIFT, Usual
 from mudline.language.keywords.values import Ident, Names, Real, Whole
 
 
@@ -17,7 +18,12 @@ class PointMass(Record):
 
     rule = "point_mass"
     node: Node
-    mass: Annotated[Real, about("mass, or rotary inertia", unit="M", at_least=0)]
+    mass: Annotated[
+        Real,
+        about(
+            "mass, or rotary inertia", unit="M", at_least=0, usual=Usual(high=1e7, why="heavier is a hull", remark=True)
+        ),
+    ]
     type_: Annotated[
         Literal["MASS", "NO WEIGHT MASS", "ROTARY INERTIA"] | None,
         setting("TYPE", "mass, mass without weight, or rotary inertia (ML2)", default="MASS", inline=True),
@@ -41,17 +47,25 @@ class Chain(Record):
 
     rule = "chain"
     node: Node
-    length: Annotated[Real, about("total length of the chain", unit="L", above=0)]
-    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0)]
-    lift: Annotated[Real | None, about("lift coefficient", unit="-")] = None
+    length: Annotated[Real, about("total length of the chain", unit="L", above=0, usual=ALONG)]
+    mass: Annotated[
+        Real,
+        about(
+            "mass per unit length",
+            unit="M/L",
+            at_least=0,
+            usual=Usual(0.01, 50_000.0, "from a rope to a pipe in concrete", remark=True),
+        ),
+    ]
+    lift: Annotated[Real | None, about("lift coefficient", unit="-", usual=LIFT)] = None
 
 
 class ChainRange(ListRow):
     """Chains like that of a master node, which is defined before."""
 
     master: Annotated[Ident, about("node with the chain that is repeated", names=Names.NODE)]
-    number: Annotated[Whole, about("number of chains, with that of the master", at_least=1)]
-    increment: Annotated[Whole | None, about("step between node numbers", default="1")] = None
+    number: Annotated[Whole, about("number of chains, with that of the master", at_least=1, usual=COUNT)]
+    increment: Annotated[Whole | None, about("step between node numbers", default="1", usual=COUNT)] = None
 
 
 class ChainGenerate(Record):

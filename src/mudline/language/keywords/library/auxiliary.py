@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import COUNT, NUMBER, POSITION
 from mudline.language.keywords.values import Name, Real, Whole
 
 
@@ -15,14 +16,14 @@ class AuxiliaryRange(ListRow):
 
     start: Annotated[Whole, about("first auxiliary element")]
     end: Annotated[Whole, about("last auxiliary element")]
-    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1, usual=COUNT)] = None
 
 
 class AuxiliaryList(Record):
     """Auxiliary elements, 20 on a line at most."""
 
     rule = "auxiliary_list"
-    elements: Annotated[list[Whole], about("numbers of auxiliary elements")]
+    elements: Annotated[list[Whole], about("numbers of auxiliary elements", usual=NUMBER)]
 
 
 class AuxiliaryGenerate(Record):
@@ -55,10 +56,10 @@ class Auxiliary(Block):
 class AuxiliaryNode(Row):
     """An auxiliary node."""
 
-    node: Annotated[Whole, about("number, that of no node of the structure")]
-    x: Annotated[Real, about("vertical coordinate", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate", unit="L")]
-    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
+    node: Annotated[Whole, about("number, that of no node of the structure", usual=NUMBER)]
+    x: Annotated[Real, about("vertical coordinate", unit="L", usual=POSITION)]
+    y: Annotated[Real, about("horizontal coordinate", unit="L", usual=POSITION)]
+    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0", usual=POSITION)] = None
 
 
 class AuxiliaryNodes(Block):
@@ -80,9 +81,9 @@ _ELEMENT_FORM = "the line: a number and 2 nodes; the manual page was not seen"
 class AuxiliaryElement(Row):
     """An auxiliary element."""
 
-    element: Annotated[Whole, about("number", inferred=_ELEMENT_FORM)]
-    first: Annotated[Whole, about("its first auxiliary node")]
-    second: Annotated[Whole, about("its second auxiliary node")]
+    element: Annotated[Whole, about("number", inferred=_ELEMENT_FORM, usual=NUMBER)]
+    first: Annotated[Whole, about("its first auxiliary node", usual=NUMBER)]
+    second: Annotated[Whole, about("its second auxiliary node", usual=NUMBER)]
 
 
 class AuxiliaryElements(Block):
@@ -103,10 +104,10 @@ _PANEL_FORM = "the line: a number and 3 nodes; the manual page was not seen"
 class AuxiliaryPanel(Row):
     """An auxiliary panel."""
 
-    panel: Annotated[Whole, about("number", inferred=_PANEL_FORM)]
-    first: Annotated[Whole, about("its first auxiliary node")]
-    second: Annotated[Whole, about("its second auxiliary node")]
-    third: Annotated[Whole, about("its third auxiliary node")]
+    panel: Annotated[Whole, about("number", inferred=_PANEL_FORM, usual=NUMBER)]
+    first: Annotated[Whole, about("its first auxiliary node", usual=NUMBER)]
+    second: Annotated[Whole, about("its second auxiliary node", usual=NUMBER)]
+    third: Annotated[Whole, about("its third auxiliary node", usual=NUMBER)]
 
 
 class AuxiliaryPanels(Block):

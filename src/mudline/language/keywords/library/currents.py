@@ -10,21 +10,24 @@ from mudline.language.keywords.common import Direction, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import COUNT, CURRENT, MODEL, POSITION
 from mudline.language.keywords.values import Name, Names, Real, Whole
 
 
 class UniformCurrent(Row):
     """One velocity from the seabed to the surface."""
 
-    velocity: Annotated[Real, about("velocity", unit="L/T")]
+    velocity: Annotated[Real, about("velocity", unit="L/T", usual=CURRENT)]
     direction: Direction = None
 
 
 class CurrentPoint(Row):
     """The velocity at an elevation."""
 
-    elevation: Annotated[Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L")]
-    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+    elevation: Annotated[
+        Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L", usual=POSITION)
+    ]
+    velocity: Annotated[Real, about("velocity there", unit="L/T", usual=CURRENT)]
     direction: Direction = None
 
 
@@ -83,8 +86,10 @@ class Current(Block):
 class VelocityPoint(Row):
     """The velocity at an elevation."""
 
-    elevation: Annotated[Real, about("elevation; of XL the place along the line over its length", unit="L")]
-    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+    elevation: Annotated[
+        Real, about("elevation; of XL the place along the line over its length", unit="L", usual=POSITION)
+    ]
+    velocity: Annotated[Real, about("velocity there", unit="L/T", usual=CURRENT)]
 
 
 class ShearCurrent(Block):
@@ -100,9 +105,9 @@ class ShearCurrent(Block):
 
     keyword: Literal["CURRENT"] = "CURRENT"
     probability: Annotated[
-        Real | None, setting("PROBABILITY", "how probable it is", default="1", at_least=0, at_most=1)
+        Real | None, setting("PROBABILITY", "how probable it is", default="1", at_least=0, at_most=1, usual=MODEL)
     ] = None
-    number: Annotated[Whole | None, setting("ID", "number of the profile", inline=True)] = None
+    number: Annotated[Whole | None, setting("ID", "number of the profile", inline=True, usual=COUNT)] = None
     option: Annotated[
         Literal["ASCEND", "DESCEND", "XL"] | None,
         setting("OPTION", "up from X = 0, down from the water line, or along the line", default="ASCEND", inline=True),

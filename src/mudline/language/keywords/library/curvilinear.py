@@ -8,6 +8,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ALONG, COUNT, NUMBER
 from mudline.language.keywords.values import Facts, Ident, Names, Real, Whole
 
 _LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"
@@ -20,7 +21,7 @@ class CableLine(OpenRecord):
     cable: Annotated[Whole, about("number of the cable", defines=Names.CABLE, inferred=_LINE)]
     start: Annotated[Ident, about("node where it starts", names=Names.NODE)]
     end: Annotated[Ident, about("node where it ends", names=Names.NODE)]
-    length: Annotated[Real, about("length", unit="L", above=0)]
+    length: Annotated[Real, about("length", unit="L", above=0, usual=ALONG)]
 
 
 class Cables(OpenBlock):
@@ -38,9 +39,9 @@ class Cables(OpenBlock):
 class CurvilinearNode(Row):
     """A node on a cable."""
 
-    node: Annotated[Whole, about("node number")]
+    node: Annotated[Whole, about("node number", usual=NUMBER)]
     cable: Annotated[Whole, about("number of the cable", names=Names.CABLE)]
-    distance: Annotated[Real, about("distance along it", unit="L", at_least=0)]
+    distance: Annotated[Real, about("distance along it", unit="L", at_least=0, usual=ALONG)]
 
 
 class CurvilinearRange(ListRow):
@@ -48,7 +49,9 @@ class CurvilinearRange(ListRow):
 
     start: Annotated[Ident, about("node that the others start from", names=Names.NODE)]
     end: Annotated[Ident, about("node that they end at", names=Names.NODE)]
-    increment: Annotated[Whole | None, about("step between the node numbers", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step between the node numbers", default="1", at_least=1, usual=COUNT)] = (
+        None
+    )
 
 
 class CurvilinearRows(Record):

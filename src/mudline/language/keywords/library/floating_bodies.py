@@ -11,6 +11,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, DIRECTION, Usual
 from mudline.language.keywords.values import Contents, Name, Names, Real
 
 Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
@@ -22,12 +23,12 @@ _SIX = 6
 class MatrixRow(Row):
     """A line of a 6x6 matrix."""
 
-    heave: Annotated[Real, about("column of heave")]
-    surge: Annotated[Real, about("column of surge")]
-    sway: Annotated[Real, about("column of sway")]
-    yaw: Annotated[Real, about("column of yaw")]
-    roll: Annotated[Real, about("column of roll")]
-    pitch: Annotated[Real, about("column of pitch")]
+    heave: Annotated[Real, about("column of heave", usual=ANY)]
+    surge: Annotated[Real, about("column of surge", usual=ANY)]
+    sway: Annotated[Real, about("column of sway", usual=ANY)]
+    yaw: Annotated[Real, about("column of yaw", usual=ANY)]
+    roll: Annotated[Real, about("column of roll", usual=ANY)]
+    pitch: Annotated[Real, about("column of pitch", usual=ANY)]
 
 
 Matrix = Annotated[Table, rows(MatrixRow, "matrix of 6 lines and 6 columns", inferred=_LINES)]
@@ -42,7 +43,17 @@ class FrequencyMatrix(Record):
     """The matrix at a frequency."""
 
     rule = "frequency_matrix"
-    frequency: Annotated[Real, setting("FREQ", "frequency", unit="Hz", at_least=0, inferred="its unit, as of waves")]
+    frequency: Annotated[
+        Real,
+        setting(
+            "FREQ",
+            "frequency",
+            unit="Hz",
+            at_least=0,
+            inferred="its unit, as of waves",
+            usual=Usual(1e-6, 20.0, "a frequency in Hz or rad/s", remark=True),
+        ),
+    ]
     matrix: Matrix
 
     @model_validator(mode="after")
@@ -137,10 +148,10 @@ TAG = "a line of this word alone: the block is that of a mooring analysis, which
 class Coefficients(Row):
     """Coefficients at a heading."""
 
-    heading: Annotated[Real, about("heading", unit="deg")]
-    surge: Annotated[Real, about("coefficient in surge")]
-    sway: Annotated[Real, about("coefficient in sway")]
-    yaw: Annotated[Real, about("coefficient in yaw")]
+    heading: Annotated[Real, about("heading", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("coefficient in surge", usual=ANY)]
+    sway: Annotated[Real, about("coefficient in sway", usual=ANY)]
+    yaw: Annotated[Real, about("coefficient in yaw", usual=ANY)]
 
 
 class BodyCoefficients(Record):

@@ -8,6 +8,19 @@ from pydantic import Field, model_validator
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import (
+    BENDING,
+    MASS_WIDTH,
+    MODEL,
+    OTHER_WIDTH,
+    OUTER_WIDTH,
+    PIPE_WALL,
+    SHEAR,
+    WALL,
+    WIDTH,
+    YOUNG,
+    Usual,
+)
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 _DO = "external diameter"
@@ -17,61 +30,113 @@ _CURVE = "curve of non-linear {}; the number on the property line is then left e
 class FlexibleSection(Row):
     """Property line under OPTION=FLEXIBLE."""
 
-    eiyy: Annotated[Real | None, about("bending stiffness about local y", unit="FL2", at_least=0)] = Field(
-        None, alias="EIyy"
+    eiyy: Annotated[Real | None, about("bending stiffness about local y", unit="FL2", at_least=0, usual=BENDING)] = (
+        Field(None, alias="EIyy")
     )
-    eizz: Annotated[Real | None, about("bending stiffness about local z", unit="FL2", at_least=0)] = Field(
-        None, alias="EIzz"
+    eizz: Annotated[Real | None, about("bending stiffness about local z", unit="FL2", at_least=0, usual=BENDING)] = (
+        Field(None, alias="EIzz")
     )
-    gj: Annotated[Real | None, about("torsional stiffness", unit="FL2", at_least=0)] = Field(None, alias="GJ")
-    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0)] = Field(None, alias="EA")
-    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0)]
-    inertia: Annotated[Real, about("polar inertia per unit length", unit="ML", at_least=0)]
-    di: Annotated[Real, about("internal diameter", unit="L", at_least=0)] = Field(alias="Di")
-    dd: Annotated[Real, about("drag diameter", unit="L", at_least=0)] = Field(alias="Dd")
-    db: Annotated[Real, about("buoyancy diameter", unit="L", at_least=0)] = Field(alias="Db")
-    do: Annotated[Real | None, about(_DO, unit="L", default="Dd", above=0)] = Field(None, alias="Do")
-    dc: Annotated[Real | None, about("contact diameter", unit="L", above=0)] = Field(None, alias="Dc")
+    gj: Annotated[Real | None, about("torsional stiffness", unit="FL2", at_least=0, usual=MODEL)] = Field(
+        None, alias="GJ"
+    )
+    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0, usual=MODEL)] = Field(None, alias="EA")
+    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0, usual=MODEL)]
+    inertia: Annotated[
+        Real,
+        about(
+            "polar inertia per unit length",
+            unit="ML",
+            at_least=0,
+            usual=Usual(
+                high=4.0, why="the mass lies within the radius", of="times the mass and the radius squared", remark=True
+            ),
+        ),
+    ]
+    di: Annotated[Real, about("internal diameter", unit="L", at_least=0, usual=WIDTH)] = Field(alias="Di")
+    dd: Annotated[Real, about("drag diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(alias="Dd")
+    db: Annotated[Real, about("buoyancy diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH, MASS_WIDTH))] = (
+        Field(alias="Db")
+    )
+    do: Annotated[Real | None, about(_DO, unit="L", default="Dd", above=0, usual=(WIDTH, OUTER_WIDTH))] = Field(
+        None, alias="Do"
+    )
+    dc: Annotated[Real | None, about("contact diameter", unit="L", above=0, usual=WIDTH)] = Field(None, alias="Dc")
 
 
 class RigidSection(Row):
     """Property line under OPTION=RIGID."""
 
-    e: Annotated[Real | None, about("Young's modulus", unit="F/L2", at_least=0)] = Field(None, alias="E")
-    g: Annotated[Real, about("shear modulus", unit="F/L2", at_least=0)] = Field(alias="G")
-    do: Annotated[Real, about(_DO, unit="L", above=0)] = Field(alias="Do")
-    di: Annotated[Real, about("internal diameter", unit="L", at_least=0)] = Field(alias="Di")
-    density: Annotated[Real, about("density of the wall", unit="M/L3", at_least=0)]
-    area: Annotated[Real | None, about("area of the section", unit="L2", above=0)] = Field(None, alias="A")
-    second_moment: Annotated[Real | None, about("second moment of area", unit="L4", above=0)] = Field(None, alias="I")
-    polar_moment: Annotated[Real | None, about("polar second moment of area", unit="L4", above=0)] = Field(
+    e: Annotated[Real | None, about("Young's modulus", unit="F/L2", at_least=0, usual=YOUNG)] = Field(None, alias="E")
+    g: Annotated[Real, about("shear modulus", unit="F/L2", at_least=0, usual=SHEAR)] = Field(alias="G")
+    do: Annotated[Real, about(_DO, unit="L", above=0, usual=(WIDTH, PIPE_WALL, OUTER_WIDTH))] = Field(alias="Do")
+    di: Annotated[
+        Real,
+        about(
+            "internal diameter",
+            unit="L",
+            at_least=0,
+            usual=Usual(
+                low=0.1, why="a smaller bore is a wall thickness", of="/do", when="a steel pipe", code="UNT006"
+            ),
+        ),
+    ] = Field(alias="Di")
+    density: Annotated[Real, about("density of the wall", unit="M/L3", at_least=0, usual=WALL)]
+    area: Annotated[Real | None, about("area of the section", unit="L2", above=0, usual=MODEL)] = Field(None, alias="A")
+    second_moment: Annotated[Real | None, about("second moment of area", unit="L4", above=0, usual=MODEL)] = Field(
+        None, alias="I"
+    )
+    polar_moment: Annotated[Real | None, about("polar second moment of area", unit="L4", above=0, usual=MODEL)] = Field(
         None, alias="J"
     )
-    dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0)] = Field(None, alias="Dd")
-    db: Annotated[Real | None, about("buoyancy diameter", unit="L", at_least=0)] = Field(None, alias="Db")
-    dc: Annotated[Real | None, about("contact diameter", unit="L", above=0)] = Field(None, alias="Dc")
+    dd: Annotated[
+        Real | None,
+        about(
+            "drag diameter",
+            unit="L",
+            at_least=0,
+            usual=Usual(high=11.5, why="coatings and strakes are no wider", of="/do", code="UNT006"),
+        ),
+    ] = Field(None, alias="Dd")
+    db: Annotated[
+        Real | None,
+        about(
+            "buoyancy diameter",
+            unit="L",
+            at_least=0,
+            usual=Usual(high=11.5, why="coatings and strakes are no wider", of="/do", code="UNT006"),
+        ),
+    ] = Field(None, alias="Db")
+    dc: Annotated[Real | None, about("contact diameter", unit="L", above=0, usual=WIDTH)] = Field(None, alias="Dc")
 
 
 class MooringSection(Row):
     """Property line under OPTION=MOORING."""
 
-    ea: Annotated[Real, about("axial stiffness", unit="F", at_least=0)] = Field(alias="EA")
-    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0)]
-    do: Annotated[Real, about(_DO, unit="L", above=0)] = Field(alias="Do")
-    dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0)] = Field(None, alias="Dd")
-    db: Annotated[Real | None, about("buoyancy diameter", unit="L", at_least=0)] = Field(None, alias="Db")
+    ea: Annotated[Real, about("axial stiffness", unit="F", at_least=0, usual=MODEL)] = Field(alias="EA")
+    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0, usual=MODEL)]
+    do: Annotated[Real, about(_DO, unit="L", above=0, usual=(WIDTH, OUTER_WIDTH, MASS_WIDTH))] = Field(alias="Do")
+    dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(
+        None, alias="Dd"
+    )
+    db: Annotated[Real | None, about("buoyancy diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(
+        None, alias="Db"
+    )
 
 
 class TrussSection(Row):
     """Property line under OPTION=TRUSS."""
 
-    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0)] = Field(None, alias="EA")
-    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0)]
-    do: Annotated[Real, about(_DO, unit="L", above=0)] = Field(alias="Do")
-    di: Annotated[Real | None, about("internal diameter", unit="L", at_least=0)] = Field(None, alias="Di")
-    dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0)] = Field(None, alias="Dd")
-    db: Annotated[Real | None, about("buoyancy diameter", unit="L", at_least=0)] = Field(None, alias="Db")
-    dc: Annotated[Real | None, about("contact diameter", unit="L", above=0)] = Field(None, alias="Dc")
+    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0, usual=MODEL)] = Field(None, alias="EA")
+    mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0, usual=MODEL)]
+    do: Annotated[Real, about(_DO, unit="L", above=0, usual=(WIDTH, OUTER_WIDTH, MASS_WIDTH))] = Field(alias="Do")
+    di: Annotated[Real | None, about("internal diameter", unit="L", at_least=0, usual=WIDTH)] = Field(None, alias="Di")
+    dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(
+        None, alias="Dd"
+    )
+    db: Annotated[Real | None, about("buoyancy diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(
+        None, alias="Db"
+    )
+    dc: Annotated[Real | None, about("contact diameter", unit="L", above=0, usual=WIDTH)] = Field(None, alias="Dc")
 
 
 class GeometricSet(Record):

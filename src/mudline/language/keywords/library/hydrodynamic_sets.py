@@ -10,6 +10,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ADDED_MASS, ALONG_DRAG, ANY, DRAG, INERTIA, LIFT
 from mudline.language.keywords.values import Facts, Name, Names, Other, Real, RealOrName
 
 _ORDER = "the order, which is that of decks of a related program: the manual page of the keyword was not seen"
@@ -19,24 +20,39 @@ _OTHERS = "other types (by Reynolds number, moonpools, buoys), whose lines are p
 class ConstantCoefficients(Row):
     """The line of TYPE=CONSTANT."""
 
-    normal_drag: Annotated[Real, about("normal drag coefficient", unit="-", at_least=0, inferred=_ORDER)]
-    tangential_drag: Annotated[Real | None, about("tangential drag coefficient", unit="-", default="0", at_least=0)] = (
-        None
-    )
-    normal_inertia: Annotated[Real | None, about("normal inertia coefficient", unit="-", default="2", at_least=0)] = (
-        None
-    )
+    normal_drag: Annotated[Real, about("normal drag coefficient", unit="-", at_least=0, inferred=_ORDER, usual=DRAG)]
+    tangential_drag: Annotated[
+        Real | None, about("tangential drag coefficient", unit="-", default="0", at_least=0, usual=ALONG_DRAG)
+    ] = None
+    normal_inertia: Annotated[
+        Real | None, about("normal inertia coefficient", unit="-", default="2", at_least=0, usual=INERTIA)
+    ] = None
     normal_added_mass: Annotated[
         Real | None,
-        about("normal added mass coefficient", unit="-", default="normal inertia - 1", at_least=0, inferred=_ORDER),
+        about(
+            "normal added mass coefficient",
+            unit="-",
+            default="normal inertia - 1",
+            at_least=0,
+            inferred=_ORDER,
+            usual=ADDED_MASS,
+        ),
     ] = None
     tangential_added_mass: Annotated[
         Real | None,
-        about("tangential added mass coefficient", unit="-", default="0", at_least=0, inferred=_ORDER),
+        about(
+            "tangential added mass coefficient", unit="-", default="0", at_least=0, inferred=_ORDER, usual=ADDED_MASS
+        ),
     ] = None
     drag_lift: Annotated[
         RealOrName | None,
-        about("drag lift coefficient, or a curve of *DRAG LIFT", unit="-", default="none", names=Names.DRAG_LIFT),
+        about(
+            "drag lift coefficient, or a curve of *DRAG LIFT",
+            unit="-",
+            default="none",
+            names=Names.DRAG_LIFT,
+            usual=LIFT,
+        ),
     ] = None
 
 
@@ -74,8 +90,8 @@ class HydrodynamicSets(OpenBlock):
 class LiftPoint(Row):
     """A point of a curve."""
 
-    ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-")]
-    coefficient: Annotated[Real, about("drag lift coefficient there", unit="-")]
+    ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-", usual=ANY)]
+    coefficient: Annotated[Real, about("drag lift coefficient there", unit="-", usual=LIFT)]
 
 
 class LiftCurve(Record):

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ALONG
 from mudline.language.keywords.values import LINE_SETS, Facts, Name, Names, OpaqueKeyword, Real
 
 
@@ -77,8 +78,10 @@ class SectionStretch(Row):
     """Values of SECTION=."""
 
     set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
-    start: Annotated[Real, about("distance along the line where the section starts" + _DISTANCE, unit="L")]
-    end: Annotated[Real | None, about("distance along the line where it ends" + _DISTANCE, unit="L")] = None
+    start: Annotated[Real, about("distance along the line where the section starts" + _DISTANCE, unit="L", usual=ALONG)]
+    end: Annotated[Real | None, about("distance along the line where it ends" + _DISTANCE, unit="L", usual=ALONG)] = (
+        None
+    )
 
 
 class PathSection(Record):
@@ -126,15 +129,19 @@ class SectionLength(Row):
     """Values of SECTION=."""
 
     set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
-    length: Annotated[Real, about("length of the section", unit="L", at_least=0, inferred=_RANGE)]
+    length: Annotated[Real, about("length of the section", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)]
 
 
 class SectionMesh(Row):
     """Element lengths along a section."""
 
-    start: Annotated[Real | None, about("shortest element at the start", unit="L", at_least=0, inferred=_RANGE)] = None
-    longest: Annotated[Real | None, about("longest element", unit="L", at_least=0, inferred=_RANGE)] = None
-    end: Annotated[Real | None, about("shortest element at the end", unit="L", at_least=0, inferred=_RANGE)] = None
+    start: Annotated[
+        Real | None, about("shortest element at the start", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)
+    ] = None
+    longest: Annotated[Real | None, about("longest element", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)] = None
+    end: Annotated[
+        Real | None, about("shortest element at the end", unit="L", at_least=0, inferred=_RANGE, usual=ALONG)
+    ] = None
 
 
 class GroupSection(Record):

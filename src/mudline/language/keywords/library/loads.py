@@ -11,6 +11,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record
 from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.usual import ANY, OF_A_KIND, Usual
 from mudline.language.keywords.values import (
     Count,
     Equation,
@@ -51,21 +52,24 @@ class FixedNode(Record):
 
     rule = "fixed_node"
     node: Annotated[Ident, about("node number, or its label", names=Names.NODE)]
-    dof: Annotated[Whole, about(_DOF)]
-    value: Annotated[Real | None, about(_VALUE, default="0")] = None
+    dof: Annotated[Whole, about(_DOF, usual=OF_A_KIND)]
+    value: Annotated[Real | None, about(_VALUE, default="0", usual=OF_A_KIND)] = None
     fixation: Fixation = None
 
 
 class FixedValues(ListRow):
     """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
 
-    start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE)]
-    end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE)]
+    start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE, usual=OF_A_KIND)]
+    end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE, usual=OF_A_KIND)]
     third: Annotated[
-        Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
+        Whole | None,
+        about("of three values the degree of freedom, of five the increment", inferred=_FOUR, usual=OF_A_KIND),
     ] = None
-    fourth: Annotated[Either | None, about("of five values the degree of freedom", inferred=_FOUR)] = None
-    fifth: Annotated[Real | None, about(_VALUE, default="0")] = None
+    fourth: Annotated[Either | None, about("of five values the degree of freedom", inferred=_FOUR, usual=OF_A_KIND)] = (
+        None
+    )
+    fifth: Annotated[Real | None, about(_VALUE, default="0", usual=OF_A_KIND)] = None
 
 
 class FixedRange(Record):
@@ -149,9 +153,9 @@ class Moments(Block):
     example = "*MOMENTS\n 0.5, 1.0, 0.0\n"
 
     keyword: Literal["MOMENTS"] = "MOMENTS"
-    molin: Annotated[Real | None, about("coefficient of Molin", default="0")] = None
-    yaw: Annotated[Real | None, about("yaw factor of Molin", default="0", at_least=0, at_most=1)] = None
-    munk: Annotated[Real | None, about("factor of Munk", default="0", at_least=0, at_most=1)] = None
+    molin: Annotated[Real | None, about("coefficient of Molin", default="0", usual=ANY)] = None
+    yaw: Annotated[Real | None, about("yaw factor of Molin", default="0", at_least=0, at_most=1, usual=ANY)] = None
+    munk: Annotated[Real | None, about("factor of Munk", default="0", at_least=0, at_most=1, usual=ANY)] = None
 
 
 _ONE_LINE = "the manual prints the line over several: it is one"
@@ -165,10 +169,41 @@ class FluidSet(Record):
     set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", names=Names.SET)] = Field(
         default=None, alias="set"
     )
-    level: Annotated[Real, about("height of its free surface above the mudline", unit="L")]
-    density: Annotated[Real, about("mass density", unit="M/L3", at_least=0)]
-    pressure: Annotated[Real | None, about("pressure above the hydrostatic one", unit="F/L2", default="0")] = None
-    velocity: Annotated[Real | None, about("velocity; a negative one turns the flow", unit="L/T", default="0")] = None
+    level: Annotated[
+        Real,
+        about(
+            "height of its free surface above the mudline",
+            unit="L",
+            usual=Usual(high=300.0, why="no line rises higher", of="m above the water"),
+        ),
+    ]
+    density: Annotated[
+        Real,
+        about(
+            "mass density",
+            unit="M/L3",
+            at_least=0,
+            usual=Usual(1.0, 2600.0, "from gas to heavy mud", meant=850.0, within=8.0),
+        ),
+    ]
+    pressure: Annotated[
+        Real | None,
+        about(
+            "pressure above the hydrostatic one",
+            unit="F/L2",
+            default="0",
+            usual=Usual(-1e7, 3e8, "wells have up to 2000 bar"),
+        ),
+    ] = None
+    velocity: Annotated[
+        Real | None,
+        about(
+            "velocity; a negative one turns the flow",
+            unit="L/T",
+            default="0",
+            usual=Usual(-100.0, 100.0, "faster flow erodes steel"),
+        ),
+    ] = None
     coriolis: Annotated[
         _Switch, setting("CORIOLIS", "Coriolis forces", default="INCLUDE", inline=True, inferred=_ONE_LINE)
     ] = None

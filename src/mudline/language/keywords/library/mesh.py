@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import COMPONENT, COUNT, POSITION
 from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, Whole
 
 
@@ -14,9 +15,12 @@ class NodeRow(Row):
     """Columns of the table of nodes."""
 
     node: Annotated[Whole, about("node number", defines=Names.NODE)]
-    x: Annotated[Real, about("vertical coordinate, positive upwards; the mudline of a flat seabed is at 0", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate", unit="L")]
-    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
+    x: Annotated[
+        Real,
+        about("vertical coordinate, positive upwards; the mudline of a flat seabed is at 0", unit="L", usual=POSITION),
+    ]
+    y: Annotated[Real, about("horizontal coordinate", unit="L", usual=POSITION)]
+    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0", usual=POSITION)] = None
 
 
 class NodeRange(ListRow):
@@ -64,20 +68,20 @@ class ElementRow(Row):
     element: Annotated[Whole, about("element number", defines=Names.ELEMENT)]
     node1: Annotated[Ident, about("first node", names=Names.NODE)]
     node2: Annotated[Ident, about("second node", names=Names.NODE)]
-    v1: Annotated[Real | None, about(_AXIS.format(1, "y"), unit="-")] = None
-    v2: Annotated[Real | None, about(_AXIS.format(2, "y"), unit="-")] = None
-    v3: Annotated[Real | None, about(_AXIS.format(3, "y"), unit="-")] = None
-    w1: Annotated[Real | None, about(_AXIS.format(1, "z"), unit="-")] = None
-    w2: Annotated[Real | None, about(_AXIS.format(2, "z"), unit="-")] = None
-    w3: Annotated[Real | None, about(_AXIS.format(3, "z"), unit="-")] = None
+    v1: Annotated[Real | None, about(_AXIS.format(1, "y"), unit="-", usual=COMPONENT)] = None
+    v2: Annotated[Real | None, about(_AXIS.format(2, "y"), unit="-", usual=COMPONENT)] = None
+    v3: Annotated[Real | None, about(_AXIS.format(3, "y"), unit="-", usual=COMPONENT)] = None
+    w1: Annotated[Real | None, about(_AXIS.format(1, "z"), unit="-", usual=COMPONENT)] = None
+    w2: Annotated[Real | None, about(_AXIS.format(2, "z"), unit="-", usual=COMPONENT)] = None
+    w3: Annotated[Real | None, about(_AXIS.format(3, "z"), unit="-", usual=COMPONENT)] = None
 
 
 class ElementPattern(ListRow):
     """Master, number of elements with it, and the step of element and node numbers."""
 
     master: Annotated[Whole, about("existing element whose pattern is repeated", names=Names.ELEMENT)]
-    count: Annotated[Whole, about("number of elements, the master included", at_least=1)]
-    increment: Annotated[Whole | None, about("step of element and node numbers", default="1")] = None
+    count: Annotated[Whole, about("number of elements, the master included", at_least=1, usual=COUNT)]
+    increment: Annotated[Whole | None, about("step of element and node numbers", default="1", usual=COUNT)] = None
 
 
 class ElementRows(Record):

@@ -10,6 +10,7 @@ from mudline.language.keywords.common import Node, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ALONG, ANY, COUNT, FORCE_CURVE, OF_ITS_CURVE
 from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
 
 
@@ -43,18 +44,22 @@ class PipSections(Block):
 class PipPoint(Row):
     """A point of a curve."""
 
-    deflection: Annotated[Real, about("deflection", unit="L", at_least=0)]
-    force: Annotated[Real, about("contact force there", unit="F")]
+    deflection: Annotated[Real, about("deflection", unit="L", at_least=0, usual=OF_ITS_CURVE)]
+    force: Annotated[Real, about("contact force there", unit="F", usual=OF_ITS_CURVE)]
 
 
 class PowerLaw(Row):
     """The law of TYPE=POWER LAW."""
 
-    largest: Annotated[Real, about("largest contact force", unit="F", at_least=0)]
+    largest: Annotated[Real, about("largest contact force", unit="F", at_least=0, usual=ANY)]
     exponent: Annotated[
         Real | None,
         about(
-            "exponent", default="5", above=0, inferred="the default: a page on theory says 10, that of the keyword 5"
+            "exponent",
+            default="5",
+            above=0,
+            inferred="the default: a page on theory says 10, that of the keyword 5",
+            usual=ANY,
         ),
     ] = None
 
@@ -80,6 +85,7 @@ class PipCurve(Record):
             "of DATA PAIRS: points in any order; at least two",
             "pipe-in-pipe stiffness",
             abscissa="deflection",
+            usual=FORCE_CURVE,
         ),
     ] = None
 
@@ -110,7 +116,9 @@ class PipStiffness(Block):
 
 _CURVES = "the curve is one of *PIP STIFFNESS, as of *LINES PIP"
 _SLIDING = "the form of many sliding connections: that of one, with GEN= in place of its node"
-Stiffness = Annotated[Real | None, setting("STIFFNESS", "stiffness, or give CURVE=", unit="F/L", inline=True)]
+Stiffness = Annotated[
+    Real | None, setting("STIFFNESS", "stiffness, or give CURVE=", unit="F/L", inline=True, usual=ANY)
+]
 CurveName = Annotated[
     Name | None,
     setting(
@@ -118,7 +126,8 @@ CurveName = Annotated[
     ),
 ]
 AxialStiffness = Annotated[
-    Real | None, setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True)
+    Real | None,
+    setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True, usual=ANY),
 ]
 AxialCurve = Annotated[Name | None, setting("AXIAL_NONLINEAR", "of sliding ones: axial curve", inline=True)]
 
@@ -128,7 +137,7 @@ class PipRange(ListRow):
 
     start: Annotated[Ident, about("first node", names=Names.NODE)]
     end: Annotated[Ident, about("last node", names=Names.NODE)]
-    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1, usual=COUNT)] = None
 
 
 class PipPair(Record):
@@ -172,20 +181,22 @@ class PipConnections(Block):
     keyword: Literal["PIP CONNECTION"] = "PIP CONNECTION"
     orientation: Annotated[Name | None, setting("ORIENTATION", "from present or from initial positions")] = None
     bandwidth: Annotated[Literal["UPDATED"] | None, setting("BANDWIDTH", "renumbered as the pipes slide")] = None
-    tolerance: Annotated[Real | None, setting("PENETRATION_TOLERANCE", "tolerance of penetration", at_least=0)] = None
+    tolerance: Annotated[
+        Real | None, setting("PENETRATION_TOLERANCE", "tolerance of penetration", at_least=0, usual=ANY)
+    ] = None
     connections: list[PipPair | PipPairs] = []
 
 
 class Spacing(Row):
     """Where connections are, measured from the start of the primary line."""
 
-    spacing: Annotated[Real | None, about("distance between two", unit="L", above=0)] = None
-    start: Annotated[Real | None, about("distance of the first", unit="L", at_least=0)] = None
-    end: Annotated[Real | None, about("distance of the last", unit="L", at_least=0)] = None
+    spacing: Annotated[Real | None, about("distance between two", unit="L", above=0, usual=ALONG)] = None
+    start: Annotated[Real | None, about("distance of the first", unit="L", at_least=0, usual=ALONG)] = None
+    end: Annotated[Real | None, about("distance of the last", unit="L", at_least=0, usual=ALONG)] = None
 
 
 class _Stiffness(Row):
-    stiffness: Annotated[Real, about("stiffness", unit="F/L", at_least=0)]
+    stiffness: Annotated[Real, about("stiffness", unit="F/L", at_least=0, usual=ANY)]
 
 
 class _Curve(Row):
@@ -233,9 +244,9 @@ class LinePair(Record):
         Literal["PIP", "POP"] | None,
         setting("TYPE", "pipe in pipe, or on pipe", default="PIP", inline=True, inferred="it may be left out"),
     ] = Field(default=None, alias="type")
-    offset: Annotated[Real | None, setting("OFFSET", "offset along the line", unit="L", default="0", inline=True)] = (
-        None
-    )
+    offset: Annotated[
+        Real | None, setting("OFFSET", "offset along the line", unit="L", default="0", inline=True, usual=ALONG)
+    ] = None
     links: list[PipLink] = []
 
 

@@ -10,6 +10,7 @@ from mudline.language.keywords.common import Element
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, WIDTH
 from mudline.language.keywords.values import Ident, Name, Names, Other, Real, Whole
 
 
@@ -18,7 +19,7 @@ class ElementSpan(ListRow):
 
     start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
     end: Annotated[Ident, about("last element", names=Names.ELEMENT)]
-    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1, usual=COUNT)] = None
 
 
 class ElementList(Record):
@@ -93,7 +94,9 @@ class ClearRange(Record):
     rule = "clear_range"
     start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
     end: Annotated[Ident, about("last element", names=Names.ELEMENT)]
-    diameter: Annotated[Real | None, about("external diameter", unit="L", default="of the model", above=0)] = None
+    diameter: Annotated[
+        Real | None, about("external diameter", unit="L", default="of the model", above=0, usual=WIDTH)
+    ] = None
 
 
 class ClearSets(Block):
@@ -122,7 +125,9 @@ class CheckedPlace(Record):
 
     rule = "checked_place"
     element: Element
-    node: Annotated[Whole, about("place on the element; 1 first node, 2 middle, 3 second", at_least=1, at_most=3)]
+    node: Annotated[
+        Whole, about("place on the element; 1 first node, 2 middle, 3 second", at_least=1, at_most=3, usual=COUNT)
+    ]
     output: Annotated[
         Literal["ALL", "LFRD", "LRFD", "WSD", "VMS", "METHOD1", "METHOD2", "METHOD3", "METHOD4A", "METHOD4B"],
         setting("OUTPUT", "the code; LFRD is how the manual spells LRFD", inline=True),
@@ -187,8 +192,8 @@ class TimeDomainOptions(Block):
     example = "*TD OPTIONS\n 100.0, ENSEMBLES=4, SCALE=1.0\n"
 
     keyword: Literal["TD OPTIONS"] = "TD OPTIONS"
-    start: Annotated[Real, about("time from which the histories count", unit="T", inferred=_SECTION)]
+    start: Annotated[Real, about("time from which the histories count", unit="T", inferred=_SECTION, usual=OF_THE_RUN)]
     ensembles: Annotated[
-        Whole | None, setting("ENSEMBLES", "number of ensembles", default="4", at_least=2, inline=True)
+        Whole | None, setting("ENSEMBLES", "number of ensembles", default="4", at_least=2, inline=True, usual=COUNT)
     ] = None
-    scale: Annotated[Real | None, setting("SCALE", "factor on the stress", default="1", inline=True)] = None
+    scale: Annotated[Real | None, setting("SCALE", "factor on the stress", default="1", inline=True, usual=ANY)] = None

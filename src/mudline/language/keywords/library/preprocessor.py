@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.usual import ANY, OF_THE_RUN
 from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
 
 
@@ -21,6 +22,7 @@ class Parameter(Record):
         about(
             "number, equation, text, or a list between slashes: /a:1 b:2 3/ gives name_a, name_b and name_1",
             inferred="unnamed items are counted by themselves; a colon or a semicolon joins name and value",
+            usual=ANY,
         ),
     ]
 
@@ -44,9 +46,9 @@ class Parameters(Block):
 class ValueRange(ListRow):
     """First and last value, and the step between them."""
 
-    start: Annotated[Real, about("first value")]
-    end: Annotated[Real, about("last value")]
-    increment: Annotated[Real | None, about("step", default="1")] = None
+    start: Annotated[Real, about("first value", usual=OF_THE_RUN)]
+    end: Annotated[Real, about("last value", usual=OF_THE_RUN)]
+    increment: Annotated[Real | None, about("step", default="1", usual=OF_THE_RUN)] = None
 
 
 class VariedParameter(Record):

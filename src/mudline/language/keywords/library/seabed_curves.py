@@ -10,6 +10,7 @@ from mudline.language.keywords.common import NO_SET
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import CURVE_FORCE, MODEL, OF_ITS_CURVE
 from mudline.language.keywords.values import Facts, Name, Names, Real, Successor
 
 _PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve replaces"
@@ -25,11 +26,14 @@ class CurvePoint(Row):
             "embedment ratio: mean depth of the element's nodes over external diameter",
             unit="-",
             heading="Embedment Ratio",
+            usual=MODEL,
         ),
     ]
     force: Annotated[
         Real,
-        about("seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH, heading="Seabed Force"),
+        about(
+            "seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH, heading="Seabed Force", usual=OF_ITS_CURVE
+        ),
     ]
 
 
@@ -38,7 +42,9 @@ class StiffnessCurve(Record):
 
     rule = "stiffness_curve"
     name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES", defines=Names.CURVE)]
-    points: Annotated[Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio")]
+    points: Annotated[
+        Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", usual=CURVE_FORCE)
+    ]
 
 
 class SeabedStiffness(Block):
@@ -69,7 +75,9 @@ class EmbedmentCurve(Record):
         Name | None,
         setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
-    points: Annotated[Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio")]
+    points: Annotated[
+        Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", usual=CURVE_FORCE)
+    ]
 
 
 class Embedment(Block):

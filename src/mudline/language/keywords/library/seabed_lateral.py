@@ -10,6 +10,14 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import (
+    ANY,
+    DIRECTION,
+    FRICTION,
+    MODEL,
+    POSITION,
+    Usual,
+)
 from mudline.language.keywords.values import Facts, Name, Names, OpaqueKeyword, Real
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"
@@ -27,10 +35,24 @@ class LinearFriction(OpenBlock):
 
     keyword: Literal["FRICTION"] = "FRICTION"
     longitudinal: Annotated[
-        Real | None, about("stiffness along the line" + _NEEDS, unit="F/L2", default="0", inferred="per unit length")
+        Real | None,
+        about(
+            "stiffness along the line" + _NEEDS,
+            unit="F/L2",
+            default="0",
+            inferred="per unit length",
+            usual=Usual(95.0, 2.1e11, remark=True),
+        ),
     ] = None
     transverse: Annotated[
-        Real | None, about("stiffness across the line" + _NEEDS, unit="F/L2", default="0", inferred="per unit length")
+        Real | None,
+        about(
+            "stiffness across the line" + _NEEDS,
+            unit="F/L2",
+            default="0",
+            inferred="per unit length",
+            usual=Usual(95.0, 2.1e11, remark=True),
+        ),
     ] = None
 
 
@@ -49,34 +71,65 @@ NO_FRICTION = OpaqueKeyword(
 class Coefficients(Row):
     """Values of COEFFICIENTS=."""
 
-    first: Annotated[Real, about("friction coefficient along u1", unit="-", at_least=0)]
-    second: Annotated[Real, about("friction coefficient along u2", unit="-", at_least=0)]
+    first: Annotated[Real, about("friction coefficient along u1", unit="-", at_least=0, usual=FRICTION)]
+    second: Annotated[Real, about("friction coefficient along u2", unit="-", at_least=0, usual=FRICTION)]
 
 
 class TangentialStiffness(Row):
     """Values of STIFFNESS=."""
 
-    first: Annotated[Real, about("tangential spring of a node along u1", unit="F/L", above=0)]
+    first: Annotated[Real, about("tangential spring of a node along u1", unit="F/L", above=0, usual=ANY)]
     second: Annotated[
-        Real | None, about("tangential spring of a node along u2", unit="F/L", default="as along u1", above=0)
+        Real | None,
+        about("tangential spring of a node along u2", unit="F/L", default="as along u1", above=0, usual=ANY),
     ] = None
 
 
 class Peak(Row):
     """Values of PEAK=."""
 
-    factor: Annotated[Real, about("lateral resistance over the normal force at breakout", unit="-", above=0)]
+    factor: Annotated[
+        Real,
+        about(
+            "lateral resistance over the normal force at breakout",
+            unit="-",
+            above=0,
+            usual=Usual(high=10.0, why="a buried pipe has 1 to 5", remark=True),
+        ),
+    ]
     displacement: Annotated[
         Real | None,
-        about("displacement from the place of first contact at which it is reached", unit="L", above=0, default="none"),
+        about(
+            "displacement from the place of first contact at which it is reached",
+            unit="L",
+            above=0,
+            default="none",
+            usual=Usual(high=5.0, why="soil yields within a few diameters", remark=True),
+        ),
     ] = None
 
 
 class Residual(Row):
     """Values of RESIDUAL=."""
 
-    factor: Annotated[Real, about("lateral resistance over the normal force after breakout", unit="-", at_least=0)]
-    displacement: Annotated[Real, about("displacement at which it is reached", unit="L", above=0)]
+    factor: Annotated[
+        Real,
+        about(
+            "lateral resistance over the normal force after breakout",
+            unit="-",
+            at_least=0,
+            usual=Usual(high=10.0, why="a buried pipe has 1 to 5", remark=True),
+        ),
+    ]
+    displacement: Annotated[
+        Real,
+        about(
+            "displacement at which it is reached",
+            unit="L",
+            above=0,
+            usual=Usual(high=5.0, why="soil yields within a few diameters", remark=True),
+        ),
+    ]
 
 
 class FrictionSet(Record):
@@ -93,6 +146,7 @@ class FrictionSet(Record):
             "AXIAL: u1 along the line in the plane of the seabed; an angle: u1 from +Y about its normal",
             unit="deg",
             default="AXIAL",
+            usual=DIRECTION,
         ),
     ] = None
     criterion: Annotated[
@@ -128,32 +182,38 @@ class SeabedFriction(Block):
 class TrenchGeometry(Row):
     """Values of GEOMETRY=."""
 
-    depth: Annotated[Real, about("depth of the trench", unit="L", above=0)]
-    bottom_width: Annotated[Real, about("width at the bottom", unit="L", above=0)]
-    upper_width: Annotated[Real, about("width at the top", unit="L", above=0)]
+    depth: Annotated[Real, about("depth of the trench", unit="L", above=0, usual=MODEL)]
+    bottom_width: Annotated[Real, about("width at the bottom", unit="L", above=0, usual=MODEL)]
+    upper_width: Annotated[Real, about("width at the top", unit="L", above=0, usual=MODEL)]
 
 
 class ResistancePoint(Row):
     """A row below PEAK=TABLE."""
 
-    offset: Annotated[Real, about("distance from the centreline; not negative, larger in each row", unit="L")]
-    resistance: Annotated[Real, about("lateral resistance per unit length there", unit="F/L", at_least=0)]
+    offset: Annotated[
+        Real, about("distance from the centreline; not negative, larger in each row", unit="L", usual=MODEL)
+    ]
+    resistance: Annotated[Real, about("lateral resistance per unit length there", unit="F/L", at_least=0, usual=MODEL)]
 
 
 class TrenchResidual(Row):
     """Values of RESIDUAL=."""
 
-    resistance: Annotated[Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0)]
-    displacement: Annotated[Real, about("distance from the centreline from which on it holds", unit="L", above=0)]
+    resistance: Annotated[
+        Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0, usual=MODEL)
+    ]
+    displacement: Annotated[
+        Real, about("distance from the centreline from which on it holds", unit="L", above=0, usual=MODEL)
+    ]
 
 
 class Centreline(Row):
     """Values of CENTRELINE=: two points of a straight line."""
 
-    y0: Annotated[Real, about("Y of the first point", unit="L")]
-    z0: Annotated[Real, about("Z of the first point", unit="L")]
-    y1: Annotated[Real, about("Y of the second point", unit="L")]
-    z1: Annotated[Real, about("Z of the second point", unit="L")]
+    y0: Annotated[Real, about("Y of the first point", unit="L", usual=POSITION)]
+    z0: Annotated[Real, about("Z of the first point", unit="L", usual=POSITION)]
+    y1: Annotated[Real, about("Y of the second point", unit="L", usual=POSITION)]
+    z1: Annotated[Real, about("Z of the second point", unit="L", usual=POSITION)]
 
 
 class TrenchSet(Record):
@@ -179,6 +239,7 @@ class TrenchSet(Record):
             "rows below",
             unit="F/L",
             at_least=0,
+            usual=MODEL,
         ),
     ] = None
     table: Annotated[
@@ -200,7 +261,12 @@ class TrenchSet(Record):
     smoothing: Annotated[
         Real | None,
         setting(
-            "SMOOTHING", "half width of parabolas in the corners of the resistance", unit="L", at_least=0, default="0"
+            "SMOOTHING",
+            "half width of parabolas in the corners of the resistance",
+            unit="L",
+            at_least=0,
+            default="0",
+            usual=MODEL,
         ),
     ] = None
     centreline: Annotated[

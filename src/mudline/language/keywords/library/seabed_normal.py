@@ -8,6 +8,7 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import ANY, LEAST_BED, MODEL, Usual
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
@@ -23,6 +24,7 @@ class ContactSet(Record):
             "normal stiffness of a node; replaces the stiffness or curve per unit length of this set",
             unit="F/L",
             at_least=0,
+            usual=ANY,
         ),
     ] = None
     smoothing: Annotated[
@@ -34,6 +36,7 @@ class ContactSet(Record):
             unit="L",
             default="AUTO",
             above=0,
+            usual=ANY,
         ),
     ] = None
     form: Annotated[
@@ -48,6 +51,7 @@ class ContactSet(Record):
             unit="FT/L2",
             at_least=0,
             default="0",
+            usual=ANY,
         ),
     ] = None
 
@@ -68,29 +72,33 @@ class SeabedContact(Block):
 class Strength(Row):
     """Values of STRENGTH=."""
 
-    mudline: Annotated[Real, about("undrained shear strength at the mudline", unit="F/L2")]
-    gradient: Annotated[Real | None, about("its increase per depth", unit="F/L3", default="0")] = None
+    mudline: Annotated[Real, about("undrained shear strength at the mudline", unit="F/L2", usual=MODEL)]
+    gradient: Annotated[Real | None, about("its increase per depth", unit="F/L3", default="0", usual=MODEL)] = None
 
 
 class Bearing(Row):
     """Values of BEARING=: N_c = a (z/D)^b."""
 
-    factor: Annotated[Real, about("a of the bearing factor", unit="-", default="6")]
-    exponent: Annotated[Real, about("b of the bearing factor", unit="-", default="0.25")]
+    factor: Annotated[Real, about("a of the bearing factor", unit="-", default="6", usual=MODEL)]
+    exponent: Annotated[Real, about("b of the bearing factor", unit="-", default="0.25", usual=MODEL)]
 
 
 class Uplift(Row):
     """Values of SUCTION=."""
 
-    ratio: Annotated[Real, about("resistance against uplift over that against penetration", unit="-", default="0.6")]
-    decay: Annotated[Real, about("length of its decay over the largest penetration", unit="-", default="1")]
+    ratio: Annotated[
+        Real, about("resistance against uplift over that against penetration", unit="-", default="0.6", usual=MODEL)
+    ]
+    decay: Annotated[
+        Real, about("length of its decay over the largest penetration", unit="-", default="1", usual=MODEL)
+    ]
 
 
 class Buoyancy(Row):
     """Values of BUOYANCY=."""
 
-    factor: Annotated[Real, about("factor of the weight of displaced soil", unit="-")]
-    weight: Annotated[Real, about("submerged weight of the soil per volume", unit="F/L3")]
+    factor: Annotated[Real, about("factor of the weight of displaced soil", unit="-", usual=MODEL)]
+    weight: Annotated[Real, about("submerged weight of the soil per volume", unit="F/L3", usual=MODEL)]
 
 
 class SoilSet(Record):
@@ -101,12 +109,18 @@ class SoilSet(Record):
     strength: Annotated[Strength, setting("STRENGTH", "undrained shear strength")]
     bearing: Annotated[Bearing | None, setting("BEARING", "bearing factor", default="6, 0.25")] = None
     stiffness: Annotated[
-        Real | None, setting("STIFFNESS", "normalised largest stiffness K_max", unit="-", default="200")
+        Real | None, setting("STIFFNESS", "normalised largest stiffness K_max", unit="-", default="200", usual=MODEL)
     ] = None
     suction: Annotated[Uplift | None, setting("SUCTION", "resistance against uplift", default="0.6, 1")] = None
     repenetration: Annotated[
         Real | None,
-        setting("REPENETRATION", "delay of re-penetration, over the largest penetration", unit="-", default="0.3"),
+        setting(
+            "REPENETRATION",
+            "delay of re-penetration, over the largest penetration",
+            unit="-",
+            default="0.3",
+            usual=MODEL,
+        ),
     ] = None
     buoyancy: Annotated[Buoyancy | None, setting("BUOYANCY", "weight of displaced soil", default="none")] = None
 
@@ -131,7 +145,7 @@ class UnloadingSet(Record):
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     stiffness: Annotated[
         Real,
-        setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2"),
+        setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2", usual=LEAST_BED),
     ]
 
 
@@ -151,32 +165,40 @@ class SeabedUnloading(Block):
 class MaximumForce(Row):
     """Values of FORCE=: largest suction per unit length, factor times velocity to a power."""
 
-    factor: Annotated[Real, about("factor of the largest suction force per unit length", unit="F/L", at_least=0)]
-    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0)]
+    factor: Annotated[
+        Real, about("factor of the largest suction force per unit length", unit="F/L", at_least=0, usual=ANY)
+    ]
+    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0, usual=ANY)]
 
 
 class SuctionDepth(Row):
     """Values of DEPTH=: uplift at breakout, factor times velocity to a power."""
 
-    factor: Annotated[Real, about("factor of the uplift at breakout", unit="L", above=0)]
-    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0)]
+    factor: Annotated[Real, about("factor of the uplift at breakout", unit="L", above=0, usual=ANY)]
+    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0, usual=ANY)]
 
 
 class CutOff(Row):
     """Values of CUTOFF=: corners of the trapezoid as fractions of the uplift at breakout."""
 
-    first: Annotated[Real, about("end of the rise", unit="-", default="0.2")]
-    second: Annotated[Real, about("start of the fall", unit="-", default="0.8")]
+    first: Annotated[Real, about("end of the rise", unit="-", default="0.2", usual=MODEL)]
+    second: Annotated[Real, about("start of the fall", unit="-", default="0.8", usual=MODEL)]
 
 
 class CyclicLoading(Row):
     """Values of CYCLIC= with a floor."""
 
-    factor: Annotated[Real, about("factor on the largest force for each completed uplift cycle", unit="-", at_least=0)]
+    factor: Annotated[
+        Real, about("factor on the largest force for each completed uplift cycle", unit="-", at_least=0, usual=ANY)
+    ]
     floor: Annotated[
         Real,
         about(
-            "share of the first largest force below which the cycles do not lower it", unit="-", at_least=0, at_most=1
+            "share of the first largest force below which the cycles do not lower it",
+            unit="-",
+            at_least=0,
+            at_most=1,
+            usual=MODEL,
         ),
     ]
 
@@ -193,6 +215,7 @@ class SuctionSet(Record):
             "undrained shear strength of the soil; gives force and depth after Bridge et al. (2004)",
             unit="F/L2",
             at_least=0,
+            usual=Usual(95.0, 1e6, "less is a fluid, more is rock", code="UNT002", meant=3e3, within=30.0),
         ),
     ] = None
     force: Annotated[MaximumForce | None, setting("FORCE", "law of the largest suction force")] = None
@@ -217,6 +240,7 @@ class SuctionSet(Record):
             unit="L/T",
             default="1e-3 m/s",
             above=0,
+            usual=ANY,
         ),
     ] = None
 

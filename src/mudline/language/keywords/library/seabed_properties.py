@@ -10,6 +10,7 @@ from mudline.language.keywords.common import NO_SET
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, BED, FRICTION, LEAST_SIDE, MOBILISATION, MODEL, POSITION, Usual
 from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName, Successor
 
 _CONSTANT_FRICTION = (
@@ -28,32 +29,48 @@ class SetFriction(Row):
     """Values of FRICTION=."""
 
     longitudinal: Annotated[
-        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
     ] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
-        None
-    )
+    transverse: Annotated[
+        Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
+    ] = None
     longitudinal_mobilisation: Annotated[
-        Real | None, about("longitudinal mobilisation length", unit="L", above=0, inferred=_RANGE)
+        Real | None, about("longitudinal mobilisation length", unit="L", above=0, inferred=_RANGE, usual=MOBILISATION)
     ] = None
     transverse_mobilisation: Annotated[
-        Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE)
+        Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE, usual=MOBILISATION)
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=_CONSTANT_FRICTION)] = None
+    constant: Annotated[
+        Real | None, about("constant friction force coefficient", inferred=_CONSTANT_FRICTION, usual=ANY)
+    ] = None
     longitudinal_stiffness: Annotated[
         Real | None,
-        about("longitudinal friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
+        about(
+            "longitudinal friction stiffness of modal and frequency runs",
+            unit="F/L2",
+            at_least=0,
+            inferred=_MODAL,
+            usual=Usual(95.0, 2.1e11, remark=True),
+        ),
     ] = None
     transverse_stiffness: Annotated[
         Real | None,
-        about("transverse friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
+        about(
+            "transverse friction stiffness of modal and frequency runs",
+            unit="F/L2",
+            at_least=0,
+            inferred=_MODAL,
+            usual=Usual(95.0, 2.1e11, remark=True),
+        ),
     ] = None
 
 
 class SetSuction(Row):
     """Values of SUCTION=."""
 
-    stiffness: Annotated[Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS)]
+    stiffness: Annotated[
+        Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS, usual=LEAST_SIDE)
+    ]
     extent: Annotated[
         Real | None,
         about(
@@ -61,6 +78,7 @@ class SetSuction(Row):
             unit="L",
             above=0,
             inferred="it is above 0, as a zone without a height holds nothing; the manual gives no range",
+            usual=Usual(high=10.0, why="a few diameters", remark=True),
         ),
     ] = None
 
@@ -80,11 +98,15 @@ class SeabedSet(Record):
             unit="F/L2",
             at_least=0,
             names=Names.CURVE,
+            usual=BED,
         ),
     ] = None
     friction: Annotated[SetFriction | None, setting("FRICTION", "friction coefficients and mobilisation")] = None
     lateral: Annotated[
-        Real | None, setting("LATERAL", "lateral resistance; replaces transverse friction", unit="F/L2", at_least=0)
+        Real | None,
+        setting(
+            "LATERAL", "lateral resistance; replaces transverse friction", unit="F/L2", at_least=0, usual=LEAST_SIDE
+        ),
     ] = None
     suction: Annotated[SetSuction | None, setting("SUCTION", "suction stiffness and zone")] = None
 
@@ -120,19 +142,19 @@ _SURFACE_SUCCESSORS = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE
 class ProfilePoint(Row):
     """A point of an inline profile."""
 
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    elevation: Annotated[Real, about("elevation of the seabed there", unit="L")]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    elevation: Annotated[Real, about("elevation of the seabed there", unit="L", usual=POSITION)]
 
 
 class FrictionCoefficients(Row):
     """Friction coefficients of a legacy surface."""
 
     longitudinal: Annotated[
-        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
     ] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
-        None
-    )
+    transverse: Annotated[
+        Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0, usual=FRICTION)
+    ] = None
 
 
 class FrictionLengths(Row):
@@ -140,17 +162,33 @@ class FrictionLengths(Row):
 
     longitudinal_length: Annotated[
         Real | None,
-        about("largest longitudinal characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+        about(
+            "largest longitudinal characteristic length",
+            unit="L",
+            default=_CHARACTERISTIC_LENGTH,
+            above=0,
+            usual=Usual(high=100.0, why="10 ft by default", remark=True),
+        ),
     ] = None
     transverse_length: Annotated[
         Real | None,
-        about("largest transverse characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+        about(
+            "largest transverse characteristic length",
+            unit="L",
+            default=_CHARACTERISTIC_LENGTH,
+            above=0,
+            usual=Usual(high=100.0, why="10 ft by default", remark=True),
+        ),
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=_CONSTANT_FRICTION)] = None
-    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
-        None
-    )
-    transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
+    constant: Annotated[
+        Real | None, about("constant friction force coefficient", inferred=_CONSTANT_FRICTION, usual=ANY)
+    ] = None
+    longitudinal_mobilisation: Annotated[
+        Real | None, about("longitudinal mobilisation length", unit="L", above=0, usual=MOBILISATION)
+    ] = None
+    transverse_mobilisation: Annotated[
+        Real | None, about("transverse mobilisation length", unit="L", above=0, usual=MOBILISATION)
+    ] = None
 
 
 class Surface(Block):
@@ -159,7 +197,7 @@ class Surface(Block):
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[
         Real | None,
-        about("slope of the seabed about the origin", unit="deg", default="flat", inferred=_SLOPE),
+        about("slope of the seabed about the origin", unit="deg", default="flat", inferred=_SLOPE, usual=MODEL),
     ] = None
     profile: Annotated[
         Table | None,
@@ -176,19 +214,26 @@ class _Stiffness(Row):
     """What stands before the friction coefficients."""
 
     stiffness: Annotated[
-        Real | None, about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0)
+        Real | None,
+        about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0, usual=BED),
     ] = None
 
 
 class _Resistance(Row):
     """What stands behind the friction coefficients."""
 
-    lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0)] = None
+    lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0, usual=LEAST_SIDE)] = None
     suction_stiffness: Annotated[
-        Real | None, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS)
+        Real | None, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS, usual=LEAST_SIDE)
     ] = None
     suction_extent: Annotated[
-        Real | None, about("height of the suction zone above the seabed", unit="L", at_least=0)
+        Real | None,
+        about(
+            "height of the suction zone above the seabed",
+            unit="L",
+            at_least=0,
+            usual=Usual(high=10.0, why="a few diameters", remark=True),
+        ),
     ] = None
 
 

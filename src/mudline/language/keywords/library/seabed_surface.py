@@ -8,24 +8,25 @@ from pydantic import Field, model_validator
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import DIRECTION, MODEL, POSITION
 from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
 class PlanePoint(Row):
     """Values of POINT=."""
 
-    x: Annotated[Real, about("elevation of the point", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    z: Annotated[Real, about("horizontal coordinate Z", unit="L")]
+    x: Annotated[Real, about("elevation of the point", unit="L", usual=POSITION)]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L", usual=POSITION)]
 
 
 class PlaneBounds(Row):
     """Values of BOUNDS=: a closed range; an empty field is no bound on that side."""
 
-    y_min: Annotated[Real | None, about("smallest Y", unit="L", default="unbounded")] = None
-    y_max: Annotated[Real | None, about("largest Y", unit="L", default="unbounded")] = None
-    z_min: Annotated[Real | None, about("smallest Z", unit="L", default="unbounded")] = None
-    z_max: Annotated[Real | None, about("largest Z", unit="L", default="unbounded")] = None
+    y_min: Annotated[Real | None, about("smallest Y", unit="L", default="unbounded", usual=POSITION)] = None
+    y_max: Annotated[Real | None, about("largest Y", unit="L", default="unbounded", usual=POSITION)] = None
+    z_min: Annotated[Real | None, about("smallest Z", unit="L", default="unbounded", usual=POSITION)] = None
+    z_max: Annotated[Real | None, about("largest Z", unit="L", default="unbounded", usual=POSITION)] = None
 
 
 class Plane(Record):
@@ -36,7 +37,12 @@ class Plane(Record):
     point: Annotated[PlanePoint | None, setting("POINT", "a point of the plane; mandatory")] = None
     slope: Annotated[
         Real | None,
-        setting("SLOPE", "steepest slope; positive rises towards +Y turned by DIRECTION=; mandatory", unit="deg"),
+        setting(
+            "SLOPE",
+            "steepest slope; positive rises towards +Y turned by DIRECTION=; mandatory",
+            unit="deg",
+            usual=MODEL,
+        ),
     ] = None
     direction: Annotated[
         Real | None,
@@ -47,6 +53,7 @@ class Plane(Record):
             default="0",
             inline=True,
             behind="SLOPE",
+            usual=DIRECTION,
         ),
     ] = None
     bounds: Annotated[
@@ -104,11 +111,17 @@ class SeabedProfile(Block):
             inline=True,
             behind="INTERPOLATION",
             inferred=("the profile is taken at Y cos + Z sin, from `counter-clockwise about X`; for an elastic seabed"),
+            usual=DIRECTION,
         ),
     ] = None
     slope: Annotated[
         Real | None,
-        setting("SLOPE", "of SLOPING: slope of a plane through the origin, positive towards +Y; mandatory", unit="deg"),
+        setting(
+            "SLOPE",
+            "of SLOPING: slope of a plane through the origin, positive towards +Y; mandatory",
+            unit="deg",
+            usual=MODEL,
+        ),
     ] = None
     file: Annotated[
         Name | None,

@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import E_CURVE, EA_CURVE, EI_CURVE, OF_ITS_CURVE, Usual
 from mudline.language.keywords.values import Name, Names, Real
 
 
 class MomentCurvaturePoint(Row):
     """A point of a curve: moment first."""
 
-    moment: Annotated[Real, about("bending moment; it comes first", unit="FL")]
-    curvature: Annotated[Real, about("curvature there", unit="1/L")]
+    moment: Annotated[Real, about("bending moment; it comes first", unit="FL", usual=OF_ITS_CURVE)]
+    curvature: Annotated[Real, about("curvature there", unit="1/L", usual=OF_ITS_CURVE)]
 
 
 class MomentCurvatureCurve(Record):
@@ -28,7 +29,11 @@ class MomentCurvatureCurve(Record):
     points: Annotated[
         Table,
         curve_points(
-            MomentCurvaturePoint, "points in any order; at least two", "moment-curvature curve", abscissa="curvature"
+            MomentCurvaturePoint,
+            "points in any order; at least two",
+            "moment-curvature curve",
+            abscissa="curvature",
+            usual=EI_CURVE,
         ),
     ]
 
@@ -51,8 +56,8 @@ class MomentCurvature(Block):
 class TorqueTwistPoint(Row):
     """A point of a curve: torque first."""
 
-    torque: Annotated[Real, about("torque; it comes first", unit="FL")]
-    twist: Annotated[Real, about("twist per unit length there", unit="1/L")]
+    torque: Annotated[Real, about("torque; it comes first", unit="FL", usual=OF_ITS_CURVE)]
+    twist: Annotated[Real, about("twist per unit length there", unit="1/L", usual=OF_ITS_CURVE)]
 
 
 class TorqueTwistCurve(Record):
@@ -64,7 +69,9 @@ class TorqueTwistCurve(Record):
     ]
     points: Annotated[
         Table,
-        curve_points(TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist"),
+        curve_points(
+            TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist", usual=EI_CURVE
+        ),
     ]
 
 
@@ -84,8 +91,8 @@ class TorqueTwist(Block):
 class ForceStrainPoint(Row):
     """A point of a curve: force first."""
 
-    force: Annotated[Real, about("axial force; it comes first", unit="F")]
-    strain: Annotated[Real, about("strain there", unit="-")]
+    force: Annotated[Real, about("axial force; it comes first", unit="F", usual=OF_ITS_CURVE)]
+    strain: Annotated[Real, about("strain there", unit="-", usual=Usual(-5.0, 5.0, "rubber stretches fivefold"))]
 
 
 class ForceStrainCurve(Record):
@@ -97,7 +104,13 @@ class ForceStrainCurve(Record):
     ]
     points: Annotated[
         Table,
-        curve_points(ForceStrainPoint, "two points or more, in any order", "force-strain curve", abscissa="strain"),
+        curve_points(
+            ForceStrainPoint,
+            "two points or more, in any order",
+            "force-strain curve",
+            abscissa="strain",
+            usual=EA_CURVE,
+        ),
     ]
 
 
@@ -117,8 +130,10 @@ class ForceStrain(Block):
 class StressStrainPoint(Row):
     """A point of a curve: stress first."""
 
-    stress: Annotated[Real, about("stress; it comes first", unit="F/L2")]
-    strain: Annotated[Real, about("strain there", unit="-")]
+    stress: Annotated[
+        Real, about("stress; it comes first", unit="F/L2", usual=Usual(high=5e9, why="the strongest wire has 3 GPa"))
+    ]
+    strain: Annotated[Real, about("strain there", unit="-", usual=Usual(-5.0, 5.0, "rubber stretches fivefold"))]
 
 
 class StressStrainCurve(Record):
@@ -135,6 +150,7 @@ class StressStrainCurve(Record):
             "points in any order; at least two; without negative strains it is taken to be symmetric",
             "stress-strain curve",
             abscissa="strain",
+            usual=E_CURVE,
         ),
     ]
 

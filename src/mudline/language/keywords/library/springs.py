@@ -10,14 +10,15 @@ from mudline.language.keywords.common import Element, Freedom, Node, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import ANY, FORCE_CURVE, OF_A_KIND, OF_ITS_CURVE, ROTATION, ROTATION_CURVE, Usual
 from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, RealOrName
 
 
 class SpringPoint(Row):
     """A point of a curve."""
 
-    displacement: Annotated[Real, about("extension, positive as the spring grows longer", unit="L")]
-    force: Annotated[Real, about("force there", unit="F")]
+    displacement: Annotated[Real, about("extension, positive as the spring grows longer", unit="L", usual=OF_ITS_CURVE)]
+    force: Annotated[Real, about("force there", unit="F", usual=OF_ITS_CURVE)]
 
 
 class Springs(Record):
@@ -32,10 +33,12 @@ class Springs(Record):
         setting("SET", "element set", names=Names.SET, inferred="in place of ELEMENT=: the input table knows it"),
     ] = Field(default=None, alias="set")
     type_: Annotated[Literal["LINEAR", "NONLINEAR"], setting("TYPE", "a stiffness, or a curve")] = Field(alias="type")
-    stiffness: Annotated[Real | None, about("of LINEAR: stiffness", unit="F/L", at_least=0)] = None
+    stiffness: Annotated[Real | None, about("of LINEAR: stiffness", unit="F/L", at_least=0, usual=ANY)] = None
     points: Annotated[
         Table | None,
-        curve_points(SpringPoint, "of NONLINEAR: two points or more", "spring curve", abscissa="displacement"),
+        curve_points(
+            SpringPoint, "of NONLINEAR: two points or more", "spring curve", abscissa="displacement", usual=FORCE_CURVE
+        ),
     ] = None
 
     @classmethod
@@ -71,7 +74,9 @@ class NodeSpring(Record):
     rule = "node_spring_line"
     node: Node
     dof: Freedom
-    stiffness: Annotated[Real, about("stiffness: force per length, of a rotation moment per degree", at_least=0)]
+    stiffness: Annotated[
+        Real, about("stiffness: force per length, of a rotation moment per degree", at_least=0, usual=OF_A_KIND)
+    ]
 
 
 class NodeSprings(Block):
@@ -89,8 +94,8 @@ class NodeSprings(Block):
 class DamperPoint(Row):
     """A point of a curve."""
 
-    variable: Annotated[Real, about("time or velocity")]
-    coefficient: Annotated[Real, about("damping coefficient there", unit="FT/L", at_least=0)]
+    variable: Annotated[Real, about("time or velocity", usual=OF_A_KIND)]
+    coefficient: Annotated[Real, about("damping coefficient there", unit="FT/L", at_least=0, usual=ANY)]
 
 
 class DamperCurve(Record):
@@ -122,15 +127,27 @@ class DamperData(Block):
 class JointWeights(Row):
     """The weights of a joint: in water first."""
 
-    water: Annotated[Real | None, about("weight in water; it comes first", unit="F", default="0")] = None
-    air: Annotated[Real | None, about("weight in air, not below that in water", unit="F", default="0")] = None
+    water: Annotated[
+        Real | None,
+        about(
+            "weight in water; it comes first",
+            unit="F",
+            default="0",
+            usual=Usual(high=1.0, why="water lifts", of="/air"),
+        ),
+    ] = None
+    air: Annotated[
+        Real | None, about("weight in air, not below that in water", unit="F", default="0", usual=OF_ITS_CURVE)
+    ] = None
 
 
 class JointPoint(Row):
     """A point of a curve: moment first."""
 
-    moment: Annotated[Real, about("moment; it comes first", unit="FL")]
-    angle: Annotated[Real, about("angle there", unit="deg", inferred="its unit")]
+    moment: Annotated[Real, about("moment; it comes first", unit="FL", usual=OF_ITS_CURVE)]
+    angle: Annotated[
+        Real, about("angle there", unit="deg", inferred="its unit", usual=Usual(-90.0, 90.0, "no joint turns farther"))
+    ]
 
 
 class FlexJoint(Record):
@@ -145,10 +162,14 @@ class FlexJoint(Record):
     type_: Annotated[
         Literal["LINEAR", "NONLINEAR"], setting("TYPE", "a stiffness, or a curve", inferred="the block may be repeated")
     ] = Field(alias="type")
-    stiffness: Annotated[RealOrName | None, about("of LINEAR: rotational stiffness", unit="FL", at_least=0)] = None
+    stiffness: Annotated[
+        RealOrName | None, about("of LINEAR: rotational stiffness", unit="FL", at_least=0, usual=ROTATION)
+    ] = None
     points: Annotated[
         Table | None,
-        curve_points(JointPoint, "of NONLINEAR: two points or more", "moment-angle curve", abscissa="angle"),
+        curve_points(
+            JointPoint, "of NONLINEAR: two points or more", "moment-angle curve", abscissa="angle", usual=ROTATION_CURVE
+        ),
     ] = None
 
     @classmethod
@@ -187,7 +208,15 @@ class HingeElement(Record):
     element: Element
     stiffness: Annotated[
         Real | None,
-        setting("STIFFNESS", "rotational stiffness, per degree", unit="FL", default="0", at_least=0, inline=True),
+        setting(
+            "STIFFNESS",
+            "rotational stiffness, per degree",
+            unit="FL",
+            default="0",
+            at_least=0,
+            inline=True,
+            usual=ROTATION,
+        ),
     ] = None
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Row
+from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN
 from mudline.language.keywords.values import Ident, Name, Names, Real, Title, Whole
 
 LOCATION = "place on the section, of outputs that have one"
@@ -19,7 +20,7 @@ class SummaryRequest(Block):
     subject = "post-processing"
 
     title: Annotated[Title | None, setting("TITLE", "title of the output", default="blank")] = None
-    scale: Annotated[Real | None, setting("SCALE", "factor on the values", default="1")] = None
+    scale: Annotated[Real | None, setting("SCALE", "factor on the values", default="1", usual=ANY)] = None
     units: Annotated[
         Name | None, setting("UNITS", "unit of the output", default="of its kind", inline=True, behind="SCALE")
     ] = None
@@ -27,7 +28,8 @@ class SummaryRequest(Block):
 
 
 LocalNode = Annotated[
-    Whole, setting("DATA2", "place on the element; 1 first node, 2 middle, 3 second node", at_least=1, at_most=3)
+    Whole,
+    setting("DATA2", "place on the element; 1 first node, 2 middle, 3 second node", at_least=1, at_most=3, usual=COUNT),
 ]
 
 
@@ -88,10 +90,10 @@ class ParaKinematic(SummaryRequest):
 
     keyword: Literal["PARA KINEMATIC"] = "PARA KINEMATIC"
     node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
-    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6)]
+    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6, usual=COUNT)]
     quantity: Annotated[
         Whole,
-        setting("DATA3", "1 motion, 2 displacement, 3 velocity, 4 acceleration", at_least=1, at_most=4),
+        setting("DATA3", "1 motion, 2 displacement, 3 velocity, 4 acceleration", at_least=1, at_most=4, usual=COUNT),
     ]
     axis: Annotated[Name | None, setting("DATA4", AXIS, default="global")] = None
 
@@ -106,7 +108,7 @@ class ParaReaction(SummaryRequest):
 
     keyword: Literal["PARA REACTION"] = "PARA REACTION"
     node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
-    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6)]
+    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6, usual=COUNT)]
     axis: Annotated[Name | None, setting("DATA3", AXIS, default="global")] = None
 
 
@@ -122,6 +124,9 @@ class SummaryTime(Block):
 
     keyword: Literal["TIME"] = "TIME"
     start: Annotated[
-        Real | None, setting("START", "time at which it starts; -1 is the last stored step", unit="T", at_least=-1)
+        Real | None,
+        setting(
+            "START", "time at which it starts; -1 is the last stored step", unit="T", at_least=-1, usual=OF_THE_RUN
+        ),
     ] = None
-    end: Annotated[Real | None, setting("END", "time at which it ends", unit="T")] = None
+    end: Annotated[Real | None, setting("END", "time at which it ends", unit="T", usual=OF_THE_RUN)] = None

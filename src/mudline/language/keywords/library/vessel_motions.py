@@ -10,6 +10,18 @@ from mudline.language.keywords.common import Freedom, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import (
+    DIRECTION,
+    DRIFT_PERIOD,
+    HEEL,
+    LONG_WAVE,
+    OF_A_KIND,
+    OFFSET,
+    SHIFT_RAO,
+    TURN_RAO,
+    VERTICAL_OFFSET,
+    Usual,
+)
 from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
 
 Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
@@ -18,12 +30,16 @@ Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRA
 class Motion(Row):
     """Six displacements of a vessel."""
 
-    x: Annotated[Real, about("along the global X axis", unit="L")]
-    y: Annotated[Real | None, about("along the global Y axis", unit="L", default="0")] = None
-    z: Annotated[Real | None, about("along the global Z axis", unit="L", default="0")] = None
-    yaw: Annotated[Real | None, about("about the vertical axis", unit="deg", default="0")] = None
-    roll: Annotated[Real | None, about("about the surge axis of the vessel", unit="deg", default="0")] = None
-    pitch: Annotated[Real | None, about("about the sway axis of the vessel", unit="deg", default="0")] = None
+    x: Annotated[Real, about("shift along the global X axis", unit="L", usual=VERTICAL_OFFSET)]
+    y: Annotated[Real | None, about("shift along the global Y axis", unit="L", default="0", usual=OFFSET)] = None
+    z: Annotated[Real | None, about("shift along the global Z axis", unit="L", default="0", usual=OFFSET)] = None
+    yaw: Annotated[Real | None, about("turn about the vertical axis", unit="deg", default="0", usual=DIRECTION)] = None
+    roll: Annotated[
+        Real | None, about("turn about the surge axis of the vessel", unit="deg", default="0", usual=HEEL)
+    ] = None
+    pitch: Annotated[
+        Real | None, about("turn about the sway axis of the vessel", unit="deg", default="0", usual=HEEL)
+    ] = None
 
 
 class VesselOffset(Record):
@@ -57,8 +73,8 @@ class Velocity(Record):
         Literal["GLOBAL", "LOCAL"] | None,
         setting("AXIS", "axis from which the direction counts: global Y or surge", default="GLOBAL", inline=True),
     ] = None
-    speed: Annotated[Real, about("speed", unit="L/T")]
-    angle: Annotated[Real | None, about("direction, anticlockwise", unit="deg", default="0")] = None
+    speed: Annotated[Real, about("speed", unit="L/T", usual=Usual(-30.0, 30.0, "ships are no faster"))]
+    angle: Annotated[Real | None, about("direction, anticlockwise", unit="deg", default="0", usual=DIRECTION)] = None
 
 
 class VesselVelocity(Block):
@@ -114,9 +130,9 @@ class Sinusoid(Row):
     """A drift in one degree of freedom."""
 
     dof: Freedom
-    amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees")]
-    phase: Annotated[Real, about("phase", unit="deg")]
-    period: Annotated[Real, about("period", unit="T", above=0)]
+    amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees", usual=OF_A_KIND)]
+    phase: Annotated[Real, about("phase", unit="deg", usual=DIRECTION)]
+    period: Annotated[Real, about("period", unit="T", above=0, usual=DRIFT_PERIOD)]
 
 
 class VesselDrift(Record):
@@ -165,23 +181,36 @@ class Drift(Block):
 
 
 class Six(Row):
-    """Values of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations; phases in degrees."""
+    """Amplitudes of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations."""
 
-    heave: Annotated[Real, about("of heave")]
-    surge: Annotated[Real, about("of surge")]
-    sway: Annotated[Real, about("of sway")]
-    yaw: Annotated[Real, about("of yaw")]
-    roll: Annotated[Real, about("of roll")]
-    pitch: Annotated[Real, about("of pitch")]
+    heave: Annotated[Real, about("amplitude of heave", usual=SHIFT_RAO)]
+    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
+    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
+    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
+    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
+    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
+
+
+class SixPhases(Row):
+    """Phases of six motions."""
+
+    heave: Annotated[Real, about("phase of heave", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("phase of surge", unit="deg", usual=DIRECTION)]
+    sway: Annotated[Real, about("phase of sway", unit="deg", usual=DIRECTION)]
+    yaw: Annotated[Real, about("phase of yaw", unit="deg", usual=DIRECTION)]
+    roll: Annotated[Real, about("phase of roll", unit="deg", usual=DIRECTION)]
+    pitch: Annotated[Real, about("phase of pitch", unit="deg", usual=DIRECTION)]
 
 
 class FrequencyRao(Record):
     """Three lines: a frequency, six amplitudes, six phases."""
 
     rule = "frequency_rao"
-    frequency: Annotated[Real, about("wave frequency", at_least=0)]
-    amplitudes: Annotated[Six, about("amplitudes for a unit wave")]
-    phases: Annotated[Six, about("phases, positive for a lag")]
+    frequency: Annotated[
+        Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
+    ]
+    amplitudes: Annotated[Six, about("amplitudes for a unit wave", usual=LONG_WAVE)]
+    phases: Annotated[SixPhases, about("phases, positive for a lag")]
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
@@ -201,19 +230,21 @@ class RaoLine(Row):
     """A line of LAYOUT=LINE."""
 
     heading: Annotated[Real, about("wave heading", unit="deg", at_least=-180, at_most=180)]
-    frequency: Annotated[Real, about("wave frequency", at_least=0)]
-    heave: Annotated[Real, about("amplitude of heave")]
-    heave_phase: Annotated[Real, about("its phase", unit="deg")]
-    surge: Annotated[Real, about("amplitude of surge")]
-    surge_phase: Annotated[Real, about("its phase", unit="deg")]
-    sway: Annotated[Real, about("amplitude of sway")]
-    sway_phase: Annotated[Real, about("its phase", unit="deg")]
-    yaw: Annotated[Real, about("amplitude of yaw")]
-    yaw_phase: Annotated[Real, about("its phase", unit="deg")]
-    roll: Annotated[Real, about("amplitude of roll")]
-    roll_phase: Annotated[Real, about("its phase", unit="deg")]
-    pitch: Annotated[Real, about("amplitude of pitch")]
-    pitch_phase: Annotated[Real, about("its phase", unit="deg")]
+    frequency: Annotated[
+        Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
+    ]
+    heave: Annotated[Real, about("amplitude of heave", usual=(SHIFT_RAO, LONG_WAVE))]
+    heave_phase: Annotated[Real, about("phase of heave", unit="deg", usual=DIRECTION)]
+    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
+    surge_phase: Annotated[Real, about("phase of surge", unit="deg", usual=DIRECTION)]
+    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
+    sway_phase: Annotated[Real, about("phase of sway", unit="deg", usual=DIRECTION)]
+    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
+    yaw_phase: Annotated[Real, about("phase of yaw", unit="deg", usual=DIRECTION)]
+    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
+    roll_phase: Annotated[Real, about("phase of roll", unit="deg", usual=DIRECTION)]
+    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
+    pitch_phase: Annotated[Real, about("phase of pitch", unit="deg", usual=DIRECTION)]
 
 
 class VesselRao(Record):

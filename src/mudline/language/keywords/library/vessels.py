@@ -7,32 +7,40 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import (
+    DIRECTION,
+    POSITION,
+    VESSEL_HEIGHT,
+    VESSEL_SIZE,
+)
 from mudline.language.keywords.values import Contents, Ident, Name, Names, Real
 
 
 class Position(Row):
     """Where a vessel is at first."""
 
-    x: Annotated[Real, about("vertical coordinate of its reference point", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    z: Annotated[Real, about("horizontal coordinate Z", unit="L")]
-    yaw: Annotated[Real | None, about("heading, anticlockwise from the global Y axis", unit="deg", default="0")] = None
+    x: Annotated[Real, about("vertical coordinate of its reference point", unit="L", usual=VESSEL_HEIGHT)]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L", usual=POSITION)]
+    yaw: Annotated[
+        Real | None, about("heading, anticlockwise from the global Y axis", unit="deg", default="0", usual=DIRECTION)
+    ] = None
 
 
 class LocalDistance(Row):
     """A distance in the axes of a vessel."""
 
-    heave: Annotated[Real, about("along its heave axis", unit="L")]
-    surge: Annotated[Real, about("along its surge axis", unit="L")]
-    sway: Annotated[Real, about("along its sway axis", unit="L")]
+    heave: Annotated[Real, about("along its heave axis", unit="L", usual=VESSEL_SIZE)]
+    surge: Annotated[Real, about("along its surge axis", unit="L", usual=VESSEL_SIZE)]
+    sway: Annotated[Real, about("along its sway axis", unit="L", usual=VESSEL_SIZE)]
 
 
 class Dimensions(Row):
     """The size of a profile."""
 
-    height: Annotated[Real, about("height", unit="L", above=0)]
-    length: Annotated[Real, about("length", unit="L", above=0)]
-    width: Annotated[Real, about("width", unit="L", above=0)]
+    height: Annotated[Real, about("height", unit="L", above=0, usual=VESSEL_SIZE)]
+    length: Annotated[Real, about("length", unit="L", above=0, usual=VESSEL_SIZE)]
+    width: Annotated[Real, about("width", unit="L", above=0, usual=VESSEL_SIZE)]
 
 
 class VesselPosition(Record):
@@ -107,9 +115,9 @@ class IntegratedVessels(OpenBlock):
 class Location(Row):
     """A place."""
 
-    x: Annotated[Real, about("vertical coordinate", unit="L")]
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    z: Annotated[Real, about("horizontal coordinate Z", unit="L")]
+    x: Annotated[Real, about("vertical coordinate", unit="L", usual=POSITION)]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L", usual=POSITION)]
 
 
 class DrawnBody(Record):

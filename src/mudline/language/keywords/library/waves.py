@@ -10,39 +10,61 @@ from mudline.language.keywords.common import Direction, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.usual import (
+    AMPLITUDE,
+    COUNT,
+    CUTOFF,
+    DIRECTION,
+    DIRECTIONS,
+    EXPONENT,
+    HARMONICS,
+    HEIGHT,
+    INCREMENT,
+    OF_THE_RUN,
+    PEAKEDNESS,
+    PHILLIPS,
+    POSITION,
+    PROGRESSION,
+    SEA_FREQUENCY,
+    SEA_HEIGHT,
+    SEA_PERIOD,
+    WAVE_PERIOD,
+)
 from mudline.language.keywords.values import Contents, Name, Names, Other, Real, Whole
 
 _MORE = "more forms follow on the page, which were not seen: their lines are passed through unchanged"
-_CUT = about("largest frequency", unit="Hz", above=0)
-_COUNT = about("number of directions", at_least=1)
+_CUT = about("largest frequency", unit="Hz", above=0, usual=CUTOFF)
+_COUNT = about("number of directions", at_least=1, usual=DIRECTIONS)
 
 
 class _Shape(Row):
-    peak: Annotated[Real, about("peak frequency", unit="Hz", above=0)]
-    phillips: Annotated[Real, about("Phillips constant", unit="-", above=0)]
-    peakedness: Annotated[Real, about("peakedness", unit="-", above=0)]
+    peak: Annotated[Real, about("peak frequency", unit="Hz", above=0, usual=SEA_FREQUENCY)]
+    phillips: Annotated[Real, about("Phillips constant", unit="-", above=0, usual=PHILLIPS)]
+    peakedness: Annotated[Real, about("peakedness", unit="-", above=0, usual=PEAKEDNESS)]
 
 
 class _Height(Row):
-    height: Annotated[Real, about("significant wave height", unit="L", at_least=0)]
-    period: Annotated[Real, about("mean zero up-crossing period (HSTZ) or peak period (HSTP)", unit="T", above=0)]
+    height: Annotated[Real, about("significant wave height", unit="L", at_least=0, usual=SEA_HEIGHT)]
+    period: Annotated[
+        Real, about("mean zero up-crossing period (HSTZ) or peak period (HSTP)", unit="T", above=0, usual=SEA_PERIOD)
+    ]
 
 
 class _Area(Row):
-    increment: Annotated[Real, about("largest frequency increment", unit="Hz", above=0)]
+    increment: Annotated[Real, about("largest frequency increment", unit="Hz", above=0, usual=INCREMENT)]
     cutoff: Annotated[Real, _CUT]
-    harmonics: Annotated[Whole, about("number of harmonics", at_least=1)]
+    harmonics: Annotated[Whole, about("number of harmonics", at_least=1, usual=HARMONICS)]
 
 
 class _Progression(Row):
     cutoff: Annotated[Real, _CUT]
-    factor: Annotated[Real, about("progression factor of the frequencies", unit="-", above=0)]
+    factor: Annotated[Real, about("progression factor of the frequencies", unit="-", above=0, usual=PROGRESSION)]
 
 
 class _Directions(Row):
     directions: Annotated[Whole, _COUNT]
     direction: Direction = None
-    exponent: Annotated[Real | None, about("spreading exponent", unit="-", at_least=0)] = None
+    exponent: Annotated[Real | None, about("spreading exponent", unit="-", at_least=0, usual=EXPONENT)] = None
 
 
 class AreaShape(_Directions, _Area, _Shape):  # the last base's fields first
@@ -114,10 +136,10 @@ class JonswapSeas(OpenBlock):
     seas: list[JonswapSea] = []
 
 
-_AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0)
-_LEAST = about("smallest period", unit="T", above=0)
-_LARGEST = about("largest period", unit="T", above=0)
-_NUMBER = about("number of periods", at_least=1)
+_AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0, usual=AMPLITUDE)
+_LEAST = about("smallest period", unit="T", above=0, usual=WAVE_PERIOD)
+_LARGEST = about("largest period", unit="T", above=0, usual=WAVE_PERIOD)
+_NUMBER = about("number of periods", at_least=1, usual=COUNT)
 _FIELDS = "a line of four values has no direction"
 
 
@@ -125,9 +147,11 @@ class Wave(Row):
     """A wave, in the time domain or under OPTION=ONE."""
 
     amplitude: Annotated[Real, _AMPLITUDE]
-    period: Annotated[Real, about("wave period", unit="T", above=0)]
+    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
     direction: Direction = None
-    phase: Annotated[Real | None, about("phase; not in the frequency domain", unit="deg", default="0")] = None
+    phase: Annotated[
+        Real | None, about("phase; not in the frequency domain", unit="deg", default="0", usual=DIRECTION)
+    ] = None
 
 
 class Band(Row):
@@ -204,12 +228,14 @@ class StokesWave(Block):
 
     keyword: Literal["WAVE-STOKES"] = "WAVE-STOKES"
     option: Annotated[Literal["SUPERPOSE"] | None, setting("OPTION", "how the response of a vessel is found")] = None
-    height: Annotated[Real, about("wave height", unit="L", at_least=0)]
-    period: Annotated[Real, about("wave period", unit="T", above=0)]
+    height: Annotated[Real, about("wave height", unit="L", at_least=0, usual=HEIGHT)]
+    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
     direction: Direction = None
-    airy_amplitude: Annotated[Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0)] = None
+    airy_amplitude: Annotated[
+        Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0, usual=AMPLITUDE)
+    ] = None
     airy_period: Annotated[
-        Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0)
+        Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0, usual=WAVE_PERIOD)
     ] = None
 
 
@@ -229,12 +255,15 @@ class WaveTimeHistory(Block):
         setting("FILE", "text file with a time and an elevation a line", names=Names.FILE, holds=Contents.ELEVATIONS),
     ]
     direction: Direction = None
-    y: Annotated[Real | None, about("Y of the point where it was measured", unit="L", default="0")] = None
-    z: Annotated[Real | None, about("Z of that point", unit="L", default="0")] = None
+    y: Annotated[Real | None, about("Y of the point where it was measured", unit="L", default="0", usual=POSITION)] = (
+        None
+    )
+    z: Annotated[Real | None, about("Z of that point", unit="L", default="0", usual=POSITION)] = None
     increment: Annotated[
-        Real | None, about("time step; mandatory where the times of the file are uneven", unit="T", above=0)
+        Real | None,
+        about("time step; mandatory where the times of the file are uneven", unit="T", above=0, usual=OF_THE_RUN),
     ] = None
-    ensembles: Annotated[Whole, setting("ENSEMBLES", "number of ensembles", at_least=1, inline=True)]
+    ensembles: Annotated[Whole, setting("ENSEMBLES", "number of ensembles", at_least=1, inline=True, usual=COUNT)]
 
 
 class WaveSpectrum(Block):

@@ -1,0 +1,360 @@
+"""What numbers of a deck are compared by, where it is not themselves: the measures and conditions of `Usual`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.rules.curve_shape import swapped
+from mudline.checks.unit_slips import Units, is_placeholder, meant_unit
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Where
+from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.usual import WALL, YOUNG
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.numbering import Floats
+from mudline.model.scene.sections import surroundings, weights
+
+_STEEL_E = YOUNG[1]
+_STEEL_DENSITY = WALL[2]
+_LIGHTEST_STEEL = 7000.0
+"""kg/m3: a steel pipe is no lighter, as contents and coatings only add to its mass."""
+_WIDEST_PIPE = 2.5
+"""m: wider steel is a hull, whose density may be anything."""
+_METAL = (2600.0, 6e10)
+"""kg/m3, N/m2: what is lighter or softer may be a composite, whose moduli are independent of each other."""
+_SEA_WATER = 1025.0
+_SOIL_WEIGHT = 5e3
+"""N/m3: submerged weight of clay."""
+_LONG = 0.025
+"""Frequency, in Hz or rad/s, of waves of 40 s and longer."""
+_DEEP = 5.0
+"""m: nearer to the mudline soil may be of any weakness."""
+_SHALLOW = 100.0
+"""m: in shallower water offsets are compared with this depth."""
+_SHORT = 3.2
+"""m: mobilisation lengths up to the usual characteristic length of 10 ft are no slip of units."""
+_MOST_PAIRS = 10_000_000
+"""Laws times sections, beyond which nothing is known of weights."""
+_DIGITS = 16
+"""Of the number of a node."""
+_SHARE = 0.3
+"""Of the weight in air that a line with contents has in water at least."""
+_LEAST_FORCE = 100.0
+"""N/m that a curve is compared with where the weight of the pipe is not known; less for cables of less than 0.1 m."""
+
+
+NOWHERE = Where()
+
+
+@dataclass(frozen=True, eq=False)
+class Numbers:
+    """The numbers of a part, in SI where the units are known; `changed` ones instead of its own.
+
+    `where` is the place of the part, `holder` the part around it, `columns` are its fields in the order of a line. Of a
+    table, `part` is what holds it, `table` has the rows and `rows` declares them. The weights of pipes are known if it
+    `weighs` them.
+    """
+
+    context: LintContext
+    units: Units
+    weighs: bool = True
+    part: Any = None
+    holder: Any = None
+    where: Where = NOWHERE
+    columns: Sequence[FieldSpec] = ()
+    table: Table | None = None
+    rows: Rows | None = None
+    changed: Mapping[str, float] = field(default_factory=dict)
+
+    def __call__(self, name: str) -> float:
+        """A number by the name of its field; NaN for one that is not given."""
+        found = self.changed.get(name)
+        return number(self.part, name) * self.size(name) if found is None else found
+
+    def size(self, name: str) -> float:
+        """The unit of a field in SI."""
+        return next((self.units.size(one.about.unit) for one in self.columns if one.name == name), 1.0)
+
+    def having(self, changed: Mapping[str, float]) -> Numbers:
+        """The same with some numbers (in SI) changed."""
+        return replace(self, changed=changed)
+
+    @property
+    def water(self) -> float:
+        """Density of the water; that of sea water where the deck's may not be one."""
+        density = surroundings(self.context.scene.deck).density * self.units.size("M/L3")
+        return density if not self.units.known or 900.0 <= density <= 2500.0 else _SEA_WATER
+
+    @property
+    def depth(self) -> float:
+        """Depth of the water; NaN where it is not known."""
+        return surroundings(self.context.scene.deck).depth * self.units.size("L")
+
+    @property
+    def density(self) -> float:
+        """Density of the wall in kg/m3, judged against sea water in units that are not known."""
+        return self("density") if self.units.known else over(self("density"), self.water) * _SEA_WATER
+
+
+def over(value: float, other: float) -> float:
+    """A number over another one; NaN unless that is above 0."""
+    return value / other if other > 0.0 else math.nan
+
+
+# ----------------------------------------------------------------------------------------------------------- conditions
+
+
+def _steel_wall(of: Numbers) -> bool:
+    """Whether the wall is as dense as steel, or holds a number that is so in another unit."""
+    if _LIGHTEST_STEEL <= of.density <= 40_000.0:
+        return True
+    own = of.units.size("M/L3")
+    return of.units.known and bool(meant_unit(_STEEL_DENSITY, of("density") / own, "M/L3", of.units))
+
+
+def _steel_pipe(of: Numbers) -> bool:
+    return _steel_wall(of) and not (of.units.known and of("do") > _WIDEST_PIPE)
+
+
+def _steel_modulus(of: Numbers) -> bool:
+    pipe = math.isnan(of("area")) and of("do") <= _WIDEST_PIPE
+    return of.units.known and pipe and _STEEL_E.low <= of("e") <= _STEEL_E.high
+
+
+def _thick_pipe(of: Numbers) -> bool:
+    wall = 0.5 * (of("do") - of("di"))
+    return of.units.known and wall > 0.09 and 6.0 * wall <= of("do") <= 50.0 * wall and _steel_wall(of)
+
+
+def _metal(of: Numbers) -> bool:
+    if not of.units.known:
+        return math.isnan(of.water) or of.density >= _METAL[0]
+    return of("e") >= _METAL[1] and (of.density >= _METAL[0] or _steel_wall(of))
+
+
+def _waves_in_time(of: Numbers) -> bool:
+    in_time = all(block.type_ != "STATIC" for _, block in of.context.blocks("ANALYSIS TYPE", "LOAD CASE"))
+    return in_time and any(keyword.startswith("WAVE-") for _, keyword in of.context.scene.context.placed)
+
+
+CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
+    "a steel wall": _steel_wall,
+    "a steel pipe": _steel_pipe,
+    "the modulus of steel": _steel_modulus,
+    "a thick steel pipe": _thick_pipe,
+    "a metal": _metal,
+    "a wall without an area of its own": lambda of: math.isnan(of("area")),
+    "unknown units": lambda of: not of.units.known,
+    "a spreading exponent": lambda of: of("exponent") > 0.0,
+    "waves in the time domain": _waves_in_time,
+}
+
+
+# ------------------------------------------------------------------------------------------------- sections and vessels
+
+
+def _mass_width(of: Numbers, name: str, value: float) -> float:
+    """A diameter over that of as much water as the mass; a small one is excused by a wider one beside it."""
+    mass = of("mass")
+    wet = math.sqrt(over(mass * 4.0, math.pi * of.water)) if not is_placeholder(mass) else math.nan
+    own = value if name == "db" or math.isnan(of("db")) else of("db")
+    widest = float(np.fmax.reduce([own, of("dd"), of("do")]))
+    return max(over(own, wet), min(over(widest, wet), 1.0))
+
+
+def _times_others(of: Numbers, _name: str, value: float) -> float:
+    """An external diameter over the wider one of drag and buoyancy; NaN unless both are given."""
+    others = of("dd"), of("db")
+    return over(value, max(others)) if min(others) > 0.0 else math.nan
+
+
+def _times_ring(of: Numbers, _name: str, value: float) -> float:
+    radius = 0.5 * float(np.fmax.reduce([of("do"), of("dd"), of("db")]))
+    return over(value, of("mass") * radius * radius)
+
+
+def _bending(of: Numbers, _name: str, value: float) -> float:
+    width = of("do") if of("do") > 0.0 else of("dd")
+    return over(value, of("ea") * width * width)
+
+
+def _poisson(of: Numbers, _name: str, value: float) -> float:
+    young = of("e")
+    return math.nan if is_placeholder(young) else over(0.5 * young, value) - 1.0
+
+
+def _long_heave(of: Numbers, name: str, value: float) -> float:
+    heave = value if name == "heave" else number(of.part.amplitudes, "heave")
+    return heave if 0.0 < of("frequency") <= _LONG else math.nan
+
+
+def _steepness(of: Numbers, height: float) -> float:
+    """Height over length in deep water; NaN where gravity is not known."""
+    gravity = surroundings(of.context.scene.deck).gravity * of.units.size("L/T2")
+    gravity = 9.81 if of.units.known and not 9.0 < gravity < 11.0 else gravity
+    return over(2.0 * math.pi * height, gravity * of("period") * of("period"))
+
+
+def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
+    """How far a vessel is at first from the farthest of the nodes that it holds."""
+    scene = of.context.scene
+    held = of.context.once(_held_nodes).get(folded(str(getattr(of.holder, "vessel", ""))), [])
+    nodes = scene.coordinates[np.isin(scene.node_ids, held)] if held else ()
+    place = np.array([of("x"), of("y"), of("z")])
+    return max((float(np.linalg.norm(node * of.units.size("L") - place)) for node in nodes), default=math.nan)
+
+
+def _held_nodes(context: LintContext) -> dict[str, list[int]]:
+    """The nodes that each vessel holds, by its name."""
+    found: dict[str, list[int]] = {}
+    for _, block in context.blocks("BOUNDARY", "LOAD CASE"):
+        for line in kept_lines(block):
+            node, _, vessel = line.partition(",")
+            if node.strip().isdecimal() and len(node) < _DIGITS:
+                found.setdefault(folded(vessel.partition(",")[0]), []).append(int(node))
+    return found
+
+
+# --------------------------------------------------------------------------------------------------- seabed and soil
+
+
+class _Laid(NamedTuple):
+    """What lies on each law of the seabed: weight and diameter of its pipes, NaN where they are not known."""
+
+    weight: list[float]
+    width: list[float]
+    laws: dict[Where, int]
+    curves: dict[Where, int]
+    of_curve: dict[int, list[int]]
+
+
+def _laid(context: LintContext) -> _Laid:
+    """The largest weight and diameter of the sections on each law, in the deck's units.
+
+    The weight is the submerged one, or what a pipe that floats has with its contents: a share of that in air.
+    """
+    laws, table, around = context.scene.laws, context.scene.section_table, surroundings(context.scene.deck)
+    weight, width = [math.nan] * len(laws.set_laws), [math.nan] * len(laws.set_laws)
+    held = np.zeros((len(laws.set_laws) + 1, len(table.sections) + 1), dtype=np.bool_)
+    if held.size <= _MOST_PAIRS:
+        held[laws.of_element, table.of_element] = True  # the last ones stand for none
+        both = [weights(section.entry, around) for section in table.sections]
+        heavy = np.array([max(submerged, _SHARE * in_air) for in_air, submerged in both])
+        wide = np.array([section.diameter for section in table.sections])
+        for law, row in enumerate(held[:-1, :-1]):
+            weight[law] = float(np.fmax.reduce(heavy[row], initial=math.nan))
+            width[law] = float(np.fmax.reduce(wide[row], initial=math.nan))
+    of_curve: dict[int, list[int]] = {}
+    for index, given in enumerate(laws.set_laws):
+        of_curve.setdefault(given.curve, []).append(index)
+    of_laws = {given.where: index for index, given in enumerate(laws.set_laws) if given.kind is LawKind.LINEAR}
+    curves = {curve.where: index for index, curve in enumerate(laws.curves)}
+    return _Laid(weight, width, of_laws, curves, of_curve)
+
+
+def _sinking(of: Numbers, name: str, value: float) -> float:
+    """Diameters that pipes on a linear bed sink under their own weight."""
+    laid = of.context.once(_laid)
+    law = laid.laws.get(of.where.inside(name))
+    if law is None or not of.weighs or not laid.weight[law] > 0.0:
+        return math.nan
+    return over(laid.weight[law] * of.units.size("F/L"), value * laid.width[law] * of.units.size("L"))
+
+
+def _times_weight(of: Numbers, _name: str, _value: float) -> float:
+    """The largest force of a curve over the weight of the pipes that follow it."""
+    laid, curves = of.context.once(_laid), of.context.scene.laws.curves
+    index = laid.curves.get(of.where)
+    if index is None or not curves[index].whole or swapped(curves[index]):
+        return math.nan
+    largest = float(np.abs(curves[index].points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
+    laws = laid.of_curve.get(index, [])
+    weight, width = (
+        float(np.fmax.reduce([each[law] for law in laws], initial=math.nan)) for each in (laid.weight, laid.width)
+    )
+    if weight > 0.0 and of.weighs:
+        return over(largest, weight * of.units.size("F/L")) if largest > 0.0 else math.nan
+    thin = min(width * of.units.size("L") / 0.1, 1.0) if width > 0.0 else 1.0
+    return over(largest, _LEAST_FORCE * thin) if largest > 0.0 and of.units.known else math.nan
+
+
+def _times_pipe(of: Numbers, _name: str, value: float) -> float:
+    """A mobilisation length over the widest pipe that it holds for, in units that are not known over ten of them."""
+    if value == 10.0 * of.units.size("L") or (value <= _SHORT and of.units.known):
+        return math.nan
+    widths = of.context.once(_resisted)
+    of_set = Where(of.where.section, of.where.block, of.where.path[:-1])  # for the values of FRICTION=
+    width = widths.get(of.where, widths.get(of_set, math.nan)) * of.units.size("L")
+    return over(value, width * (1.0 if of.units.known else 10.0))
+
+
+def _resisted(context: LintContext) -> dict[Where, float]:
+    """The widest pipe that each place with friction holds for, in the deck's units."""
+    scene = context.scene
+    resistance, friction = scene.resistance, scene.extensions.get("SEABED FRICTION")
+    widest = np.full(len(resistance.places) + 1, np.nan)
+    used = np.ones(len(resistance.of_element), dtype=np.bool_) if friction is None else friction.of_element < 0
+    np.fmax.at(widest, resistance.of_element[used], scene.diameter[used])
+    return dict(zip(resistance.places, widest.tolist(), strict=False))
+
+
+def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:
+    """The secant of a curve between its outermost points, in SI."""
+    points = _points(of)
+    if points is None:
+        return math.nan
+    apart, force = np.ptp(points, axis=0).tolist()
+    return over(force, apart) if force > 0.0 else math.nan
+
+
+def _points(of: Numbers) -> Floats | None:
+    """Abscissas and ordinates of a curve, in SI; None where one is not known."""
+    if of.table is None or of.rows is None or not of.rows.row or len(of.table) < FEWEST_POINTS:
+        return None
+    columns = record_schema(of.rows.row).columns
+    found = np.column_stack([of.table.column(axis) * of.units.size(columns[axis].about.unit) for axis in of.rows.axes])
+    return found if np.isfinite(found).all() else None
+
+
+def _times_soil(of: Numbers, _name: str, _value: float) -> float:
+    """The largest resistance of a soil spring over the weight of the soil above it and the diameter of the pipe."""
+    points, depth, scene = _points(of), of("depth"), of.context.scene
+    entry = scene.set_table.find(str(of.holder.set_name)) if getattr(of.holder, "set_name", None) else None
+    if points is None or not depth >= _DEEP or not of.units.known or entry is None:
+        return math.nan
+    width = float(np.fmax.reduce(scene.diameter[entry.elements], initial=math.nan)) * of.units.size("L")
+    return over(float(np.abs(points[:, 1]).max()), _SOIL_WEIGHT * depth * width)
+
+
+MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
+    "times the diameter of as much water as its mass": _mass_width,
+    "times the drag and buoyancy diameters": _times_others,
+    "times the mass and the radius squared": _times_ring,
+    "times EA Do2": _bending,
+    "as Poisson's ratio, E / 2G - 1": _poisson,
+    "times the density of the water": lambda of, _, value: over(value, of.water),
+    "m above the water": lambda of, _, value: value - of.depth if of.units.known else math.nan,
+    "times the water depth": lambda of, _, value: over(value, max(of.depth, _SHALLOW * of.units.known)),
+    "m from the nodes that it holds": lambda of, n, value: _from_nodes(of, n, value) if of.units.known else math.nan,
+    "as heave in a wave of 40 s and longer": _long_heave,
+    "as steepness, 2 pi H / g T2": lambda of, _, value: _steepness(of, value),
+    "diameters that the pipe sinks under its weight": _sinking,
+    "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,
+    "times the diameter of the pipe": _times_pipe,
+    "as a stiffness": _as_stiffness,
+    "times the weight of the soil above and the diameter": _times_soil,
+}
+WEIGHED = (
+    "diameters that the pipe sinks under its weight",
+    "times the weight of the pipe, or 100 N/m, at its largest force",
+)
+"""Measures in which the weight of the pipe has a part."""

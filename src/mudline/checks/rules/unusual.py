@@ -1,0 +1,284 @@
+"""Values outside of what is usual of their fields: what is compared, and the slip that explains each."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cache
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from mudline.basics.short_repr import counted
+from mudline.checks.context import LintContext
+from mudline.checks.rules.coordinates import UNT006
+from mudline.checks.rules.measures import CONDITIONS, MEASURES, WEIGHED, Numbers, over
+from mudline.checks.unit_slips import is_placeholder, lacks_point, likely_slips, meant_unit, units_of
+from mudline.language.codes.fields import SYN015
+from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
+from mudline.language.keywords.ranges import in_words
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.usual import Usual
+from mudline.language.keywords.values import Kind
+from mudline.model.scene.deck_values import number
+
+UNT001 = Code("UNT001", "gravity-mismatch", Severity.WARNING)
+UNT002 = Code("UNT002", "suspicious-magnitude", Severity.WARNING)
+UNT003 = Code("UNT003", "large-friction", Severity.WARNING)
+UNT004 = Code("UNT004", "suspicious-density", Severity.WARNING)
+UNT005 = Code("UNT005", "suspicious-modulus", Severity.WARNING)
+UNT007 = Code("UNT007", "unusual-value", Severity.WARNING)
+UNT008 = Code("UNT008", "remarkable-value", Severity.INFO)
+
+CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UNT006, UNT007)}
+
+
+def unusual_values(context: LintContext) -> list[Problem]:
+    """What is outside of the usual values of its field; several rules need it, and ask `context.once`.
+
+    Lines in which SYN015 found decimal commas are left out. Where gravity, a density or a length is unusual, the weight
+    of a pipe counts as not known.
+    """
+    deck = Numbers(context, units_of(context))
+    with np.errstate(all="ignore"):  # numbers may be as large as they like
+        told = _of_deck(deck)
+        heavy = any(problem.code in (UNT001, UNT004, UNT006) for _, problem in told)
+        if heavy and any(usual.of in WEIGHED for usual, _ in told):
+            told = _of_deck(replace(deck, weighs=False))
+    found = [problem for _, problem in told]
+    text = context.text
+    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and found else set()
+    return [one for one in found if not commas or not text or text.place(one).line not in commas]
+
+
+def _of_deck(deck: Numbers) -> list[Told]:
+    placed = deck.context.scene.context.placed.values()
+    return [told for blocks in placed for where, block in blocks for told in _inside(deck, block, None, where)]
+
+
+def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
+    """The unusual values of one code."""
+    return (one for one in context.once(unusual_values) if one.code is code)
+
+
+# ------------------------------------------------------------------------------------------------------- what is judged
+
+
+class Told(NamedTuple):
+    """A finding, and the range that its value is outside of."""
+
+    usual: Usual
+    problem: Problem
+
+
+@cache
+def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, ...]]:
+    """The fields of a part that have usual values, and those that hold tables or parts with such fields."""
+    slots = [
+        slot for slot in record_schema(part).slots if slot.about.usuals or any(any(_judged(one)) for one in slot.parts)
+    ]
+    own = tuple(slot for slot in slots if slot.about.usuals and not isinstance(slot.about, Rows))
+    return own, tuple(slot for slot in slots if slot.parts)
+
+
+def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Told]:
+    """What is unusual in a part and in those inside it: of a part one finding of each code, with others under it."""
+    own, outer = _judged(type(part))
+    if not (own or outer):
+        return
+    of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
+    by_code: dict[Code, list[Told]] = {}
+    for slot in own:
+        value = getattr(part, slot.name, None)
+        if isinstance(value, float | int | Part):
+            given = math.nan if isinstance(value, Part) else float(value)
+            for one in _told(of, slot, given, where.inside(slot.json)):
+                by_code.setdefault(one.problem.code, []).append(one)
+    commas = [one for found in by_code.values() for one in found if _COMMA in one.problem.message]
+    rows = (
+        [commas + [one for found in by_code.values() for one in found if one not in commas]]
+        if commas
+        else by_code.values()
+    )
+    for first, *others in rows:
+        more = f"; and {counted(len(others), 'more field')} of it" if others else ""
+        problem = first.problem
+        following = tuple(one.problem for one in others)
+        yield Told(first.usual, replace(problem, message=problem.message + more, following=following))
+    for slot in outer:
+        value = getattr(part, slot.name, None)
+        if isinstance(value, Part):
+            yield from _inside(deck, value, part, where.inside(slot.json))
+        elif isinstance(value, Table):
+            yield from _in_table(of, slot, value)
+        for index, one in enumerate(value if isinstance(value, list) else ()):
+            if isinstance(one, Part):
+                yield from _inside(deck, one, part, where.inside(slot.json, index))
+
+
+def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Told]:
+    """What is unusual in a table: of a column the first row; where that is nothing, in the whole of it."""
+    columns = record_schema(cast("type[Part]", slot.row)).columns
+    names = [column.name for column in columns]
+    for index, column in enumerate(columns):
+        if not column.about.usuals:
+            continue
+        values = table.column(index)
+        limits = np.fmin.reduce(values, initial=0.0), np.fmax.reduce(values, initial=0.0)
+        low, high = (float(limit) * of.units.size(column.about.unit) for limit in limits)
+        if all(not usual.of and usual.low <= low and high <= usual.high for usual in column.about.usuals):
+            continue
+        for at, value in enumerate(values.tolist()):
+            cells = SimpleNamespace(**dict(zip(names, table.values[at].tolist(), strict=False)))
+            row = replace(of, part=cells, holder=of.part, columns=columns)
+            if found := _told(row, column, value, of.where.inside(slot.json, at, index)):
+                yield from found
+                return
+    yield from _told(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan, of.where)
+
+
+# ----------------------------------------------------------------------------------------------------------- judgement
+
+
+def _told(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[Told]:
+    """The finding about a value (as the deck has it), for the first of its ranges that it is outside of; or none."""
+    for usual in slot.about.usuals if not slot.about.fault(value) else ():
+        if _is_unusual(of, slot, usual, value):
+            code = UNT008 if usual.remark else CODES[usual.code]
+            message = f"{_seen(of, slot, usual, value)}: {_advice(of, slot, usual, value, where)}"
+            return [Told(usual, Problem(code, message, where=where))]
+    return []
+
+
+def _quantity(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> float:
+    """What is compared, of a number in SI."""
+    if usual.of.startswith("/"):
+        return over(value, of(usual.of[1:]))
+    return MEASURES[usual.of](of, slot.name, value) if usual.of else value
+
+
+def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
+    """Whether a value (as the deck has it) is outside of a range that holds for it."""
+    unit = slot.about.unit
+    if (value == 0.0 and usual.of[:1] in ("", "/")) or not (usual.of or of.units.compares(unit)):
+        return False
+    if (usual.when and not CONDITIONS[usual.when](of)) or usual.holds(
+        _quantity(of, slot, usual, value * of.units.size(unit))
+    ):
+        return False
+    placeholder = usual.placeholder and is_placeholder(value)
+    return not (placeholder or usual.explained) or bool(_explanation(of, slot, usual, value, strict=placeholder))
+
+
+def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, strict: bool = False) -> str:
+    """What a value looks like and what to write, in words, where a unit explains it."""
+    unit = slot.about.unit
+    if not math.isnan(usual.meant):
+        found = meant_unit(
+            usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number), strict=strict
+        )
+        return f"{value!r} looks like {found}, write it in{of.units.behind(unit)}" if found else ""
+    quantity = _quantity(of, slot, usual, value * of.units.size(unit)) if usual.explained else math.nan
+    which = next(
+        (word for factor, word in _TIMES.items() if quantity and usual.low <= quantity * factor <= usual.high), ""
+    )
+    return f"it looks like a unit 1000 times {which}, write both in one unit" if which else ""
+
+
+_TIMES = {1e3: "smaller", 1e-3: "larger"}
+_COMMA = "a comma of thousands seems to stand in"
+_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3},\d{3}(?:\.\d*)?(?![\d.,]*\d)")
+
+
+def _seen(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
+    """What was found and what was expected, in words."""
+    unit = slot.about.unit
+    behind = of.units.behind(unit)
+    written = int(value) if slot.kind is Kind.WHOLE and math.isfinite(value) else value
+    said = f"{in_words(slot)} is {written!r}{behind}"
+    if math.isnan(value):
+        said = f"the {cast('Rows', slot.about).curve}{_name(of.part)}" if of.table is not None else slot.about.meaning
+    why = f" ({usual.why})" if usual.why else ""
+    if not usual.of:
+        return f"{said}, expected {usual.span(of.units.size(unit))}{behind}{why}"
+    quantity = _quantity(of, slot, usual, value * of.units.size(unit))
+    other = next((f"times {one.label}" for one in of.columns if usual.of == f"/{one.name}"), usual.of)
+    return f"{said}, {float(f'{quantity:.3g}'):g} {other}, expected {usual.span()}{why}"
+
+
+def _name(part: Part) -> str:
+    """The name that a curve defines, in quotes behind a blank, or ""."""
+    named = (getattr(part, slot.name) for slot in record_schema(type(part)).slots if slot.about.defines)
+    return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
+
+
+def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> str:
+    """What to do about a value: the unit, the exchange or the comma that explains it."""
+    if of.table is not None:
+        return _advice_on_curve(of, slot, usual)
+    if usual.of.startswith("m "):  # a distance in space, of which the number is a part
+        return "correct it"
+    alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
+    if found := _explanation(of, slot, usual, value) or ("" if alone else _exchange(of, slot, where)):
+        return found
+    unit = slot.about.unit
+    words = likely_slips(usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number))
+    return f"write it in{of.units.behind(unit)} ({words}?)" if words else f"correct it{_point(of, slot, usual, value)}"
+
+
+def _point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
+    """That a decimal point may be lost or misplaced, in words, or ""."""
+    if slot.kind is Kind.WHOLE:
+        return ""
+    sized = value * of.units.size(slot.about.unit)
+    return " (a decimal point?)" if lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each)) else ""
+
+
+def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
+    """What to do about a whole curve: exchange its columns, or write its ordinates in another unit."""
+    columns = record_schema(cast("type[Part]", slot.row)).columns
+    over, ordinate = (columns[axis] for axis in cast("Rows", slot.about).axes)
+    quantity = _quantity(of, slot, usual, math.nan)
+    if usual.of == "as a stiffness" and quantity > 0.0 and usual.holds(1.0 / quantity):
+        first = min(over, ordinate, key=lambda column: column.order)
+        return f"its columns seem to be exchanged, write {first.label} first"
+    own = of.units.size(ordinate.about.unit)
+    words = likely_slips(usual, 1.0, ordinate.about.unit, of.units, lambda size: quantity * size / own)
+    return f"write {ordinate.label} in{of.units.behind(ordinate.about.unit)}" + (f" ({words}?)" if words else "")
+
+
+def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
+    """With which number beside it a value seems to be exchanged, or which comma is one too many; "" if none."""
+    row = [(one, number(of.part, one.name)) for one in of.columns if not one.key and not one.row]
+    row = [(one, value) for one, value in row if not math.isnan(value)]
+    fields, values = [one for one, _ in row], [value for _, value in row]
+    for left, (one, other) in enumerate(pairwise(fields)):
+        exchanged = [*values[:left], values[left + 1], values[left], *values[left + 2 :]]
+        real = one.kind is other.kind is Kind.REAL and 0.0 not in values[left : left + 2]
+        if slot in (one, other) and real and _all_usual(of, fields, exchanged, (one, other)):
+            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first"
+    text = of.context.text
+    line = text.source.line(text.place(Problem(UNT007, "", where=where)).line) if text else ""
+    for comma in _THOUSANDS.finditer(line):
+        left = line[: comma.start()].count(",")
+        joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
+        if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
+            return f"{_COMMA} {comma[0]}, write {comma[0].replace(',', '')}"
+    return ""
+
+
+def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float], asked: Sequence[FieldSpec]) -> bool:
+    """Whether some fields of a row would be usual, and allowed, if it had other values (as the deck has them)."""
+    sized = {one.name: value * of.units.size(one.about.unit) for one, value in zip(fields, values, strict=True)}
+    other = of.having(sized)
+    return not any(
+        one.about.fault(value) or any(_is_unusual(other, one, usual, value) for usual in one.about.usuals)
+        for one, value in zip(fields, values, strict=True)
+        if one in asked
+    )

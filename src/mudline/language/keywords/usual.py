@@ -1,0 +1,213 @@
+"""Values that are usual: declared with a field, compared by one rule, shown on the page of the keyword."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Usual:
+    """Values that are usual, from `low` to `high`, both in SI units (angles in degrees), and `why`.
+
+    `of` is a measure that is compared in place of the number itself: `/do` is the number over the field `do` of its
+    row, all others are in `mudline.checks.rules.measures`. `when` is a condition, of the same module, without which
+    nothing is compared. Values outside are a warning of `code`; where it is a `remark`, as neither mechanics nor a
+    source says more, an info. Zero is nothing to remark on, nor are values from `also[0]` to `also[1]`, nor powers of
+    ten where they are `placeholder`s.
+
+    `meant` is what the field mostly holds: a unit in which a number is within a factor `within` of it explains the
+    number. With `explained` only such a number is reported.
+    """
+
+    low: float = -math.inf
+    high: float = math.inf
+    why: str = ""
+    of: str = ""
+    when: str = ""
+    code: str = "UNT007"
+    remark: bool = False
+    meant: float = math.nan
+    within: float = 1.2
+    explained: bool = False
+    placeholder: bool = False
+    also: tuple[float, float] = (math.nan, math.nan)
+
+    def holds(self, value: float) -> bool:
+        """Whether a quantity is usual; NaN, which is not known, counts as usual."""
+        return not (value < self.low or value > self.high) or self.also[0] <= value <= self.also[1]
+
+    def span(self, factor: float = 1.0) -> str:
+        """The range in words, in a unit of `factor` in SI."""
+        low, high = (f"{float(f'{limit / factor:.3g}'):g}" for limit in (self.low, self.high))
+        if math.isinf(self.low):
+            return f"at most {high}"
+        return f"at least {low}" if math.isinf(self.high) else f"{low} to {high}"
+
+
+COUNT = "a count"
+NUMBER = "a number that stands for a name"
+ANY = "no source says what is usual"
+OF_THE_RUN = "the run decides"
+OF_A_KIND = "a length or an angle, a force or a moment: the degree of freedom or the type decides"
+COMPONENT = "a component of a direction"
+POSITION = "a position: UNT006 compares coordinates with each other, and with the water depth"
+ALONG = "a place along a line"
+MODEL = "judged by rules of its keyword"
+OF_ITS_CURVE = "the stiffness of the whole curve is judged"
+
+DIRECTION = Usual(-360.0, 360.0, "a full turn")
+HEEL = Usual(-45.0, 45.0, "no vessel heels farther")
+VESSEL_SIZE = Usual(-500.0, 500.0, "the longest vessel has 488 m")
+
+WIDTH = Usual(high=60.0, why="the hull of a spar has 37 m", code="UNT006", meant=0.3, within=8.0)
+PIPE_WALL = Usual(
+    high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", code="UNT006", meant=0.3, within=8.0
+)
+MASS_WIDTH = Usual(
+    0.18,
+    3.2,
+    "of the water that it displaces a chain has 27 times the mass, a float a tenth",
+    of="times the diameter of as much water as its mass",
+    code="UNT006",
+)
+OTHER_WIDTH = Usual(high=25.0, why="floats are no wider", of="/do", code="UNT006")
+BENDING = (
+    Usual(high=1.0, why="a thin tube has 1/8", of="times EA Do2"),
+    Usual(low=1e-4, why="flexible pipes have 1/100, steel 1.3", of="/gj", remark=True),
+)
+
+LEAST_BED = Usual(
+    478.0, 2.1e11, "less carries no pipe, more is stiffer than steel", code="UNT002", meant=5e4, within=30.0
+)
+"""478 N/m2 are 10 lbf/ft2."""
+BED = (
+    LEAST_BED,
+    Usual(1e-6, 1.0, "a pipe lies in the soil, not below it", of="diameters that the pipe sinks under its weight"),
+)
+LEAST_SIDE = Usual(
+    95.0, 2.1e11, "less holds no pipe, more is stiffer than steel", code="UNT002", meant=5e3, within=30.0
+)
+FRICTION = Usual(high=2.0, why="pipes on soil have 0.2 to 1", code="UNT003")
+MOBILISATION = Usual(
+    high=10.0,
+    why="soil yields within a few diameters",
+    of="times the diameter of the pipe",
+    code="UNT006",
+)
+CURVE_FORCE = Usual(
+    low=0.1,
+    why="the soil carries the pipe",
+    of="times the weight of the pipe, or 100 N/m, at its largest force",
+    code="UNT002",
+)
+ROTATION = Usual(1e-1, 1e9, remark=True)
+SECANT = "columns exchanged, or another unit"
+EI_CURVE = Usual(1.0, 1e14, SECANT, of="as a stiffness")
+EA_CURVE = Usual(1e3, 1e13, SECANT, of="as a stiffness")
+E_CURVE = Usual(1e5, 1e13, SECANT, of="as a stiffness")
+FORCE_CURVE = Usual(1.0, 1e13, SECANT, of="as a stiffness")
+ROTATION_CURVE = Usual(1.0, 1e9, SECANT, of="as a stiffness")
+SOIL_CURVES = (
+    Usual(10.0, 1e12, SECANT, of="as a stiffness"),
+    Usual(low=0.005, why="soft clay has 0.2 or more", of="times the weight of the soil above and the diameter"),
+)
+
+CURRENT = (
+    Usual(-5.0, 5.0, "the strongest tidal streams run at 5 m/s", meant=0.8, within=4.0),
+    Usual(-2.5, 2.5, "the Gulf Stream runs at 2.5 m/s", remark=True),
+)
+WAVE_PERIOD = Usual(1.0, 60.0, "ocean waves have 2 to 30 s")
+SEA_PERIOD = Usual(2.0, 30.0, "ocean waves have 2 to 30 s")
+SEA_FREQUENCY = Usual(1.0 / 30.0, 0.5, "ocean waves have 2 to 30 s")
+SEA_HEIGHT = (
+    Usual(high=25.0, why="the highest that was measured is 19 m"),
+    Usual(high=0.077, why="steeper seas break (DNV-RP-C205, 3.5.4)", of="as steepness, 2 pi H / g T2"),
+)
+CUTOFF = Usual(0.08, 2.0, "beyond it a sea has no energy", remark=True)
+INCREMENT = Usual(high=0.1, why="a spectrum is narrower", remark=True)
+HARMONICS = Usual(20.0, 10_000.0, "fewer repeat themselves", remark=True)
+PEAKEDNESS = Usual(0.5, 10.0, "Jonswap seas have 1 to 7")
+PHILLIPS = Usual(1e-5, 0.1, "0.0081 of a full sea", remark=True)
+PROGRESSION = Usual(1.0, 1.5, "frequencies follow closely on each other", remark=True)
+DIRECTIONS = Usual(low=2.0, why="one direction is not spread", when="a spreading exponent", remark=True)
+EXPONENT = Usual(high=50.0, why="wind seas have 2 to 10", remark=True)
+AMPLITUDE = Usual(high=20.0, why="the highest waves that were measured have 30 m")
+HEIGHT = Usual(high=40.0, why="the highest waves that were measured have 30 m")
+STEP = Usual(high=5.0, why="waves have periods of 2 to 30 s", when="waves in the time domain")
+
+DRAG = Usual(high=5.0, why="bluff bodies have up to 2.5", meant=1.0, within=3.0)
+ALONG_DRAG = Usual(high=3.0, why="a chain has 1.2", meant=0.1, within=10.0)
+INERTIA = Usual(high=6.0, why="a cylinder has 2, at the seabed 3.3")
+ADDED_MASS = Usual(high=5.0, why="a cylinder has 1, at the seabed 2.3")
+LIFT = Usual(-5.0, 5.0, "at the seabed it stays below 5")
+SHIFT_RAO = Usual(-10.0, 10.0, "metres per metre: in resonance 2 to 5", meant=0.7, within=3.0)
+TURN_RAO = Usual(-30.0, 30.0, "degrees per metre: in resonance 5 to 15")
+LONG_WAVE = Usual(0.5, 1.5, "a vessel rises and falls with long waves", of="as heave in a wave of 40 s and longer")
+VESSEL_HEIGHT = (
+    Usual(high=400.0, why="no vessel is longer; X is the vertical", of="m from the nodes that it holds"),
+    Usual(-150.0, 150.0, "X is the vertical, counted from the mudline", of="m above the water"),
+)
+VERTICAL_OFFSET = Usual(-30.0, 30.0, "X is the vertical: tide and draught alone move a vessel along it")
+OFFSET = (
+    Usual(-0.5, 0.5, "risers and moorings hold no vessel farther out", of="times the water depth"),
+    Usual(-0.25, 0.25, "a tenth of the depth is usual", of="times the water depth", remark=True),
+)
+DRIFT_PERIOD = Usual(5.0, 3600.0, "drift is slower than waves")
+
+OUTER_WIDTH = Usual(
+    high=8.0, why="one of them is in another unit", of="times the drag and buoyancy diameters", code="UNT006"
+)
+YOUNG = (
+    Usual(low=1e5, why="rubber has 1E6, steel 2.07E11", code="UNT005", placeholder=True, meant=2.07e11, within=1000.0),
+    Usual(185e9, 220e9, "steel", when="a steel wall", code="UNT005", placeholder=True, meant=2.07e11, explained=True),
+)
+SHEAR = (
+    Usual(low=1e5, why="steel has 7.96E10", code="UNT005", placeholder=True, meant=7.96e10, within=1000.0),
+    Usual(71e9, 86e9, "steel", when="a steel wall", code="UNT005", placeholder=True, meant=7.96e10, explained=True),
+    Usual(low=-0.02, why="of E and G", of="as Poisson's ratio, E / 2G - 1", code="UNT005", placeholder=True),
+    Usual(
+        high=0.52,
+        why="of a metal",
+        of="as Poisson's ratio, E / 2G - 1",
+        when="a metal",
+        code="UNT005",
+        placeholder=True,
+    ),
+)
+WALL = (
+    Usual(
+        high=40_000.0,
+        low=10.0,
+        why="foam to steel with its contents; steel has 7850",
+        when="a wall without an area of its own",
+        code="UNT004",
+        placeholder=True,
+        meant=7850.0,
+        within=12.0,
+    ),
+    Usual(
+        low=10.0,
+        why="foam to steel with its contents; steel has 7850",
+        code="UNT004",
+        placeholder=True,
+        meant=7850.0,
+        within=12.0,
+    ),
+    Usual(high=40_000.0, why="steel has 7850", code="UNT004", placeholder=True, meant=7850.0, explained=True),
+    Usual(
+        low=7000.0, why="steel", when="the modulus of steel", code="UNT004", placeholder=True, meant=7850.0, within=1.1
+    ),
+    Usual(7.0, 8.4, "steel", of="times the density of the water", when="unknown units", code="UNT004", explained=True),
+)
+SEA_DENSITY = Usual(
+    900.0,
+    2500.0,
+    "fresh water to heavy brine",
+    code="UNT004",
+    placeholder=True,
+    meant=1025.0,
+    within=1.08,
+    also=(1.1, 1.31),
+)
+GRAVITY = Usual(9.614, 10.006, "9.81 on earth", code="UNT001", meant=9.81, within=1.02)
