@@ -48,6 +48,10 @@ def test_a_page_of_the_manual_is_named_as_it_is_there(page: str) -> None:
 
 
 FAULTS = [
+    ("label|*LABEL\n TYPE=NOD\n 1, LABEL=a\n", "3:7 SYN005"),
+    ("label|*LABEL\n 1, LABEL=a\n", "2:1 SYN001"),
+    ("label|*LABEL\n TYPE=NODE\n 1\n", "3:2 SYN001"),
+    ("time_stepping|*TIME STEPPING\n TYPE=HILBER-HUGHES\n 0.1\n", "4:2 SBD010"),
     ("time|*TIME\n STEP=FIXED\n 0, 100, -0.1\n", "4:10 SBD010"),
     ("time|*TIME\n STEP=VARIABLE\n 0, 100\n", "2:1 SYN001"),
     ("time|*TIME\n STEP=VARIABLE\n 0, 100, 10\n 0.1, 0.01, 1\n 0.1, 0.01, 1\n", "2:1 SYN001"),

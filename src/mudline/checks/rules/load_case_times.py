@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown
 from mudline.language.rules import rule
-from mudline.model.scene.deck_values import bare
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import StepLimits, TimeSpan

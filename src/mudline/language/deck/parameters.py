@@ -1,4 +1,4 @@
-"""The parameters of a deck, the values of equations that use them, and the deck with its equations evaluated."""
+"""The parameters of a deck, the values of equations, and the deck with numbers for its equations and labels."""
 
 from __future__ import annotations
 
@@ -20,10 +20,11 @@ from mudline.language.keywords.model import FieldSpec, ListRow, Part, record_sch
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown, suggestion
 from mudline.language.keywords.unknown import UNKNOWN, is_unknown
-from mudline.language.keywords.values import Equation, Kind
+from mudline.language.keywords.values import Equation, Kind, Label
 from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
+    from mudline.language.deck.labels import LabelNumbers
     from mudline.language.expression.nodes import Expression, ExpressionError
     from mudline.language.keywords.library.preprocessor import Parameter
 
@@ -39,6 +40,14 @@ _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*
 def folded(name: str) -> str:
     """A name as names compare: without case, blanks inside count."""
     return name.strip(" \t").casefold()
+
+
+def bare(name: str) -> str:
+    """A name without blanks, quotes or braces around it."""
+    text = name.strip(" \t")
+    if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
+        text = text[1:-1].strip(" \t")
+    return text
 
 
 class ListItem(NamedTuple):
@@ -274,30 +283,35 @@ DEFINING = "PREPROCESSOR"
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
 """A deck without equations in the sections of the model and of the analysis; only `evaluated` makes one.
 
-A value that an equation did not give is unknown.
+A value that an equation did not give is unknown. A label of `*LABEL` is the number of its node or element; others stay.
 """
 
 
 def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
-    """The deck with its equations evaluated, and a problem for each that has no value.
+    """The deck with numbers for its equations and for the labels of `*LABEL`, and a problem for each without a value.
 
     Without a value of `$MODEL` nothing can be evaluated, were it only because a function is not known, which is a
     warning. What other sections hold has no influence on the contact.
     """
     copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
     ready = EvaluatedDeck(replace(deck, sections=copies))
-    plain = deck.origin.no_equations and not deck.bases
+    labelled = "LABEL" in deck.keywords()
+    plain = deck.origin.no_equations and not deck.bases and not labelled
     written = [
         (i, j)
         for i, section in enumerate(() if plain else copies)
         if section.name != DEFINING
         for j, block in enumerate(section.blocks)
-        if _has_equation(block)
+        if labelled or _has_equation(block)
     ]
     if not written and "PARAMETERS" not in deck.keywords(DEFINING):
         return ready, []
     parameters = Parameters(deck)
     evaluator = _Evaluator(parameters)
+    if labelled:
+        from mudline.language.deck.labels import labels_of  # noqa: PLC0415 - most decks have none
+
+        evaluator.labels = labels_of(deck, parameters, evaluator.problems)
     for i, j in written:
         evaluator.blocks = Blocks.ALWAYS if copies[i].name == "MODEL" else Blocks.NEVER
         copies[i].blocks[j] = evaluator.part(copies[i].blocks[j], Where(i, j))
@@ -338,6 +352,7 @@ class _Evaluator:
     def __init__(self, parameters: Parameters) -> None:
         self.parameters = parameters
         self.problems: list[Problem] = []
+        self.labels: LabelNumbers = {}
         self.lacks_parameter = False
         self.blocks = Blocks.ALWAYS
 
@@ -356,8 +371,10 @@ class _Evaluator:
     def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
         if isinstance(value, Equation):
             return self._number(value, slot.kind or Kind.REAL, slot.label, where)
+        if isinstance(value, Label):
+            return self._labelled(value, slot)
         if isinstance(value, Table):
-            return self._table(value, slot, where) if value.equations else value
+            return self._table(value, slot, where) if value.equations or (self.labels and value.words) else value
         if isinstance(value, ListRow):
             return self._list_row(value, where)
         if isinstance(value, Part):
@@ -365,7 +382,15 @@ class _Evaluator:
         if isinstance(value, list) and value and isinstance(value[0], Part):
             new = [self.part(item, where._replace(path=(*where.path, i))) for i, item in enumerate(value)]
             return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
+        if self.labels and isinstance(value, list) and any(isinstance(item, Label) for item in value):
+            return [self._labelled(item, slot) for item in value]
         return value
+
+    def _labelled(self, value: object, slot: FieldSpec) -> object:
+        """The number of a label that `*LABEL` gives; any other value stays."""
+        if not isinstance(value, Label):
+            return value
+        return self.labels.get((slot.about.names or slot.about.defines, folded(bare(value))), value)
 
     def _list_row(self, row: ListRow, where: Where) -> ListRow:
         """Its fields have the index as path, as JSON holds them in a list."""
@@ -375,6 +400,8 @@ class _Evaluator:
             if isinstance(value, Equation):
                 place = where._replace(path=(*where.path, index))
                 changed[slot.name] = self._number(value, slot.kind or Kind.REAL, slot.label, place)
+            elif isinstance(value, Label):
+                changed[slot.name] = self._labelled(value, slot)
         return row.model_copy(update=changed) if changed else row
 
     def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
@@ -411,4 +438,9 @@ class _Evaluator:
                 place = where._replace(path=(*where.path, row, column))
                 values[row, column] = self._number(word, columns[column].kind, columns[column].label, place)
                 del words[row, column]
+            elif isinstance(word, Label) and slot.row:
+                number = self._labelled(word, record_schema(slot.row).columns[column])
+                if isinstance(number, int):
+                    values[row, column] = number
+                    del words[row, column]
         return Table(values, table.lengths, words)

@@ -39,6 +39,7 @@ ENTRIES: tuple[Entry, ...] = (
         "model",
         names=("DRAG_LIFT", "SET"),
     ),
+    Entry("LABEL", "mesh", "Labels", ("MODEL",), "model", names=("ELEMENT", "NODE")),
     Entry("LINE LOCATIONS", "lines", "LINE_LOCATIONS", ("MODEL",), "model", kept=True),
     Entry("LINE PATH SECTIONS", "lines", "LinePathSections", ("MODEL",), "model"),
     Entry("LINE PATHS", "lines", "LINE_PATHS", ("MODEL",), "model", kept=True),
@@ -136,7 +137,6 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("RESTART", "analysis", "Restart", ("LOAD CASE",), "analysis", names=("DECK",)),
     Entry("TIME", "analysis", "TimeSpan", ("LOAD CASE",), "analysis"),
     Entry("TIME STEPPING", "time_stepping", "TimeStepping", ("LOAD CASE",), "analysis"),
-    Entry("TIME STEPPING", "time_stepping", "BLOCK", ("LOAD CASE",), "analysis"),
     Entry(
         "ELEMENT SET",
         "postprocessing",

@@ -78,6 +78,3 @@ class TimeStepping(Block):
         if self.infinity is not None and self.alphas is not None:
             raise ValueError("give P-INFINITY= or the line of alpha_f and alpha_m, not both")
         return self
-
-
-BLOCK = TimeStepping
