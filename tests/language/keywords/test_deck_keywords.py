@@ -48,6 +48,12 @@ def test_a_page_of_the_manual_is_named_as_it_is_there(page: str) -> None:
 
 
 FAULTS = [
+    ("tolerance|*TOLERANCE\n ANALYSIS=FREQUENZY\n 0.025\n", "3:11 SYN005"),
+    ("tolerance|*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 1.8\n", "4:13 SBD010"),
+    ("tolerance|*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 0.8, 1\n", "4:2 SYN003"),
+    ("tolerance|*TOLERANCE\n 0.001, 20, 10, -0.01\n", "3:17 SBD010"),
+    ("tolerance|*TOLERANCE\n 0.001\n 0.002\n", "2:1 SYN001"),
+    ("tolerance|*TOLERANCE\n ANALYSIS=STATIC/TIME\n , , , , 50.0\n ANALYSIS=FREQUENCY\n 0.03\n", ""),
     ("label|*LABEL\n TYPE=NOD\n 1, LABEL=a\n", "3:7 SYN005"),
     ("label|*LABEL\n 1, LABEL=a\n", "2:1 SYN001"),
     ("label|*LABEL\n TYPE=NODE\n 1\n", "3:2 SYN001"),

@@ -9,6 +9,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("COMBINATIONS", "preprocessor", "Combinations", ("PREPROCESSOR",), "deck"),
     Entry("EXCEL VARIATIONS", "preprocessor", "ExcelVariations", ("PREPROCESSOR",), "deck", names=("FILE",)),
     Entry("PARAMETERS", "preprocessor", "Parameters", ("PREPROCESSOR",), "deck", defines=("PARAMETER",)),
+    Entry("TITLE", "units", "TITLE", ("PREPROCESSOR", "MODEL", "LOAD CASE"), "deck", kept=True, sections_inferred=True),
     Entry("VARIATION", "preprocessor", "Variation", ("PREPROCESSOR",), "deck", names=("FILE", "PARAMETER")),
     Entry("UNITS", "units", "Units", ("ANALYSIS",), "deck"),
     Entry("AUXILIARY", "auxiliary", "Auxiliary", ("MODEL",), "model"),
@@ -137,6 +138,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("RESTART", "analysis", "Restart", ("LOAD CASE",), "analysis", names=("DECK",)),
     Entry("TIME", "analysis", "TimeSpan", ("LOAD CASE",), "analysis"),
     Entry("TIME STEPPING", "time_stepping", "TimeStepping", ("LOAD CASE",), "analysis"),
+    Entry("TOLERANCE", "analysis", "Tolerance", ("LOAD CASE",), "analysis"),
     Entry(
         "ELEMENT SET",
         "postprocessing",

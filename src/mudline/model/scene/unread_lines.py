@@ -42,10 +42,13 @@ Line = tuple[Where, str]
 
 
 def check_unread_lines(context: Context, sets: Sets) -> None:
-    """Look at every line of a deck itself that is not read."""
+    """Look at every line of a deck itself that is not read, but for titles and other text for people."""
     looking: _Looking | None = None
     for where, keyword, line in unread_lines(context.written):
-        if len(line) <= _LONGEST and _WORTH.search(line):
+        if len(line) > _LONGEST or not _WORTH.search(line):
+            continue
+        kept = catalogue.opaque_keyword(context.written.sections[where.section].name, keyword)
+        if not (kept and kept.free_text):
             looking = looking or _Looking(context, sets)
             looking.look(where, keyword, line)
 
