@@ -17,6 +17,7 @@ from mudline.language.keywords.library.floating_bodies import MatrixRow
 from mudline.language.keywords.library.geometric_sets import GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
 from mudline.language.keywords.library.seabed_surface import SeabedProfile
+from mudline.language.keywords.library.time_stepping import TimeStepping
 from mudline.language.keywords.library.waves import JonswapSea
 from mudline.language.keywords.model import FEWEST_POINTS, Block, FieldSpec, ListRow, Record, Row, Rows, record_schema
 from mudline.language.keywords.values import Kind
@@ -200,10 +201,12 @@ _OF_CHOICE: dict[str, tuple[str, dict[str, str]]] = {
     "current_profile": ("type", {"UNIFORM": "uniform", "PIECEWISE LINEAR": "profile", "SUBROUTINE": ""}),
     "database": ("time", {"ALL": "", "SELECTED": "interval", "END": ""}),
     "flex_joint": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
+    "label_line": ("thing", {"NODE": "node", "ELEMENT": "element"}),
     "matrix_type": ("type", {"CONSTANT": "matrix", "FREQUENCY": "frequencies", "CUTOFF": "matrix"}),
     "pip_curve": ("type", {"DATA PAIRS": "points", "POWER LAW": "law"}),
     "regular_wave": ("option", {"ONE": "wave", "MANY": "directed_band"}),
     "springs": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
+    "tolerances": ("analysis", {"STATIC": "steps", "TIME": "steps", "FREQUENCY": "frequency"}),
     "vessel_drift": ("type", {"SINUSOIDAL": "sinusoid", "FILE": "file"}),
 }
 """By the rule of a record: the field that chooses, and which of the others each choice has."""
@@ -274,6 +277,21 @@ def _jonswap_sea(draw: st.DrawFn, _made: Values) -> Values:
     return {"frequency": frequency, "spec": spec, row_: draw(cell(slots[row_]))}
 
 
+@st.composite
+def _time_stepping(draw: st.DrawFn, _made: Values) -> Values:
+    """The parameters of the scheme that is chosen, in one of their forms."""
+    slots = {slot.json: slot for slot in record_schema(TimeStepping).slots}
+    chosen = draw(st.sampled_from(["infinity", "alphas", "hilber_hughes"]))
+    scheme = "HILBER-HUGHES" if chosen == "hilber_hughes" else "GENERALISED-ALPHA"
+    return {"type": scheme, chosen: draw(cell(slots[chosen]))}
+
+
+def _each_once(made: Values) -> st.SearchStrategy[Values]:
+    """One line for a kind of run."""
+    kinds = {line["analysis"]: line for line in made.get("tolerances", [])}
+    return st.just(made | {"tolerances": [*kinds.values()]})
+
+
 def _moored_alone(made: Values) -> st.SearchStrategy[Values]:
     """A moored vessel stands alone."""
     bodies = made.get("bodies", [])
@@ -293,6 +311,8 @@ ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "jonswap_sea": _jonswap_sea,
     "seabed_profile": _seabed_profile,
     "time": _time,
+    "time_stepping": _time_stepping,
+    "tolerance": _each_once,
     "trench_set": _trench_set,
     "wind_coeff": _moored_alone,
     "varied_parameter": _varied_parameter,

@@ -26,7 +26,7 @@ ROOT = Path(mudline.__file__).parent
 ASKING = frozenset(
     {
         *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
-        "misread",
+        *("misread", "report_label"),
         *("get", "add", "setdefault", "written"),
     }
 )

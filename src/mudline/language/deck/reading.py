@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import PurePath
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -59,17 +59,17 @@ class Findings:
         message = f"section ${name} is not known{meant}: it is passed through unchanged"
         self._misspelt(SYN010, message, where, instead_, head)
 
-    def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
+    def no_model(self, keyword: str, section: str, where: Where, lines: RawLines, head: Span | None = None) -> None:
         """A block that is passed through: no finding if its keyword is known and allowed in the section.
 
-        `head` is its first line in a text.
+        `lines` are those below its first one, `head` is that line in a text.
         """
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
-                near = _suggested(keyword, section)
+                near = lines.meant(keyword, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                meant = f"*{near}" if near else ""
+                meant = f"*{near}" if catalogue.entries(near) else ""
                 if keyword.startswith("*"):
                     message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
                     meant = f"C {keyword.lstrip('* ')}"
@@ -119,9 +119,43 @@ class Findings:
 
 
 @lru_cache(256)
-def _suggested(keyword: str, section: str) -> str:
+def _suggested(keyword: str, section: str, but: tuple[str, ...]) -> str:
     """`suggest_keyword`, of keywords that stand in many decks, or in a deck that is read several times."""
-    return suggest_keyword(keyword, section)
+    return suggest_keyword(keyword, section, None, but)
+
+
+_TRIED = 4
+"""Known names that an unknown one may have been, of which it is tried whether its lines read as theirs."""
+
+
+class RawLines(NamedTuple):
+    """The lines of a block whose keyword is not known, in the text where they stand."""
+
+    text: str
+    raw: RawBlock
+
+    def meant(self, keyword: str, section: str) -> str:
+        """The known keyword that one was to be: the nearest whose lines these may be; "" if there is none."""
+        tried: tuple[str, ...] = ()
+        while len(tried) < _TRIED and (near := _suggested(keyword, section, tried)):
+            if self._may_be(near, section):
+                return near
+            tried += (near,)
+        return ""
+
+    def _may_be(self, near: str, section: str) -> bool:
+        """Whether a keyword may stand in a section, and most of the lines read as its own."""
+        elsewhere = section not in (catalogue.sections_of(near) or (section,))
+        if elsewhere and section in catalogue.SECTIONS and section not in catalogue.CERTAIN_SECTIONS:
+            return False
+        declared = catalogue.declared(near, section)
+        if declared is None:
+            return True
+        found = read_block(self.text, RawBlock(self.raw.head, near, self.raw.leaves), declared, last=False)
+        faults = sum(one.weight is Severity.ERROR for one in found.problems)
+        data = [leaf for leaf in self.raw.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        lines = sum(self.text.count("\n", *leaf.span) or 1 for leaf in data)
+        return not lines or 2 * max(faults, found.lost) < lines
 
 
 def _meant(name: str, near: str) -> str:
@@ -336,7 +370,7 @@ class _Reader:
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
             return
-        self.findings.no_model(raw.name, section.name, where, head)
+        self.findings.no_model(raw.name, section.name, where, RawLines(self.text, raw), head)
 
     def _truncated(self) -> None:
         """A fault in the very last token of a file without a last line end means that the file was cut."""

@@ -268,9 +268,8 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
         return
     near = context.near(name, context.labels)
     if near and same_marks(name, near) and not context.is_guessed_label(where):
-        keywords = [keyword for keyword in context.external_definers if makes_labels(keyword)]
-        keywords += ["LABEL"] * ("LABEL" in context.deck.keywords())
-        makers = " or ".join(f"*{keyword}" for keyword in keywords)
+        makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
+        makers += " or *LABEL" if "LABEL" in context.deck.keywords() else ""
         message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
         context.report(code, f"{message}: correct it", where, Severity.WARNING)
 
