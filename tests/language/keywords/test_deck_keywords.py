@@ -48,6 +48,16 @@ def test_a_page_of_the_manual_is_named_as_it_is_there(page: str) -> None:
 
 
 FAULTS = [
+    ("para_seabed|*PARA SEABED\n DATA1=ALL\n DATA2=4\n", "4:8 SBD010"),
+    ("stress_properties|*PROPERTIES\n SET=ALL\n 0.3, , , , , -0.01\n", "4:15 SBD010"),
+    ("stress_properties|*PROPERTIES\n 0.3\n", "3:2 SYN001"),
+    ("stress_properties|*PROPERTIES\n SET=ALL\n , 0.2\n", ""),
+    ("clear_database|*DATABASE\n DATABASE_3=a\n", "3:2 SYN004"),
+    ("scatter_diagram|*SCATTER DIAGRAM\n REFERENCE=2, 8, 9\n", "3:2 SYN001"),
+    ("scatter_diagram|*SCATTER DIAGRAM\n REFERENCE=2, 8, 9, FILE=a\n 2, 0, 9\n", "4:5 SBD010"),
+    ("scatter_options|*OPTIONS\n OVERWRITE DATA=MAYBE\n", "3:17 SYN005"),
+    ("viscous_drag|*VISCOUS DRAG\n FLOATING BODY=a\n TYPE=MATRIX\n OPTION=TOTAL\n", "5:9 SYN005"),
+    ("viscous_drag|*VISCOUS DRAG\n FLOATING BODY=a\n TYPE=MATRIX\n 1, 2, 3, 4, 5, 6\n", "3:2 SYN001"),
     ("tolerance|*TOLERANCE\n ANALYSIS=FREQUENZY\n 0.025\n", "3:11 SYN005"),
     ("tolerance|*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 1.8\n", "4:13 SBD010"),
     ("tolerance|*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 0.8, 1\n", "4:2 SYN003"),

@@ -125,6 +125,7 @@ ENTRIES: tuple[Entry, ...] = (
         names=("FILE",),
         defines=("VESSEL",),
     ),
+    Entry("VISCOUS DRAG", "floating_bodies", "ViscousDrag", ("MODEL",), "vessels", names=("BODY",)),
     Entry("DRIFT", "vessel_motions", "Drift", ("LOAD CASE",), "vessels", names=("FILE", "VESSEL")),
     Entry("OFFSET", "vessel_motions", "Offsets", ("LOAD CASE",), "vessels", names=("VESSEL",)),
     Entry("RAO", "vessel_motions", "Raos", ("LOAD CASE",), "vessels", names=("FILE", "VESSEL")),
@@ -147,6 +148,14 @@ ENTRIES: tuple[Entry, ...] = (
         "post-processing",
         names=("ELEMENT",),
         defines=("SET",),
+    ),
+    Entry(
+        "PROPERTIES",
+        "postprocessing",
+        "StressProperties",
+        ("DATABASE POSTPROCESSING",),
+        "post-processing",
+        names=("SET",),
     ),
     Entry("TIMETRACE", "postprocessing", "Timetrace", ("DATABASE POSTPROCESSING", "POSTPROCESSING"), "post-processing"),
     Entry(
@@ -175,7 +184,10 @@ ENTRIES: tuple[Entry, ...] = (
         names=("NODE",),
     ),
     Entry("PARA REACTION", "summary", "ParaReaction", ("SUMMARY POSTPROCESSING",), "post-processing", names=("NODE",)),
+    Entry("PARA SEABED", "summary", "ParaSeabed", ("SUMMARY POSTPROCESSING",), "post-processing", names=("SET",)),
     Entry("TIME", "summary", "SummaryTime", ("SUMMARY POSTPROCESSING",), "post-processing"),
+    Entry("OPTIONS", "waves", "ScatterOptions", ("SUMMARY WAVE SCATTER",), "post-processing"),
+    Entry("SCATTER DIAGRAM", "waves", "ScatterDiagram", ("SUMMARY WAVE SCATTER",), "post-processing"),
     Entry("WAVE SPECTRUM", "waves", "WaveSpectrum", ("SUMMARY WAVE SCATTER",), "post-processing"),
     Entry(
         "TIMETRACE",
@@ -187,5 +199,6 @@ ENTRIES: tuple[Entry, ...] = (
     ),
     Entry("SOURCE TYPE", "postprocessing", "SourceType", ("LIFETIME FATIGUE",), "post-processing"),
     Entry("TD OPTIONS", "postprocessing", "TimeDomainOptions", ("LIFETIME FATIGUE",), "post-processing"),
+    Entry("DATABASE", "postprocessing", "ClearDatabase", ("CLEAR",), "post-processing"),
     Entry("ELEMENT SETS", "postprocessing", "ClearSets", ("CLEAR",), "post-processing", names=("ELEMENT",)),
 )
