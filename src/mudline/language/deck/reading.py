@@ -21,7 +21,7 @@ from mudline.language.keywords.catalogue import meant_in, meant_section, suggest
 from mudline.language.keywords.model import Comment
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
-from mudline.language.syntax.fields import trimmed
+from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
 
@@ -138,10 +138,18 @@ class RawLines(NamedTuple):
         """The known keyword that one was to be: the nearest whose lines these may be; "" if there is none."""
         tried: tuple[str, ...] = ()
         while len(tried) < _TRIED and (near := _suggested(keyword, section, tried)):
-            if self._may_be(near, section):
+            if self._may_be(near, section) or self._stands_apart(near):
                 return near
             tried += (near,)
         return ""
+
+    def _stands_apart(self, near: str) -> bool:
+        """Whether the name is followed by words far behind it, as numbers of cards are, which all lines may have."""
+        words = r"[ \t]+".join(map(re.escape, near.split(" ")))
+        return (
+            re.match(rf"\*[ \t]*{words}(?:[ \t]{{2,}}|\t)\S", self.text[slice(*self.raw.head.span)], re.IGNORECASE)
+            is not None
+        )
 
     def _may_be(self, near: str, section: str) -> bool:
         """Whether a keyword may stand in a section, and most of the lines read as its own."""
@@ -150,9 +158,13 @@ class RawLines(NamedTuple):
             return False
         declared = catalogue.declared(near, section)
         if declared is None:
-            return True
+            kept = [catalogue.load_opaque(entry) for entry in catalogue.entries(near)]
+            keys = [key for one in kept for key in one.name_settings]
+            return not keys or any(first_key(self.text, leaf.span) in keys for leaf in self.raw.leaves)
         found = read_block(self.text, RawBlock(self.raw.head, near, self.raw.leaves), declared, last=False)
-        faults = sum(one.weight is Severity.ERROR for one in found.problems)
+        start = self.raw.head.span.start
+        places = (one.span.start for one in found.problems if one.span and one.weight is Severity.ERROR)
+        faults = len({self.text.count("\n", start, place) for place in places})
         data = [leaf for leaf in self.raw.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
         lines = sum(self.text.count("\n", *leaf.span) or 1 for leaf in data)
         return not lines or 2 * max(faults, found.lost) < lines
