@@ -218,7 +218,7 @@ _ONE_OF: dict[str, tuple[str, ...]] = {
     "pip_link": ("stiffness", "curve", "bulkhead"),
     "springs": ("element", "set"),
     "vessel_coefficients": ("file", "headings"),
-    "vessel_rao": ("file", "headings", "lines"),
+    "vessel_rao": ("file", "first", "headings", "lines"),
 }
 """By the rule of a record: the fields of which it has one."""
 

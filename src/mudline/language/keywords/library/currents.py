@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.common import Direction, require_one
+from mudline.language.keywords.common import OLDER, Direction, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
@@ -37,8 +37,15 @@ class CurrentProfile(Record):
         setting("TYPE", "one velocity, a profile, or a subroutine"),
     ] = Field(alias="type")
     option: Annotated[
-        Literal["ASCEND", "DESCEND"] | None,
-        setting("OPTION", "of a profile: up from X = 0, or down from the water line", default="ASCEND", inline=True),
+        Literal["ASCEND", "DESCEND", "DESCENDING"] | None,
+        setting(
+            "OPTION",
+            "of a profile: up from X = 0, or down from the water line",
+            default="ASCEND",
+            inline=True,
+            inferred=f"DESCENDING, {OLDER}",
+            older=("DESCENDING",),
+        ),
     ] = None
     level: Annotated[
         Literal["MWL", "AMBIENT"] | None,

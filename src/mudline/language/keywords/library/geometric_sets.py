@@ -6,12 +6,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.values import Facts, Name, Names, Real
+from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _DO = "external diameter"
 _CURVE = "curve of non-linear {}; the number on the property line is then left empty"
+_AUXILIARY = "an auxiliary value whose meaning is not known"
 
 
 class FlexibleSection(Row):
@@ -32,6 +34,10 @@ class FlexibleSection(Row):
     db: Annotated[Real, about("buoyancy diameter", unit="L", at_least=0)] = Field(alias="Db")
     do: Annotated[Real | None, about(_DO, unit="L", default="Dd", above=0)] = Field(None, alias="Do")
     dc: Annotated[Real | None, about("contact diameter", unit="L", above=0)] = Field(None, alias="Dc")
+    aux_1: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True)] = None
+    aux_2: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True)] = None
+    aux_3: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True)] = None
+    aux_4: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True)] = None
 
 
 class RigidSection(Row):

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
+from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record
@@ -169,6 +170,8 @@ class FluidSet(Record):
     density: Annotated[Real, about("mass density", unit="M/L3", at_least=0)]
     pressure: Annotated[Real | None, about("pressure above the hydrostatic one", unit="F/L2", default="0")] = None
     velocity: Annotated[Real | None, about("velocity; a negative one turns the flow", unit="L/T", default="0")] = None
+    fifth: Annotated[Real | None, about("a number whose meaning is not known", inferred=OLDER, older=True)] = None
+    inertia: Annotated[Whole | None, about("number for the inertia along", inferred=OLDER, older=True)] = None
     coriolis: Annotated[
         _Switch, setting("CORIOLIS", "Coriolis forces", default="INCLUDE", inline=True, inferred=_ONE_LINE)
     ] = None
