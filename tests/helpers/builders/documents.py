@@ -14,7 +14,7 @@ from mudline.language.deck.document import FORMAT, json_schema
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.analysis import Database, TimeSpan
 from mudline.language.keywords.library.floating_bodies import MatrixRow
-from mudline.language.keywords.library.geometric_sets import GeometricSet
+from mudline.language.keywords.library.geometric_sets import FORMATS_OF, GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
 from mudline.language.keywords.library.seabed_surface import SeabedProfile
 from mudline.language.keywords.library.time_stepping import TimeStepping
@@ -112,7 +112,8 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
 
 def cell(slot: FieldSpec) -> st.SearchStrategy[Any]:
     """One value of a field: a choice, a value of its kind, or a row; none behind which lines are kept."""
-    choices = [choice for choice in slot.choices if choice not in (slot.about.opaque or ())]
+    older = slot.about.older if isinstance(slot.about.older, tuple) else ()
+    choices = [choice for choice in slot.choices if choice not in (*(slot.about.opaque or ()), *older)]
     options: list[st.SearchStrategy[Any]] = [st.sampled_from(choices)] if choices else []
     options += [BY_KIND[slot.kind]] if slot.kind and slot.about.opaque is None else []
     options += [row(slot.row)] if slot.row else []
@@ -142,7 +143,7 @@ def line(draw: st.DrawFn, columns: list[FieldSpec]) -> Values:
 
 def row(part: type[Row]) -> st.SearchStrategy[Any]:
     """A row: an object, or a list where the declaration says so."""
-    values = line(record_schema(part).columns)
+    values = line([slot for slot in record_schema(part).columns if slot.about.older is not True])
     return values.map(lambda given: list(given.values())) if issubclass(part, ListRow) else values
 
 
@@ -170,7 +171,8 @@ def _geometric_set(draw: st.DrawFn, made: Values) -> Values:
     slots = _slots(GeometricSet)
     formats = ("flexible", "rigid", "mooring", "truss")
     chosen = draw(st.sampled_from(formats))
-    rest = {key: value for key, value in made.items() if key not in formats}
+    foreign = {name for name, slot in slots.items() if chosen.upper() not in FORMATS_OF.get(slot.key, [chosen.upper()])}
+    rest = {key: value for key, value in made.items() if key not in formats and key not in foreign}
     return rest | {"option": chosen.upper(), chosen: draw(cell(slots[chosen]))}
 
 
@@ -179,7 +181,7 @@ def _seabed_profile(draw: st.DrawFn, made: Values) -> Values:
     """The settings of the type."""
     kind = draw(st.sampled_from(["SLOPING", "2D", "3D"]))
     needed = "slope" if kind == "SLOPING" else "file"
-    given = {key: made[key] for key in ("direction",) if key in made}
+    given = {key: made[key] for key in ("direction",) if key in made and kind != "3D"}
     if kind != "SLOPING":
         given["interpolation"] = draw(st.sampled_from(["LINEAR", "CUBIC SPLINE" if kind == "2D" else "CUBIC"]))
     return given | {"type": kind, needed: draw(cell(_slots(SeabedProfile)[needed]))}
@@ -198,7 +200,7 @@ def _trench_set(made: Values) -> st.SearchStrategy[Values]:
 
 
 _OF_CHOICE: dict[str, tuple[str, dict[str, str]]] = {
-    "current_profile": ("type", {"UNIFORM": "uniform", "PIECEWISE LINEAR": "profile", "SUBROUTINE": ""}),
+    "current_profile": ("type", {"UNIFORM": "uniform", "PIECEWISE LINEAR": "profile", "SUBROUTINE": "user"}),
     "database": ("time", {"ALL": "", "SELECTED": "interval", "END": ""}),
     "flex_joint": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
     "label_line": ("thing", {"NODE": "node", "ELEMENT": "element"}),
@@ -218,7 +220,7 @@ _ONE_OF: dict[str, tuple[str, ...]] = {
     "pip_link": ("stiffness", "curve", "bulkhead"),
     "springs": ("element", "set"),
     "vessel_coefficients": ("file", "headings"),
-    "vessel_rao": ("file", "first", "headings", "lines"),
+    "vessel_rao": ("file", "headings", "lines"),
 }
 """By the rule of a record: the fields of which it has one."""
 
@@ -327,8 +329,9 @@ def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
     first = found.slots[0]
     plain = [slot for slot in found.columns if not slot.row and not slot.many]
     own_line = plain if len(plain) == len(found.columns) else []
+    own_line = [slot for slot in own_line if slot.about.older is not True]
     made: Values = draw(line(own_line)) if own_line else {}
-    for slot in found.slots:
+    for slot in (slot for slot in found.slots if slot.about.older is not True):
         opens = index > 0 and slot is first and bool(slot.key)
         if slot in own_line or not (slot.required or opens or draw(st.booleans())):
             continue

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
-from mudline.language.codes.fields import SYN002, SYN003, SYN006
-from mudline.language.codes.lines import SYN004, SYN007, SYN008, SYN009, SYN010, SYN011, SYN012, SYN014
+from mudline.language.codes.fields import SYN002, SYN006
+from mudline.language.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN012, SYN014
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.parameters import Parameters
 from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, meant_section, suggest_keyword, words_behind
-from mudline.language.keywords.model import Block, Comment, FieldSpec, Path
+from mudline.language.keywords.model import Comment
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
 from mudline.language.syntax.fields import first_key, trimmed
@@ -161,7 +161,9 @@ class RawLines(NamedTuple):
             kept = [catalogue.load_opaque(entry) for entry in catalogue.entries(near)]
             keys = [key for one in kept for key in one.name_settings]
             return not keys or any(first_key(self.text, leaf.span) in keys for leaf in self.raw.leaves)
-        found = read_block(self.text, RawBlock(self.raw.head, near, self.raw.leaves), declared, last=False)
+        found = read_block(
+            self.text, RawBlock(self.raw.head, near, self.raw.leaves, self.raw.older), declared, last=False
+        )
         start = self.raw.head.span.start
         places = (one.span.start for one in found.problems if one.span and one.weight is Severity.ERROR)
         faults = len({self.text.count("\n", start, place) for place in places})
@@ -272,10 +274,6 @@ def _own_name(path: str) -> str:
     return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
 
 
-def _is_older(slot: FieldSpec) -> bool:
-    return bool(slot.about.older)
-
-
 class _Reader:
     def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
         self.tree = tree
@@ -284,7 +282,7 @@ class _Reader:
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
         self.findings = Findings(self.problems)
-        self.of_manual = tree.source.name.lower().endswith((".keyx", *_SUFFIXES))
+        self.older = tree.source.name.lower().endswith(".das")
         self.deck = Deck(tree.source.name, _own_name(tree.source.name), origin=self.origin)
 
     def read(self, units: str | None) -> Deck:
@@ -361,6 +359,7 @@ class _Reader:
         tree = self.tree
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
+        raw.older = self.older
         read = self.read_block(self.text, raw, declared, last=last)
         head = trimmed(self.text, *raw.head.span) if last and not raw.leaves else None
         empty = head and not read.problems and head.end == len(self.text)
@@ -368,8 +367,6 @@ class _Reader:
             message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
         self.problems += read.problems
-        if self.of_manual and not read.opaque:
-            self._older(read.model, Where(index, number))
         if read.opaque:
             self._opaque(section, Where(index, number), raw)
             return
@@ -380,19 +377,6 @@ class _Reader:
             target = self.deck.comments if ends else section.comments
             before = index + 1 if ends else number + 1
             target += [Comment(before=before, text=text) for text in read.trailing]
-
-    def _older(self, block: Block, where: Where) -> None:
-        """What only decks of the older program have, in one of the manual's."""
-        told: set[Path] = set()
-        for path, slot, value in block.walk(_is_older):
-            older = slot.about.older
-            if path[:-1] not in told and (older is True or (isinstance(older, tuple) and value in older)):
-                told.add(path[:-1])
-                what = f"{slot.key}=" if slot.key else "a value here"
-                word = "" if older is True else f" {value}"
-                message = f"*{block.keyword} has {what}{word} in decks of another program only (.das): remove it"
-                code = SYN004 if slot.key else SYN003
-                self.problems.append(Problem(code, message, None, None, where.inside(*path)))
 
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]

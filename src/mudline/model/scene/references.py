@@ -31,6 +31,7 @@ from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.attachments import DragChains
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
     from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
     from mudline.language.keywords.library.mesh import ElementRows, Elements
@@ -108,6 +109,20 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
 def _names_idents(block: type[Block]) -> bool:
     made = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
     return not made and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
+
+
+def check_chains(context: Context) -> None:
+    """Every GEN= of `*DRAG CHAIN` repeats the chain of a node that has one before it."""
+    known: set[object] = set()
+    for where, block in context.blocks("DRAG CHAIN"):
+        for index, chain in enumerate(cast("DragChains", block).chains):
+            given = getattr(chain, "generate", None)
+            master = getattr(chain, "node", None) if given is None else given.master
+            if given is None:
+                known.add(master)
+            elif isinstance(master, int) and master not in known and "DRAG CHAIN" not in context.unread:
+                message = f"GEN= repeats the chain of a node: node {master} has none before this line; define it above"
+                context.report(REF010, message, where.inside("chains", index, "generate", 0), Severity.ERROR)
 
 
 KEYWORD = "BOUNDARY"

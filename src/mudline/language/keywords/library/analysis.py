@@ -286,13 +286,14 @@ class ContactModelling(Block):
     )
 
 
-_WORDS = "the words of the manual are taken as they are, and not checked"
+_WORDS = "the manual writes DYNAMIC/STATIC for both: the words alone are taken too"
 
 
 class Restart(OpenBlock):
     """The run that goes before."""
 
     rule = "restart"
+    known_forms = True
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_restart"
@@ -310,12 +311,14 @@ class Restart(OpenBlock):
         ),
     ]
     type_: Annotated[
-        Name | None,
-        setting("TYPE", "what follows the last run: DYNAMIC, STATIC or CONTINUATION", inline=True, inferred=_WORDS),
+        Literal["DYNAMIC", "STATIC", "DYNAMIC/STATIC", "CONTINUATION"] | None,
+        setting(
+            "TYPE", "with new loads, or the same run continued", default="DYNAMIC/STATIC", inline=True, inferred=_WORDS
+        ),
     ] = Field(default=None, alias="type")
     option: Annotated[
-        Name | None,
-        setting("OPTION", "APPEND: results go on in the same file, for a CONTINUATION", inline=True, inferred=_WORDS),
+        Literal["APPEND"] | None,
+        setting("OPTION", "results go on in the same file, for a CONTINUATION", inline=True),
     ] = None
 
 

@@ -66,6 +66,8 @@ class CurrentProfile(Record):
     @model_validator(mode="after")
     def _fits(self) -> CurrentProfile:
         """What its type has."""
+        if self.type_ == "SUBROUTINE" and self.user is None:
+            raise ValueError("TYPE=SUBROUTINE needs USER=, the file with it")
         if self.type_ != "SUBROUTINE":
             require_one(self, "uniform" if self.type_ == "UNIFORM" else "profile")
         if self.uniform is not None or self.profile is not None:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.model import Block, Record, Row, record_schema
 from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _DO = "external diameter"
@@ -134,6 +134,14 @@ class GeometricSet(Record):
         return "Do", section.do
 
 
+FORMATS_OF = {
+    **dict.fromkeys(("EIYY", "EIZZ", "GJ", "EI", "EI_HYSTERESIS"), ("FLEXIBLE",)),
+    "EA": ("FLEXIBLE", "TRUSS"),
+    **dict.fromkeys(("E", "PLASTIC HARDENING"), ("RIGID",)),
+}
+"""The formats in which a curve may take the place of a number."""
+
+
 class GeometricSets(Block):
     """Section properties by set."""
 
@@ -156,4 +164,8 @@ class GeometricSets(Block):
             if given != [option.lower()]:
                 found = " and ".join(given) or "none"
                 raise ValueError(f"sets[{index}]: OPTION={option} needs the section {option.lower()!r}, found {found}")
+            for slot in record_schema(GeometricSet).slots:
+                if slot.key in FORMATS_OF and option not in FORMATS_OF[slot.key] and getattr(entry, slot.name):
+                    formats = " or ".join(FORMATS_OF[slot.key])
+                    raise ValueError(f"sets[{index}]: OPTION={option} takes no {slot.key}=, which is of {formats}")
         return self
