@@ -279,7 +279,9 @@ class _Reader:
         return frozenset()
 
     def _report(self, mismatch: Mismatch) -> None:
-        wanted = " or ".join(self._describe(terminal) for terminal in mismatch.expected if terminal != END)
+        hidden = set() if self.raw.older else {grammar.terminal_of(key) for key in older_keys(self.declared)}
+        shown_ = (terminal for terminal in mismatch.expected if terminal != END and terminal not in hidden)
+        wanted = " or ".join(map(self._describe, shown_))
         wanted = wanted or "nothing more in this block"
         self.lost += 1
         if mismatch.found is None:
@@ -308,7 +310,7 @@ class _Reader:
 
             formats = dict.fromkeys(row_formats(schemas_of(self.declared)))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
-        return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
+        return next(f"{key}=" for key in all_keys(self.declared) if grammar.terminal_of(key) == terminal)
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:

@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from mudline.basics.short_repr import counted, cut, outline
+from mudline.language.deck.evaluated import evaluated
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import evaluated
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_curves import check_curves
