@@ -22,7 +22,7 @@ from mudline.language.diagnostics import Diagnostic, Where
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
-    from mudline.language.deck.parameters import EvaluatedDeck
+    from mudline.language.deck.evaluated import EvaluatedDeck
     from mudline.model.contact import ContactModel, ContactResult
     from mudline.model.contact.plan import Backend
     from mudline.model.curves import ForceCurve

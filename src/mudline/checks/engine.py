@@ -250,7 +250,7 @@ class _Piece(str):
 
 
 @lru_cache(512)
-def _read_piece(piece: _Piece, declared: type[Block], last: bool) -> ReadBlock:  # noqa: FBT001 - for the cache
+def _read_piece(piece: _Piece, declared: type[Block], last: bool, older: bool) -> ReadBlock:  # noqa: ARG001, FBT001 - for the cache
     return read_piece(piece, piece.start, piece.raw, declared, last=last)
 
 
@@ -262,7 +262,7 @@ def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
         return read_block(text, raw, declared, last=last)
     piece = _Piece(text[start:end])
     piece.raw, piece.start = raw, start
-    known = _read_piece(piece, declared, last)
+    known = _read_piece(piece, declared, last, raw.older)
     return known.at(text, start, [_reported_at(problem, start) for problem in known.problems] if known.problems else [])
 
 

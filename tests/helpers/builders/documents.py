@@ -14,7 +14,7 @@ from mudline.language.deck.document import FORMAT, json_schema
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeStepping
 from mudline.language.keywords.library.floating_bodies import MatrixRow
-from mudline.language.keywords.library.geometric_sets import GeometricSet
+from mudline.language.keywords.library.geometric_sets import FORMATS_OF, GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
 from mudline.language.keywords.library.seabed_surface import SeabedProfile
 from mudline.language.keywords.library.waves import JonswapSea
@@ -111,7 +111,8 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
 
 def cell(slot: FieldSpec) -> st.SearchStrategy[Any]:
     """One value of a field: a choice, a value of its kind, or a row; none behind which lines are kept."""
-    choices = [choice for choice in slot.choices if choice not in (slot.about.opaque or ())]
+    older = slot.about.older if isinstance(slot.about.older, tuple) else ()
+    choices = [choice for choice in slot.choices if choice not in (*(slot.about.opaque or ()), *older)]
     options: list[st.SearchStrategy[Any]] = [st.sampled_from(choices)] if choices else []
     options += [BY_KIND[slot.kind]] if slot.kind and slot.about.opaque is None else []
     options += [row(slot.row)] if slot.row else []
@@ -141,7 +142,7 @@ def line(draw: st.DrawFn, columns: list[FieldSpec]) -> Values:
 
 def row(part: type[Row]) -> st.SearchStrategy[Any]:
     """A row: an object, or a list where the declaration says so."""
-    values = line(record_schema(part).columns)
+    values = line([slot for slot in record_schema(part).columns if slot.about.older is not True])
     return values.map(lambda given: list(given.values())) if issubclass(part, ListRow) else values
 
 
@@ -169,7 +170,8 @@ def _geometric_set(draw: st.DrawFn, made: Values) -> Values:
     slots = _slots(GeometricSet)
     formats = ("flexible", "rigid", "mooring", "truss")
     chosen = draw(st.sampled_from(formats))
-    rest = {key: value for key, value in made.items() if key not in formats}
+    foreign = {name for name, slot in slots.items() if chosen.upper() not in FORMATS_OF.get(slot.key, [chosen.upper()])}
+    rest = {key: value for key, value in made.items() if key not in formats and key not in foreign}
     return rest | {"option": chosen.upper(), chosen: draw(cell(slots[chosen]))}
 
 
@@ -178,7 +180,7 @@ def _seabed_profile(draw: st.DrawFn, made: Values) -> Values:
     """The settings of the type."""
     kind = draw(st.sampled_from(["SLOPING", "2D", "3D"]))
     needed = "slope" if kind == "SLOPING" else "file"
-    given = {key: made[key] for key in ("direction",) if key in made}
+    given = {key: made[key] for key in ("direction",) if key in made and kind != "3D"}
     if kind != "SLOPING":
         given["interpolation"] = draw(st.sampled_from(["LINEAR", "CUBIC SPLINE" if kind == "2D" else "CUBIC"]))
     return given | {"type": kind, needed: draw(cell(_slots(SeabedProfile)[needed]))}
@@ -197,13 +199,15 @@ def _trench_set(made: Values) -> st.SearchStrategy[Values]:
 
 
 _OF_CHOICE: dict[str, tuple[str, dict[str, str]]] = {
-    "current_profile": ("type", {"UNIFORM": "uniform", "PIECEWISE LINEAR": "profile", "SUBROUTINE": ""}),
+    "current_profile": ("type", {"UNIFORM": "uniform", "PIECEWISE LINEAR": "profile", "SUBROUTINE": "user"}),
     "database": ("time", {"ALL": "", "SELECTED": "interval", "END": ""}),
     "flex_joint": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
+    "label_line": ("thing", {"NODE": "node", "ELEMENT": "element"}),
     "matrix_type": ("type", {"CONSTANT": "matrix", "FREQUENCY": "frequencies", "CUTOFF": "matrix"}),
     "pip_curve": ("type", {"DATA PAIRS": "points", "POWER LAW": "law"}),
     "regular_wave": ("option", {"ONE": "wave", "MANY": "directed_band"}),
     "springs": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
+    "tolerances": ("analysis", {"STATIC": "steps", "TIME": "steps", "FREQUENCY": "frequency"}),
     "vessel_drift": ("type", {"SINUSOIDAL": "sinusoid", "FILE": "file"}),
 }
 """By the rule of a record: the field that chooses, and which of the others each choice has."""
@@ -283,6 +287,12 @@ def _jonswap_sea(draw: st.DrawFn, _made: Values) -> Values:
     return {"frequency": frequency, "spec": spec, row_: draw(cell(slots[row_]))}
 
 
+def _each_once(made: Values) -> st.SearchStrategy[Values]:
+    """One line for a kind of run."""
+    kinds = {line["analysis"]: line for line in made.get("tolerances", [])}
+    return st.just(made | {"tolerances": [*kinds.values()]})
+
+
 def _moored_alone(made: Values) -> st.SearchStrategy[Values]:
     """A moored vessel stands alone."""
     bodies = made.get("bodies", [])
@@ -303,6 +313,7 @@ ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "seabed_profile": _seabed_profile,
     "time": _time,
     "time_stepping": _time_stepping,
+    "tolerance": _each_once,
     "trench_set": _trench_set,
     "wind_coeff": _moored_alone,
     "varied_parameter": _varied_parameter,
@@ -317,8 +328,9 @@ def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
     first = found.slots[0]
     plain = [slot for slot in found.columns if not slot.row and not slot.many]
     own_line = plain if len(plain) == len(found.columns) else []
+    own_line = [slot for slot in own_line if slot.about.older is not True]
     made: Values = draw(line(own_line)) if own_line else {}
-    for slot in found.slots:
+    for slot in (slot for slot in found.slots if slot.about.older is not True):
         opens = index > 0 and slot is first and bool(slot.key)
         if slot in own_line or not (slot.required or opens or draw(st.booleans())):
             continue

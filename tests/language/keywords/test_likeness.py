@@ -64,6 +64,31 @@ def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
     assert [text for _, text in found.repair.edits] == ["*NODE"]
 
 
+@pytest.mark.parametrize(
+    ("lines", "told", "severity"),
+    [
+        ("$LOAD CASE\n*TIMES\n STEP=FIXED\n 0.0, 60.0, 0.1\n", " (did you mean TIME?)", Severity.WARNING),
+        ("$LOAD CASE\n*TIME SPLITTING\n TYPE=NEWMARK, BETA=0.25\n", "", Severity.INFO),
+        ("$CODE CHECKING\n*MODE\n 1, 0.0, 0.0\n", "", Severity.INFO),
+        ("$MODEL\n*LABLE\n TYPE=NODE\n 1, LABEL=Top\n", " (did you mean LABEL?)", Severity.WARNING),
+        ("$MODEL\n*CABEL\n 1, 1, 2, 250.0\n", " (did you mean CABLE?)", Severity.WARNING),
+        (
+            "$MODEL\n*NODE SPRINGS\n 1, two, 3\n 2, 1, 4.0\n 3, 1, 4.0\n",
+            " (did you mean NODE SPRING?)",
+            Severity.WARNING,
+        ),
+        ("$LOAD CASE\n*TEMPERATURES\n 4.0\n", " (did you mean TEMPERATURE?)", Severity.INFO),
+        ("$MODEL\n*NODES\n", " (did you mean NODE?)", Severity.WARNING),
+    ],
+)
+def test_a_keyword_is_meant_whose_lines_these_may_be(lines: str, told: str, severity: Severity) -> None:
+    (found,) = deck_of(lines).problems
+    keyword = lines.splitlines()[1]
+    assert found.message == f"keyword {keyword} is not known{told}: it is passed through unchanged"
+    assert found.weight is severity
+    assert (found.repair is not None) == (severity is Severity.WARNING)
+
+
 def test_sets_of_a_misplaced_keyword_are_there(tmp_path: Path) -> None:
     text = f"{TABLE}*ELEMENT SET\n SET=Clay\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Clay\n STIFFNESS=1.0E4\n"
     deck = tmp_path / "deck.keyxm"

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax import fields
 from mudline.language.syntax.fields import read_line
-from mudline.model.scene.deck_values import bare, opaque_labels, opaque_set_names
+from mudline.model.scene.deck_values import opaque_labels, opaque_set_names
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import messages, reported

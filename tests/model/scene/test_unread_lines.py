@@ -173,3 +173,9 @@ def test_lines_of_a_document_that_a_model_reads_are_looked_at() -> None:
     assert _told(diagnostics(scene_of(json.dumps(document), "deck.json"))) == [
         "REF001 set 'Rizer' is not defined (did you mean Riser?)"
     ]
+
+
+def test_nothing_is_looked_for_in_a_title() -> None:
+    text = MODEL + "*TITLE\n Base case, SET=Spool, =[depth], {Top}, 4.5O m: CURVE=Bent\n"
+    assert diagnostics(scene_of(text)) == []
+    assert deck_of(text).problems == []

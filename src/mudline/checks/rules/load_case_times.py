@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown
 from mudline.language.rules import rule
-from mudline.model.scene.deck_values import bare
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import StepLimits, TimeSpan
@@ -23,6 +22,8 @@ TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
 TIM002 = Code("TIM002", "step-limits-out-of-order", Severity.ERROR)
 WAV001 = Code("WAV001", "airy-period-without-amplitude", Severity.ERROR)
 VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
+
+TIM006 = Code("TIM006", "storage-given-twice", Severity.ERROR)
 
 _LAST_STORED = -1.0
 
@@ -97,6 +98,31 @@ def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
             "correct them"
         )
         yield Problem(TIM002, message, where=where.inside("suggested"))
+
+
+@rule(TIM006)
+def storage_given_twice(context: LintContext) -> Iterator[Problem]:
+    """A load case says twice when its results are stored.
+
+    The manual allows one `*DATABASE` in a load case. A second one, left over from another run, makes it a matter of
+    chance whether the times that a report needs are in the results. Remove all but one.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*DATABASE
+        | TIME=SELECTED
+        | 60.0, 0.5
+        -*DATABASE
+        - TIME=END
+
+    Finds: 13:1
+    """
+    seen: set[int] = set()
+    for where, _ in context.blocks("DATABASE", "LOAD CASE"):
+        if where.section in seen:
+            message = "this load case has a *DATABASE above: remove one of them"
+            yield Problem(TIM006, message, where=where)
+        seen.add(where.section)
 
 
 @rule(WAV001)

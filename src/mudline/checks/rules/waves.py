@@ -180,7 +180,7 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
         for index, current in enumerate(cast("Current", block).currents):
             place = where.inside("currents", index, "profile")
             if current.profile is not None and depth > 0.0 and len(current.profile):
-                yield from _below(current.profile, place, depth, descends=current.option == "DESCEND")
+                yield from _below(current.profile, place, depth, descends=str(current.option).startswith("DESCEND"))
 
 
 def _below(profile: Table, where: Where, depth: float, *, descends: bool) -> Iterator[Problem]:

@@ -110,9 +110,9 @@ SYN009 = Code(
     The keyword is not known.
 
     There are more keywords than are known here, so this is a note: the block is passed through unchanged and not
-    checked. A name that differs from a known one by a letter or two, has the same beginning or has words after it is a
-    warning, as a misspelt keyword takes its whole block out of the model. Correct the name, put a remark into a comment
-    line, or ignore this rule where the keyword is right.
+    checked. Where the name differs from a known one by a letter or two, has the same beginning or has words after it,
+    and its lines read as those of the known one, it is a warning: a misspelt keyword takes its whole block out of the
+    model. Correct the name, put a remark into a comment line, or ignore this rule where the keyword is right.
 
     Example on ocean:
         -*OCAEN

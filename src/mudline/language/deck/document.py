@@ -13,7 +13,7 @@ from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck import MARK
 from mudline.language.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, respelt, shown
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
-from mudline.language.deck.reading import Findings
+from mudline.language.deck.reading import Findings, RawLines
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import is_read
@@ -220,14 +220,15 @@ class _Reader:
         `where` is the block, or the lines in it if the document has it as these.
         """
         declared = catalogue.block_class(section.name, block.keyword)
-        if declared is None:
-            self.findings.no_model(block.keyword, section.name, where._replace(path=()))
-            return block
         source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
         raw = parse(source).sections[0].blocks[0]
+        lines = RawLines(source.text, raw)
+        if declared is None:
+            self.findings.no_model(block.keyword, section.name, where._replace(path=()), lines)
+            return block
         read = read_block(source.text, raw, declared, last=False)
         if read.opaque:
-            self.findings.no_model(block.keyword, section.name, where._replace(path=()))
+            self.findings.no_model(block.keyword, section.name, where._replace(path=()), lines)
         for problem in read.problems:
             line = source.position(problem.span.start)[0] if problem.span else 0
             inside = where.inside(max(line - 3, 0)) if where.path else where

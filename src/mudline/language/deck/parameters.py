@@ -1,26 +1,20 @@
-"""The parameters of a deck, the values of equations that use them, and the deck with its equations evaluated."""
+"""The parameters of a deck, and the values of equations that use them."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from functools import cache
-from types import NoneType
-from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
-
-from pydantic import BaseModel
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.spelling import Effort
-from mudline.language.codes.fields import SYN002, SYN006, SYN017
+from mudline.language.codes.fields import SYN006, SYN017
 from mudline.language.codes.references import REF013, REF014
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.language.keywords.model import FieldSpec, ListRow, Part, record_schema
-from mudline.language.keywords.table import Table
+from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown, suggestion
-from mudline.language.keywords.unknown import UNKNOWN, is_unknown
-from mudline.language.keywords.values import Equation, Kind
+from mudline.language.keywords.unknown import is_unknown
+from mudline.language.keywords.values import Equation
 from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
@@ -39,6 +33,14 @@ _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*
 def folded(name: str) -> str:
     """A name as names compare: without case, blanks inside count."""
     return name.strip(" \t").casefold()
+
+
+def bare(name: str) -> str:
+    """A name without blanks, quotes or braces around it."""
+    text = name.strip(" \t")
+    if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
+        text = text[1:-1].strip(" \t")
+    return text
 
 
 class ListItem(NamedTuple):
@@ -261,154 +263,5 @@ def _problem(code: Code, equation: Equation, error: ExpressionError, where: Wher
     return Problem(code, f"{shown(equation)}: {error.message}{at}", None, None, where)
 
 
-def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> Problem:
-    """An equation in a field of whole numbers that gives something else."""
-    return Problem(SYN002, f"{equation} gives {value!r}: {label} needs a whole number", None, None, where)
-
-
-_PLAIN = frozenset({float, int, str, NoneType})
-_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
 DEFINING = "PREPROCESSOR"
 """The section of the parameters; `Parameters` and `mudline.editing.variations` evaluate what stands there."""
-
-EvaluatedDeck = NewType("EvaluatedDeck", Deck)
-"""A deck without equations in the sections of the model and of the analysis; only `evaluated` makes one.
-
-A value that an equation did not give is unknown.
-"""
-
-
-def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
-    """The deck with its equations evaluated, and a problem for each that has no value.
-
-    Without a value of `$MODEL` nothing can be evaluated, were it only because a function is not known, which is a
-    warning. What other sections hold has no influence on the contact.
-    """
-    copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
-    ready = EvaluatedDeck(replace(deck, sections=copies))
-    plain = deck.origin.no_equations and not deck.bases
-    written = [
-        (i, j)
-        for i, section in enumerate(() if plain else copies)
-        if section.name != DEFINING
-        for j, block in enumerate(section.blocks)
-        if _has_equation(block)
-    ]
-    if not written and "PARAMETERS" not in deck.keywords(DEFINING):
-        return ready, []
-    parameters = Parameters(deck)
-    evaluator = _Evaluator(parameters)
-    for i, j in written:
-        evaluator.blocks = Blocks.ALWAYS if copies[i].name == "MODEL" else Blocks.NEVER
-        copies[i].blocks[j] = evaluator.part(copies[i].blocks[j], Where(i, j))
-    noticed = parameters.problems
-    if evaluator.lacks_parameter:
-        noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
-    return ready, noticed + evaluator.problems
-
-
-@cache
-def _evaluated_slots(kind: type[BaseModel]) -> tuple[str, ...]:
-    """Names of the fields of a part that can hold an equation, or parts that can; none of anything else.
-
-    The question whether a class is one of parts takes longer than this cache.
-    """
-    slots = record_schema(kind).slots if issubclass(kind, Part) else ()
-    return tuple(slot.name for slot in slots if slot.row or slot.record or slot.kind in _EVALUATED)
-
-
-def _has_equation(value: Any) -> bool:
-    """Whether there is an equation in a value or below it; most values are none that can hold one."""
-    if isinstance(value, Equation):
-        return True
-    if isinstance(value, Table):
-        return value.equations
-    held = value
-    if not isinstance(value, list):
-        kind: type[BaseModel] = type(value)
-        names = _evaluated_slots(kind)
-        held = map(value.__dict__.__getitem__, names) if names else ()  # sooner than `getattr` of a model
-    for item in held:  # noqa: SIM110 - `any` takes twice the time
-        if type(item) not in _PLAIN and _has_equation(item):
-            return True
-    return False
-
-
-class _Evaluator:
-    def __init__(self, parameters: Parameters) -> None:
-        self.parameters = parameters
-        self.problems: list[Problem] = []
-        self.lacks_parameter = False
-        self.blocks = Blocks.ALWAYS
-
-    def part(self, part: Any, where: Where) -> Any:
-        """A part without equations; the same object if it has none."""
-        changed: dict[str, object] = {}
-        kind: type[Part] = type(part)
-        for slot in record_schema(kind).slots:
-            value = getattr(part, slot.name)
-            inner = where._replace(path=(*where.path, slot.json))
-            new = self._value(value, slot, inner)
-            if new is not value:
-                changed[slot.name] = new
-        return part.model_copy(update=changed) if changed else part
-
-    def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
-        if isinstance(value, Equation):
-            return self._number(value, slot.kind or Kind.REAL, slot.label, where)
-        if isinstance(value, Table):
-            return self._table(value, slot, where) if value.equations else value
-        if isinstance(value, ListRow):
-            return self._list_row(value, where)
-        if isinstance(value, Part):
-            return self.part(value, where)
-        if isinstance(value, list) and value and isinstance(value[0], Part):
-            new = [self.part(item, where._replace(path=(*where.path, i))) for i, item in enumerate(value)]
-            return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
-        return value
-
-    def _list_row(self, row: ListRow, where: Where) -> ListRow:
-        """Its fields have the index as path, as JSON holds them in a list."""
-        changed: dict[str, object] = {}
-        for index, slot in enumerate(record_schema(type(row)).columns):
-            value = getattr(row, slot.name)
-            if isinstance(value, Equation):
-                place = where._replace(path=(*where.path, index))
-                changed[slot.name] = self._number(value, slot.kind or Kind.REAL, slot.label, place)
-        return row.model_copy(update=changed) if changed else row
-
-    def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
-        """The value of an equation."""
-        whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
-        nothing: Value = UNKNOWN
-        try:
-            value = self.parameters.evaluate(equation, where)
-        except NoValueError as reason:
-            if reason.problem:
-                self.problems.append(replace(reason.problem, blocks=self.blocks))
-            elif self.blocks is Blocks.ALWAYS:  # the problem is placed where the parameter is defined
-                self.lacks_parameter = True
-            return nothing
-        if isinstance(value, str):
-            if kind is Kind.REAL_OR_NAME:
-                return value
-            message = f"{equation} gives the text {value!r}: {label} needs a number"
-            self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
-            return nothing
-        if not whole:
-            return value
-        if value.is_integer():
-            return int(value)
-        self.problems.append(replace(whole_fault(equation, value, label, where), blocks=self.blocks))
-        return nothing
-
-    def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
-        columns = slot.columns
-        values = table.values.copy()
-        words = dict(table.words)
-        for (row, column), word in table.words.items():
-            if isinstance(word, Equation):
-                place = where._replace(path=(*where.path, row, column))
-                values[row, column] = self._number(word, columns[column].kind, columns[column].label, place)
-                del words[row, column]
-        return Table(values, table.lengths, words)

@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import PurePath
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -21,7 +21,7 @@ from mudline.language.keywords.catalogue import meant_in, meant_section, suggest
 from mudline.language.keywords.model import Comment
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
-from mudline.language.syntax.fields import trimmed
+from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
 
@@ -59,17 +59,17 @@ class Findings:
         message = f"section ${name} is not known{meant}: it is passed through unchanged"
         self._misspelt(SYN010, message, where, instead_, head)
 
-    def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
+    def no_model(self, keyword: str, section: str, where: Where, lines: RawLines, head: Span | None = None) -> None:
         """A block that is passed through: no finding if its keyword is known and allowed in the section.
 
-        `head` is its first line in a text.
+        `lines` are those below its first one, `head` is that line in a text.
         """
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
-                near = _suggested(keyword, section)
+                near = lines.meant(keyword, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                meant = f"*{near}" if near else ""
+                meant = f"*{near}" if catalogue.entries(near) else ""
                 if keyword.startswith("*"):
                     message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
                     meant = f"C {keyword.lstrip('* ')}"
@@ -119,9 +119,57 @@ class Findings:
 
 
 @lru_cache(256)
-def _suggested(keyword: str, section: str) -> str:
+def _suggested(keyword: str, section: str, but: tuple[str, ...]) -> str:
     """`suggest_keyword`, of keywords that stand in many decks, or in a deck that is read several times."""
-    return suggest_keyword(keyword, section)
+    return suggest_keyword(keyword, section, None, but)
+
+
+_TRIED = 4
+"""Known names that an unknown one may have been, of which it is tried whether its lines read as theirs."""
+
+
+class RawLines(NamedTuple):
+    """The lines of a block whose keyword is not known, in the text where they stand."""
+
+    text: str
+    raw: RawBlock
+
+    def meant(self, keyword: str, section: str) -> str:
+        """The known keyword that one was to be: the nearest whose lines these may be; "" if there is none."""
+        tried: tuple[str, ...] = ()
+        while len(tried) < _TRIED and (near := _suggested(keyword, section, tried)):
+            if self._may_be(near, section) or self._stands_apart(near):
+                return near
+            tried += (near,)
+        return ""
+
+    def _stands_apart(self, near: str) -> bool:
+        """Whether the name is followed by words far behind it, as numbers of cards are, which all lines may have."""
+        words = r"[ \t]+".join(map(re.escape, near.split(" ")))
+        return (
+            re.match(rf"\*[ \t]*{words}(?:[ \t]{{2,}}|\t)\S", self.text[slice(*self.raw.head.span)], re.IGNORECASE)
+            is not None
+        )
+
+    def _may_be(self, near: str, section: str) -> bool:
+        """Whether a keyword may stand in a section, and most of the lines read as its own."""
+        elsewhere = section not in (catalogue.sections_of(near) or (section,))
+        if elsewhere and section in catalogue.SECTIONS and section not in catalogue.CERTAIN_SECTIONS:
+            return False
+        declared = catalogue.declared(near, section)
+        if declared is None:
+            kept = [catalogue.load_opaque(entry) for entry in catalogue.entries(near)]
+            keys = [key for one in kept for key in one.name_settings]
+            return not keys or any(first_key(self.text, leaf.span) in keys for leaf in self.raw.leaves)
+        found = read_block(
+            self.text, RawBlock(self.raw.head, near, self.raw.leaves, self.raw.older), declared, last=False
+        )
+        start = self.raw.head.span.start
+        places = (one.span.start for one in found.problems if one.span and one.weight is Severity.ERROR)
+        faults = len({self.text.count("\n", start, place) for place in places})
+        data = [leaf for leaf in self.raw.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        lines = sum(self.text.count("\n", *leaf.span) or 1 for leaf in data)
+        return not lines or 2 * max(faults, found.lost) < lines
 
 
 def _meant(name: str, near: str) -> str:
@@ -234,6 +282,7 @@ class _Reader:
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
         self.findings = Findings(self.problems)
+        self.older = tree.source.name.lower().endswith(".das")
         self.deck = Deck(tree.source.name, _own_name(tree.source.name), origin=self.origin)
 
     def read(self, units: str | None) -> Deck:
@@ -310,6 +359,7 @@ class _Reader:
         tree = self.tree
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
+        raw.older = self.older
         read = self.read_block(self.text, raw, declared, last=last)
         head = trimmed(self.text, *raw.head.span) if last and not raw.leaves else None
         empty = head and not read.problems and head.end == len(self.text)
@@ -336,7 +386,7 @@ class _Reader:
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
             return
-        self.findings.no_model(raw.name, section.name, where, head)
+        self.findings.no_model(raw.name, section.name, where, RawLines(self.text, raw), head)
 
     def _truncated(self) -> None:
         """A fault in the very last token of a file without a last line end means that the file was cut."""

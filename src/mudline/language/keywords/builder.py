@@ -9,7 +9,7 @@ from lark import Tree
 
 from mudline.basics.spelling import nearest
 from mudline.language.codes.fields import SYN003
-from mudline.language.codes.lines import SYN001, SYN004, SYN014
+from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN014
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords.grammar import ROW, Content, Node
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
@@ -36,12 +36,18 @@ _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
 
 class Builder:
-    """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1."""
+    """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1.
 
-    def __init__(self, text: str, problems: list[Problem], *, slashes: bool, end: int = -1) -> None:
+    What fields that are `older` hold is taken in a block of the older program alone.
+    """
+
+    def __init__(
+        self, text: str, problems: list[Problem], *, slashes: bool, end: int = -1, older: bool = False
+    ) -> None:
         self.text = text
         self.end = end
         self.slashes = slashes
+        self.older = older
         self.problems = problems
         self.lost = 0
         self.unclosed: Span | None = None
@@ -202,6 +208,10 @@ class Builder:
             return
         try:
             value = read_value(fields[0], slot, self.problems)
+            if isinstance(slot.about.older, tuple) and value in slot.about.older and not self.older:
+                known = " or ".join(word for word in slot.choices if word not in slot.about.older)
+                message = f"only .das decks, of another program, have {slot.label}{value}: write {known}"
+                self.report(SYN005, message, fields[0].span)
             if len(fields) == 1 or slot.about.defines:
                 built.values[slot.json] = value
         except UnreadableError as fault:
@@ -321,6 +331,7 @@ class Builder:
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> list[Field]:
         """Return the fields without trailing empty ones; a wrong number of them is a problem."""
+        columns = columns if self.older else [slot for slot in columns if slot.about.older is not True]
         required = [slot.required for slot in columns]
         fewest = fewest_fields(required)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):

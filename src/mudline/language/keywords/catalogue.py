@@ -227,9 +227,12 @@ def meant_section(name: str) -> str:
     return nearest(name, SECTIONS) or _begun(name, SECTIONS) or _before(name, SECTIONS)
 
 
-def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = None) -> str:
-    """The keyword that an unknown one was to be, or ""; one that belongs in the section of a block before others."""
-    known = keywords()
+def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = None, but: Collection[str] = ()) -> str:
+    """The keyword that an unknown one was to be, or ""; one that belongs in the section of a block before others.
+
+    Those that it cannot have been are left out by `but`.
+    """
+    known = [name for name in keywords() if name not in but] if but else keywords()
     own = [name for name in known if section in (sections_of(name) or ())] if section else []
     singular = keyword[:-3] + "Y" if keyword.endswith("IES") else keyword
     return (
@@ -237,7 +240,7 @@ def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = Non
         or nearest(keyword, known, effort)
         or (singular if singular in known and singular != keyword else "")
         or _begun(keyword, known)
-        or _before(keyword, read_keywords())
+        or _before(keyword, [name for name in read_keywords() if name not in but])
     )
 
 

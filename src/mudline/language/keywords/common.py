@@ -15,6 +15,8 @@ NO_SET = (
     "every element on the seabed"
 )
 
+OLDER = "from the public reader of .das decks, in which alone it stands"
+
 Node = Annotated[Ident, about("node number, or its label", names=Names.NODE)]
 Element = Annotated[Ident, about("element number, or its label", names=Names.ELEMENT)]
 Freedom = Annotated[

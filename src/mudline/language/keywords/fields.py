@@ -42,7 +42,8 @@ class FieldInfo:
     `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
     is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
     setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
-    they are kept in a record that can keep lines. None: what stands behind it has one form.
+    they are kept in a record that can keep lines. None: what stands behind it has one form. What is `older`, a field or
+    some words of a choice, only decks of an older program have, whose files end in .das.
     """
 
     meaning: str
@@ -59,6 +60,7 @@ class FieldInfo:
     heading: str = ""
     opaque: tuple[str, ...] | None = None
     usual: Expected = ()
+    older: bool | tuple[str, ...] = False
 
     @property
     def usuals(self) -> tuple[Usual, ...]:

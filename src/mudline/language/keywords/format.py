@@ -82,7 +82,7 @@ def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
     shapes: list[str] = []
     for found in schemas:
         lines = [slot for slot in found.columns if slot.row]
-        plain = [slot for slot in found.columns if not slot.row]
+        plain = [slot for slot in found.columns if not slot.row and slot.about.older is not True]
         shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
         if found.table and found.table.row:
             shapes.append(record_schema(found.table.row).wanted)

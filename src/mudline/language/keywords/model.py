@@ -362,7 +362,8 @@ class RecordSchema:
     @cached_property
     def wanted(self) -> str:
         """The columns in words: `depth, density [, gravity]`."""
-        return row_format([slot.label for slot in self.columns], [slot.required for slot in self.columns])
+        columns = [slot for slot in self.columns if slot.about.older is not True]
+        return row_format([slot.label for slot in columns], [slot.required for slot in columns])
 
 
 @cache

@@ -66,8 +66,6 @@ NAMES: dict[str, tuple[str, ...]] = {
             "SLUGS",
             "TAPER",
             "TEMPERATURE",
-            "TITLE",
-            "TOLERANCE",
             "VECTOR",
             "WAVE-DEAN",
             "WAVE-OCHI-HUBBLE",

@@ -121,7 +121,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
     head, *leaves = (Leaf(leaf.kind, leaf.span.moved(-start)) for leaf in (raw.head, *raw.leaves))
-    return read_block(piece, RawBlock(head, raw.name, leaves), declared, last=last)
+    return read_block(piece, RawBlock(head, raw.name, leaves, raw.older), declared, last=last)
 
 
 class _Reader:
@@ -130,7 +130,7 @@ class _Reader:
         self.raw = raw
         self.declared = declared
         self.last = last
-        self.keys = all_keys(declared)
+        self.keys = all_keys(declared) if raw.older else all_keys(declared) - older_keys(declared)
         self.problems: list[Problem] = []
         self.comments: list[Between] = []
         self.kept: list[Between] = []
@@ -161,7 +161,7 @@ class _Reader:
                 self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
                 mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
-        builder = Builder(self.text, self.problems, slashes=self.declared.slashes, end=end)
+        builder = Builder(self.text, self.problems, slashes=self.declared.slashes, end=end, older=self.raw.older)
         for mismatch in mismatches:
             self._report(mismatch)
         built = self.built = builder.build(self.declared, node)
@@ -279,7 +279,9 @@ class _Reader:
         return frozenset()
 
     def _report(self, mismatch: Mismatch) -> None:
-        wanted = " or ".join(self._describe(terminal) for terminal in mismatch.expected if terminal != END)
+        hidden = set() if self.raw.older else {grammar.terminal_of(key) for key in older_keys(self.declared)}
+        shown_ = (terminal for terminal in mismatch.expected if terminal != END and terminal not in hidden)
+        wanted = " or ".join(map(self._describe, shown_))
         wanted = wanted or "nothing more in this block"
         self.lost += 1
         if mismatch.found is None:
@@ -308,7 +310,7 @@ class _Reader:
 
             formats = dict.fromkeys(row_formats(schemas_of(self.declared)))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
-        return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
+        return next(f"{key}=" for key in all_keys(self.declared) if grammar.terminal_of(key) == terminal)
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
@@ -326,6 +328,13 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
 def all_keys(part: type[Part]) -> frozenset[str]:
     """Every KEY that the lines of a keyword may begin with or hold."""
     return frozenset(key for found in schemas_of(part) for key in found.keys)
+
+
+@cache
+def older_keys(part: type[Part]) -> frozenset[str]:
+    """The KEYs that only decks of the older program have."""
+    found = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
+    return frozenset(key for slots in found for key, slot in slots if slot.about.older is True)
 
 
 def schemas_of(part: type[Part]) -> list[RecordSchema]:

@@ -47,6 +47,7 @@ class Usual:
 
 COUNT = "a count"
 NUMBER = "a number that stands for a name"
+NOT_KNOWN = "what it means is not known"
 ANY = "no source says what is usual"
 OF_THE_RUN = "the run decides"
 OF_A_KIND = "a length or an angle, a force or a moment: the degree of freedom or the type decides"

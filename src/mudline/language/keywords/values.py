@@ -253,7 +253,8 @@ class OpaqueKeyword:
 
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
     what we conclude. `name_settings` has the settings that give names; of a SET only the first value is a name.
-    `labels` says that any text among its lines may be the label of a node. `makes` are the keywords of what it may
+    `labels` says that any text among its lines may be the label of a node; in `free_text`, words for people, nothing is
+    looked for. `makes` are the keywords of what it may
     define: a thing of these kinds that is missing may come from here. `sections_inferred` says that its section is not
     confirmed: in another one it is not reported.
     """
@@ -267,6 +268,7 @@ class OpaqueKeyword:
     sections_inferred: bool = False
     name_settings: Mapping[str, Names] = field(default_factory=dict)
     labels: bool = False
+    free_text: bool = False
     makes: tuple[str, ...] = ()
     subject: Subject = "model"
     zero_length: bool = False

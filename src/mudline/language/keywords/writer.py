@@ -87,7 +87,7 @@ def _items(record: Record) -> Iterator[Item]:
         elif slot.record:
             yield from ((list(_record_lines(child)), 1) for child in value)
         else:
-            yield [f" {_value(value)}"], 1
+            pending = f" {_value(value)}"
     if pending:
         yield [pending], 1
 

@@ -42,11 +42,15 @@ class Leaf(NamedTuple):
 
 @dataclass(slots=True)
 class RawBlock:
-    """A `*KEYWORD` line and what follows it; `name` is in upper case with single blanks."""
+    """A `*KEYWORD` line and what follows it; `name` is in upper case with single blanks.
+
+    A block of an `older` program may have what fields that are declared so say.
+    """
 
     head: Leaf
     name: str
     leaves: list[Leaf] = field(default_factory=list)
+    older: bool = False
 
     __repr__ = short_repr
 

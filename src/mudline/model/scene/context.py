@@ -11,8 +11,9 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
 from mudline.basics.spelling import Effort, edits, equally_near, nearest
 from mudline.language.codes.fields import SYN016
+from mudline.language.deck.evaluated import EvaluatedDeck, all_labels_read, labels_given
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import EvaluatedDeck, folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
@@ -20,6 +21,7 @@ from mudline.language.keywords.catalogue import meant_in, suggest_keyword
 from mudline.language.keywords.model import ListRow
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import hint, shown
+from mudline.language.keywords.values import Names
 from mudline.language.syntax.tree import canonical_name, mark_of
 from mudline.model.scene.deck_values import (
     definition_by,
@@ -148,10 +150,15 @@ class Context:
 
     def report_label(self, code: Code, label: str, where: Where, keyword: str, blocks: Blocks | None = None) -> None:
         """Note a label of a node or an element, unless lines that are not read may make it."""
-        if not self.external_definers:
-            thing = _NUMBERED[keyword]
-            what = f"{thing} {shown(label)} is a label, and nothing in this deck makes labelled {thing}s"
-            self.report_missing(code, f"{what}: give a number", where, keyword, blocks=blocks)
+        if self.external_definers or not all_labels_read(self.written):
+            return
+        thing = _NUMBERED[keyword]
+        known = labels_given(self.written, Names[keyword])
+        what = f"{thing} {shown(label)} is a label, and nothing in this deck makes labelled {thing}s"
+        if known:
+            what = f"{thing} label {shown(label)} is not defined{self.hint(bare(label), known)}"
+        message = f"{what}: define it in *LABEL, or give a number"
+        self.report_missing(code, message, where, "LABEL", blocks=blocks)
 
     def misread(self, keyword: str, where: Where) -> None:
         """Note the place of a number of a node or an element that could not be read."""
@@ -332,8 +339,8 @@ class Context:
 
     @cached_property
     def labels(self) -> dict[str, str]:
-        """What may be labels of nodes that lines make, by their folded form."""
-        return opaque_labels(self.deck)
+        """What may be labels of nodes that lines make, and those of `*LABEL`, by their folded form."""
+        return opaque_labels(self.deck) | labels_given(self.written, Names.NODE)
 
 
 def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import Parameters, folded
+from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, record_schema
@@ -150,14 +150,6 @@ def opaque_set_names(deck: Deck) -> dict[str, str]:
 def opaque_labels(deck: Deck) -> dict[str, str]:
     """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
     return _first_written(text for block in _model(deck) for text in _texts(block))
-
-
-def bare(name: str) -> str:
-    """A name without blanks, quotes or braces around it."""
-    text = name.strip(" \t")
-    if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
-        text = text[1:-1].strip(" \t")
-    return text
 
 
 def _first_written(names: Iterable[str]) -> dict[str, str]:

@@ -7,15 +7,22 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from mudline.basics.short_repr import counted, cut, outline
+from mudline.language.deck.evaluated import evaluated
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import evaluated
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_curves import check_curves
 from mudline.model.scene.force_curves import read_curves
 from mudline.model.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.model.scene.mesh import read_elements, read_nodes
-from mudline.model.scene.references import check_boundaries, check_idents, check_lines, check_references, check_soil
+from mudline.model.scene.references import (
+    check_boundaries,
+    check_chains,
+    check_idents,
+    check_lines,
+    check_references,
+    check_soil,
+)
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.restart import continued
 from mudline.model.scene.rules import checked
@@ -116,6 +123,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     extensions = read_extensions(context, sets, count)
     seabed = read_seabed(context)
     check_curves(context)
+    check_chains(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
     check_unread_lines(context, sets)

@@ -9,14 +9,13 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
 from mudline.language.deck.model import Deck, NamedPlace, Opaque
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import is_read, kept_lines
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import bare
 
 CURVES = frozenset(
     {

@@ -15,7 +15,7 @@ from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Blocks, Code, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
@@ -24,13 +24,14 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Label, Names
 from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import bare, makes_labels
+from mudline.model.scene.deck_values import makes_labels
 from mudline.model.scene.laws import LawTable
 from mudline.model.scene.names import names_used
 from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.attachments import DragChains
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
     from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
     from mudline.language.keywords.library.mesh import ElementRows, Elements
@@ -110,12 +111,29 @@ def _names_idents(block: type[Block]) -> bool:
     return not made and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
 
 
+def check_chains(context: Context) -> None:
+    """Every GEN= of `*DRAG CHAIN` repeats the chain of a node that has one before it."""
+    known: set[object] = set()
+    for where, block in context.blocks("DRAG CHAIN"):
+        for index, chain in enumerate(cast("DragChains", block).chains):
+            given = getattr(chain, "generate", None)
+            master = getattr(chain, "node", None) if given is None else given.master
+            if given is None:
+                known.add(master)
+            elif isinstance(master, int) and master not in known and "DRAG CHAIN" not in context.unread:
+                message = f"GEN= repeats the chain of a node: node {master} has none before this line; define it above"
+                context.report(REF010, message, where.inside("chains", index, "generate", 0), Severity.ERROR)
+
+
 KEYWORD = "BOUNDARY"
 """Has a check of its own: its ranges may lack some nodes."""
 
 
 def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report the numbers of elements that the deck lacks; labels of elements are checked where they may be made."""
+    """Report the numbers of elements that the deck lacks, and in a deck with `*LABEL` the labels."""
+    for ident, where in named if "LABEL" in context.deck.keywords() else ():
+        if isinstance(ident, Label):
+            context.report_label(REF005, ident, where, "ELEMENT", blocks=Blocks.NEVER)
     numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
     if not numbers or not (len(elements) or "ELEMENT" in context.deck.keywords()):
         return
@@ -266,6 +284,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
     near = context.near(name, context.labels)
     if near and same_marks(name, near) and not context.is_guessed_label(where):
         makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
+        makers += " or *LABEL" if "LABEL" in context.deck.keywords() else ""
         message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
         context.report(code, f"{message}: correct it", where, Severity.WARNING)
 

@@ -16,7 +16,8 @@ from mudline.basics.limits import SHOWN_LETTERS
 from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, short_repr
 from mudline.language.codes import RUN001
 from mudline.language.codes.references import REF001
-from mudline.language.deck.parameters import EvaluatedDeck, folded
+from mudline.language.deck.evaluated import EvaluatedDeck
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import facts_of

@@ -11,12 +11,11 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import bare
 from mudline.model.scene.numbering import Ids, Indices, Numbered
 
 if TYPE_CHECKING:

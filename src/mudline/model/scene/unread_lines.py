@@ -10,7 +10,7 @@ from functools import cached_property
 from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.references import REF001, REF006, REF015
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import NoValueError, Parameters, folded
+from mudline.language.deck.parameters import NoValueError, Parameters, bare, folded
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
@@ -20,7 +20,7 @@ from mudline.language.keywords.values import Equation, Label, Names, number_mean
 from mudline.language.syntax.fields import Field, Group, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import bare, data_lines, file_name, find_file, not_found
+from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
 from mudline.model.scene.names import CURVES, names_of
 from mudline.model.scene.references import check_label, sets_of_postprocessing
 from mudline.model.scene.sets import Sets
@@ -42,10 +42,13 @@ Line = tuple[Where, str]
 
 
 def check_unread_lines(context: Context, sets: Sets) -> None:
-    """Look at every line of a deck itself that is not read."""
+    """Look at every line of a deck itself that is not read, but for titles and other text for people."""
     looking: _Looking | None = None
     for where, keyword, line in unread_lines(context.written):
-        if len(line) <= _LONGEST and _WORTH.search(line):
+        if len(line) > _LONGEST or not _WORTH.search(line):
+            continue
+        kept = catalogue.opaque_keyword(context.written.sections[where.section].name, keyword)
+        if not (kept and kept.free_text):
             looking = looking or _Looking(context, sets)
             looking.look(where, keyword, line)
 

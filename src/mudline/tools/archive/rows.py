@@ -17,7 +17,7 @@ from mudline.checks.verdict import all_findings, errors_of
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.loading import coverage_of, extent, load_bytes
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import Parameters, folded
+from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded
 from mudline.language.keywords.keeping import kept_lines
@@ -25,7 +25,7 @@ from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_curves import OF_SEABED, other_curves
-from mudline.model.scene.deck_values import bare, number
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.references import used_names
 from mudline.model.scene.sets import ALL

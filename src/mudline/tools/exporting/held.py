@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.basics.quantities import shown
-from mudline.language.deck.parameters import evaluated, folded
+from mudline.language.deck.evaluated import evaluated
+from mudline.language.deck.parameters import folded
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.values import Names

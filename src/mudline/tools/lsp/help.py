@@ -11,7 +11,7 @@ from lsprotocol import types
 from mudline.basics.limits import MOST_HINTS
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text, usual_text
@@ -22,7 +22,7 @@ from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.model.results.summary import followers
 from mudline.model.scene.deck_curves import DeckCurve, other_curves
-from mudline.model.scene.deck_values import bare, find_file
+from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.force_curves import SceneCurve
 from mudline.model.scene.model import Scene
 from mudline.model.scene.names import CURVES

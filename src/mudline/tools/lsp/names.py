@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple, cast
 
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import folded, list_items
+from mudline.language.deck.parameters import bare, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
@@ -17,7 +17,6 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import first_key, read_line
 from mudline.language.syntax.tree import Kind
-from mudline.model.scene.deck_values import bare
 from mudline.model.scene.sets import set_key
 
 KINDS = {

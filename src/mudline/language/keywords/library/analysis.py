@@ -142,6 +142,90 @@ class NonLinearStatic(Block):
     ] = None
 
 
+_UNCHECKED = "without it this is not checked"
+_BOTH = "the manual writes STATIC/TIME for both: the words alone are taken too"
+_REPEATED = "several lines, each of another ANALYSIS="
+
+
+class StepTolerances(Row):
+    """The line of static runs and of the time domain."""
+
+    displacement: Annotated[
+        Real | None,
+        about(
+            "largest change of the solution", unit="-", default="0.001 in a static run, else 0.025", above=0, usual=ANY
+        ),
+    ] = None
+    iterations: Annotated[Whole | None, about("most iterations", default="20", at_least=1, usual=COUNT)] = None
+    torque: Annotated[
+        Real | None, about("torque that counts as small", unit="F L", default="10", at_least=0, usual=ANY)
+    ] = None
+    penetration: Annotated[
+        Real | None, about(f"penetration of a rigid seabed; {_UNCHECKED}", unit="L", above=0, usual=ANY)
+    ] = None
+    reaction: Annotated[
+        Real | None, about(f"size of a negative reaction of a rigid seabed; {_UNCHECKED}", unit="F", above=0, usual=ANY)
+    ] = None
+    energy: Annotated[Real | None, about(f"energy tolerance; {_UNCHECKED}", unit="-", above=0, usual=ANY)] = None
+
+
+class FrequencyTolerances(Row):
+    """The line of the frequency domain."""
+
+    tolerance: Annotated[Real | None, about("tolerance", unit="-", default="0.025", above=0, usual=ANY)] = None
+    iterations: Annotated[Whole | None, about("most iterations", default="20", at_least=1, usual=COUNT)] = None
+    relaxation: Annotated[
+        Real | None,
+        about("relaxation, the share of the new solution", unit="-", default="0.8", above=0, at_most=1, usual=ANY),
+    ] = None
+
+
+class Tolerances(Record):
+    """The tolerances of a kind of run."""
+
+    rule = "tolerances"
+    analysis: Annotated[
+        Literal["STATIC", "TIME", "STATIC/TIME", "FREQUENCY"] | None,
+        setting("ANALYSIS", "kind of run", default="STATIC/TIME", inferred=f"its default; {_BOTH}"),
+    ] = None
+    steps: Annotated[StepTolerances | None, about("of STATIC and TIME", inferred=_REPEATED)] = None
+    frequency: Annotated[FrequencyTolerances | None, about("of FREQUENCY")] = None
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """The line of the kind of run that ANALYSIS= gives."""
+        return "frequency" if given.get("analysis") == "FREQUENCY" else "steps"
+
+    @model_validator(mode="after")
+    def _fits(self) -> Tolerances:
+        """The line of its kind of run."""
+        require_one(self, "frequency" if self.analysis == "FREQUENCY" else "steps")
+        require_one(self, "steps", "frequency")
+        return self
+
+
+class Tolerance(Block):
+    """When an iteration has converged."""
+
+    rule = "tolerance"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_tolerance"
+    summary = "When the iterations of a step have converged, and how many there may be."
+    example = "*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 0.8\n"
+
+    keyword: Literal["TOLERANCE"] = "TOLERANCE"
+    tolerances: list[Tolerances] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> Tolerance:
+        """One line for a kind of run."""
+        kinds = [one.analysis or "STATIC/TIME" for one in self.tolerances]
+        if len(set(kinds)) < len(kinds):
+            raise ValueError("each ANALYSIS= may stand once: keep one line of each")
+        return self
+
+
 class Criterion(Record):
     """A value that is to be reached."""
 
@@ -226,13 +310,14 @@ class ContactModelling(Block):
     ] = None
 
 
-_WORDS = "the words of the manual are taken as they are, and not checked"
+_WORDS = "the manual writes DYNAMIC/STATIC for both: the words alone are taken too"
 
 
 class Restart(OpenBlock):
     """The run that goes before."""
 
     rule = "restart"
+    known_forms = True
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_restart"
@@ -250,12 +335,14 @@ class Restart(OpenBlock):
         ),
     ]
     type_: Annotated[
-        Name | None,
-        setting("TYPE", "what follows the last run: DYNAMIC, STATIC or CONTINUATION", inline=True, inferred=_WORDS),
+        Literal["DYNAMIC", "STATIC", "DYNAMIC/STATIC", "CONTINUATION"] | None,
+        setting(
+            "TYPE", "with new loads, or the same run continued", default="DYNAMIC/STATIC", inline=True, inferred=_WORDS
+        ),
     ] = Field(default=None, alias="type")
     option: Annotated[
-        Name | None,
-        setting("OPTION", "APPEND: results go on in the same file, for a CONTINUATION", inline=True, inferred=_WORDS),
+        Literal["APPEND"] | None,
+        setting("OPTION", "results go on in the same file, for a CONTINUATION", inline=True),
     ] = None
 
 

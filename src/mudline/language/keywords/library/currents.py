@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.common import Direction, require_one
+from mudline.language.keywords.common import OLDER, Direction, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
@@ -40,8 +40,15 @@ class CurrentProfile(Record):
         setting("TYPE", "one velocity, a profile, or a subroutine"),
     ] = Field(alias="type")
     option: Annotated[
-        Literal["ASCEND", "DESCEND"] | None,
-        setting("OPTION", "of a profile: up from X = 0, or down from the water line", default="ASCEND", inline=True),
+        Literal["ASCEND", "DESCEND", "DESCENDING"] | None,
+        setting(
+            "OPTION",
+            "of a profile: up from X = 0, or down from the water line",
+            default="ASCEND",
+            inline=True,
+            inferred=f"DESCENDING, {OLDER}",
+            older=("DESCENDING",),
+        ),
     ] = None
     level: Annotated[
         Literal["MWL", "AMBIENT"] | None,
@@ -62,6 +69,8 @@ class CurrentProfile(Record):
     @model_validator(mode="after")
     def _fits(self) -> CurrentProfile:
         """What its type has."""
+        if self.type_ == "SUBROUTINE" and self.user is None:
+            raise ValueError("TYPE=SUBROUTINE needs USER=, the file with it")
         if self.type_ != "SUBROUTINE":
             require_one(self, "uniform" if self.type_ == "UNIFORM" else "profile")
         if self.uniform is not None or self.profile is not None:

@@ -141,6 +141,43 @@ class RadiationDamping(Block):
     bodies: list[BodyMatrices] = []
 
 
+class BodyDrag(Record):
+    """The matrix of a body."""
+
+    rule = "body_drag"
+    body: Body
+    type_: Annotated[Literal["MATRIX"], setting("TYPE", "the coefficients are a matrix")] = Field(alias="type")
+    option: Annotated[
+        Literal["ABSOLUTE", "RELATIVE"] | None,
+        setting("OPTION", "velocity of the body, or that against the water", default="ABSOLUTE"),
+    ] = None
+    matrix: Matrix
+
+    @model_validator(mode="after")
+    def _whole(self) -> BodyDrag:
+        """Six lines."""
+        _require_six(self.matrix)
+        return self
+
+
+class ViscousDrag(Block):
+    """Drag of bodies."""
+
+    rule = "viscous_drag"
+    subject = "vessels"
+    page = "kwd_model_viscousdrag"
+    summary = "Viscous drag of floating bodies in a coupled analysis, by a matrix each."
+    tabular = True
+    example = (
+        "*VISCOUS DRAG\n FLOATING BODY=Buoy\n TYPE=MATRIX\n OPTION=RELATIVE\n"
+        " 9.0E4, 0.0, 0.0, 0.0, 0.0, 0.0\n 0.0, 5.0E4, 0.0, 0.0, 0.0, 0.0\n 0.0, 0.0, 5.0E4, 0.0, 0.0, 0.0\n"
+        " 0.0, 0.0, 0.0, 2.0E4, 0.0, 0.0\n 0.0, 0.0, 0.0, 0.0, 3.0E4, 0.0\n 0.0, 0.0, 0.0, 0.0, 0.0, 3.0E4\n"
+    )
+
+    keyword: Literal["VISCOUS DRAG"] = "VISCOUS DRAG"
+    bodies: list[BodyDrag] = []
+
+
 COEFFICIENTS = "coefficients by heading"
 TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
 

@@ -6,12 +6,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.model import Block, Record, Row, record_schema
 from mudline.language.keywords.usual import (
     BENDING,
     MASS_WIDTH,
     MODEL,
+    NOT_KNOWN,
     OTHER_WIDTH,
     OUTER_WIDTH,
     PIPE_WALL,
@@ -21,10 +23,11 @@ from mudline.language.keywords.usual import (
     YOUNG,
     Usual,
 )
-from mudline.language.keywords.values import Facts, Name, Names, Real
+from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _DO = "external diameter"
 _CURVE = "curve of non-linear {}; the number on the property line is then left empty"
+_AUXILIARY = "an auxiliary value whose meaning is not known"
 
 
 class FlexibleSection(Row):
@@ -61,6 +64,10 @@ class FlexibleSection(Row):
         None, alias="Do"
     )
     dc: Annotated[Real | None, about("contact diameter", unit="L", above=0, usual=WIDTH)] = Field(None, alias="Dc")
+    aux_1: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True, usual=NOT_KNOWN)] = None
+    aux_2: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True, usual=NOT_KNOWN)] = None
+    aux_3: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True, usual=NOT_KNOWN)] = None
+    aux_4: Annotated[RealOrName | None, about(_AUXILIARY, inferred=OLDER, older=True, usual=NOT_KNOWN)] = None
 
 
 class RigidSection(Row):
@@ -193,6 +200,14 @@ class GeometricSet(Record):
         return "Do", section.do
 
 
+FORMATS_OF = {
+    **dict.fromkeys(("EIYY", "EIZZ", "GJ", "EI", "EI_HYSTERESIS"), ("FLEXIBLE",)),
+    "EA": ("FLEXIBLE", "TRUSS"),
+    **dict.fromkeys(("E", "PLASTIC HARDENING"), ("RIGID",)),
+}
+"""The formats in which a curve may take the place of a number."""
+
+
 class GeometricSets(Block):
     """Section properties by set."""
 
@@ -215,4 +230,8 @@ class GeometricSets(Block):
             if given != [option.lower()]:
                 found = " and ".join(given) or "none"
                 raise ValueError(f"sets[{index}]: OPTION={option} needs the section {option.lower()!r}, found {found}")
+            for slot in record_schema(GeometricSet).slots:
+                if slot.key in FORMATS_OF and option not in FORMATS_OF[slot.key] and getattr(entry, slot.name):
+                    formats = " or ".join(FORMATS_OF[slot.key])
+                    raise ValueError(f"sets[{index}]: OPTION={option} takes no {slot.key}=, which is of {formats}")
         return self

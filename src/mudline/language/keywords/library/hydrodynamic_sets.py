@@ -13,7 +13,10 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import ADDED_MASS, ALONG_DRAG, ANY, DRAG, INERTIA, LIFT
 from mudline.language.keywords.values import Facts, Name, Names, Other, Real, RealOrName
 
-_ORDER = "the order, which is that of decks of a related program: the manual page of the keyword was not seen"
+_ORDER = (
+    "the order, which is that of .das decks: a page on theory lists tangential before normal added mass, and the lines "
+    "of the keyword's own page were not seen"
+)
 _OTHERS = "other types (by Reynolds number, moonpools, buoys), whose lines are passed through unchanged"
 
 
@@ -74,15 +77,23 @@ class HydrodynamicSets(OpenBlock):
     """Coefficients by set."""
 
     rule = "hydrodynamic_sets"
-    page = "theory_hydrodynamic_constant"
+    page = "kwd_model_hydrodynamicsets"
     facts = Facts(later_wins=True)
-    known_forms = True
+    open_lines = False
     summary = "Drag, inertia and added mass coefficients by element set."
     example = "*HYDRODYNAMIC SETS\n DIAMETER=DRAG\n SET=ALL, TYPE=CONSTANT\n 1.0, 0.0, 2.0, 1.0, 0.0\n"
 
     keyword: Literal["HYDRODYNAMIC SETS"] = "HYDRODYNAMIC SETS"
     diameter: Annotated[
         Literal["DRAG", "BUOYANCY"] | None, setting("DIAMETER", "diameter of inertia forces", default="DRAG")
+    ] = None
+    option: Annotated[
+        Name | None,
+        setting(
+            "OPTION",
+            "that forces follow the Reynolds number of the moment",
+            inferred="its key, from the public reader of .das decks: the manual has an optional line for it",
+        ),
     ] = None
     sets: list[HydrodynamicSet] = []
 

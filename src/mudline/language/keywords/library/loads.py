@@ -7,11 +7,12 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
+from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record
 from mudline.language.keywords.table import LARGEST_WHOLE
-from mudline.language.keywords.usual import ANY, OF_A_KIND, Usual
+from mudline.language.keywords.usual import ANY, NOT_KNOWN, OF_A_KIND, Usual
 from mudline.language.keywords.values import (
     Count,
     Equation,
@@ -203,6 +204,12 @@ class FluidSet(Record):
             default="0",
             usual=Usual(-100.0, 100.0, "faster flow erodes steel"),
         ),
+    ] = None
+    fifth: Annotated[
+        Real | None, about("a number whose meaning is not known", inferred=OLDER, older=True, usual=NOT_KNOWN)
+    ] = None
+    inertia: Annotated[
+        Whole | None, about("number for the inertia along", inferred=OLDER, older=True, usual=NOT_KNOWN)
     ] = None
     coriolis: Annotated[
         _Switch, setting("CORIOLIS", "Coriolis forces", default="INCLUDE", inline=True, inferred=_ONE_LINE)

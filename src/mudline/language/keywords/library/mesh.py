@@ -1,9 +1,12 @@
-"""Nodes, elements, and element sets of the model."""
+"""Nodes, elements, their labels, and element sets of the model."""
 
 from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import model_validator
+
+from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.language.keywords.table import Table
@@ -163,3 +166,60 @@ class ElementSets(Block):
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
     sets: list[ElementSet] = []
+
+
+class LabelledNode(Row):
+    """The node of a label."""
+
+    number: Annotated[Whole, about("node number", names=Names.NODE)]
+
+
+class LabelledElement(Row):
+    """The element of a label."""
+
+    number: Annotated[Whole, about("element number", names=Names.ELEMENT)]
+
+
+class LabelLine(Record):
+    """A label; `thing` is given where it changes."""
+
+    rule = "label_line"
+    sticky = "thing"
+    thing: Annotated[
+        Literal["NODE", "ELEMENT"] | None, setting("TYPE", "what the labels are of, until it is given again")
+    ] = None
+    node: Annotated[LabelledNode | None, about("of NODE: the node")] = None
+    element: Annotated[LabelledElement | None, about("of ELEMENT: the element")] = None
+    label: Annotated[
+        Name, setting("LABEL", "the label; elsewhere it stands in braces, in place of the number", inline=True)
+    ]
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """What TYPE= chose, here or on an earlier line."""
+        return str(given.get("thing") or last or "NODE").lower()
+
+    @model_validator(mode="after")
+    def _fits(self) -> LabelLine:
+        """A node or an element."""
+        require_one(self, "node", "element")
+        return self
+
+
+class Labels(Block):
+    """Labels."""
+
+    rule = "label"
+    page = "kwd_model_label"
+    summary = "Names for nodes and elements, which stand in braces for their numbers elsewhere."
+    example = "*LABEL\n TYPE=NODE\n 1, LABEL=Anchor\n 11, LABEL=Hang-off\n TYPE=ELEMENT\n 10, LABEL=Top Joint\n"
+
+    keyword: Literal["LABEL"] = "LABEL"
+    labels: list[LabelLine] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> Labels:
+        """The first line says what it is of."""
+        if self.labels and self.labels[0].thing is None:
+            raise ValueError("TYPE=NODE or TYPE=ELEMENT must stand above the first label")
+        return self

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from mudline.language.keywords.common import Element
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
-from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.model import Block, ListRow, Record, Row
 from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, WIDTH
 from mudline.language.keywords.values import Ident, Name, Names, Other, Real, Whole
 
@@ -65,6 +65,57 @@ class PostSets(Block):
     sets: list[PostSet] = []
 
 
+_OF_SECTION = "computed from the diameters"
+
+
+class StressSection(Row):
+    """What stresses are computed with."""
+
+    outer: Annotated[
+        Real | None,
+        about(
+            "effective outside diameter", unit="L", default="of the section, or its drag diameter", above=0, usual=WIDTH
+        ),
+    ] = None
+    inner: Annotated[
+        Real | None, about("effective internal diameter", unit="L", default="of the section", at_least=0, usual=WIDTH)
+    ] = None
+    area: Annotated[Real | None, about("cross-sectional area", unit="L2", default=_OF_SECTION, above=0, usual=ANY)] = (
+        None
+    )
+    iyy: Annotated[
+        Real | None, about("second moment of area about local y", unit="L4", default=_OF_SECTION, above=0, usual=ANY)
+    ] = None
+    izz: Annotated[
+        Real | None, about("second moment of area about local z", unit="L4", default=_OF_SECTION, above=0, usual=ANY)
+    ] = None
+    thickness: Annotated[
+        Real | None, about("smallest wall thickness, for API-2RD", unit="L", default=_OF_SECTION, above=0, usual=ANY)
+    ] = None
+
+
+class StressSet(Record):
+    """The properties of a set."""
+
+    rule = "stress_set"
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    section: Annotated[StressSection, about("its properties")]
+
+
+class StressProperties(Block):
+    """Properties for stresses."""
+
+    rule = "stress_properties"
+    sections = ("DATABASE POSTPROCESSING",)
+    subject = "post-processing"
+    page = "kwd_databasepostprocessing_properties"
+    summary = "Section properties by element set with which postprocessing computes stresses."
+    example = "*PROPERTIES\n SET=ALL\n 0.3239, 0.2731, , , , 0.0234\n"
+
+    keyword: Literal["PROPERTIES"] = "PROPERTIES"
+    sets: list[StressSet] = []
+
+
 _PAGE = "no page of the manual was found: one type is named by a page on theory, all lines are passed through unchanged"
 
 
@@ -118,6 +169,23 @@ class ClearSets(Block):
         if len(self.ranges) != _GROUPS:
             raise ValueError(f"{len(self.ranges)} lines are given: expected exactly {_GROUPS}")
         return self
+
+
+class ClearDatabase(Block):
+    """Where the positions of the two groups are."""
+
+    rule = "clear_database"
+    sections = ("CLEAR",)
+    subject = "post-processing"
+    page = "kwd_clear_database"
+    summary = "The databases of the runs between whose elements clearance is looked for."
+    example = "*DATABASE\n DATABASE_1=Riser, DATABASE_2=Umbilical\n"
+
+    keyword: Literal["DATABASE"] = "DATABASE"
+    first: Annotated[Name | None, setting("DATABASE_1", "of the first group", default="that of this run")] = None
+    second: Annotated[
+        Name | None, setting("DATABASE_2", "of the second group", default="that of the first", inline=True)
+    ] = None
 
 
 class CheckedPlace(Record):

@@ -142,6 +142,8 @@ class SeabedProfile(Block):
         for key in given:
             if key not in _TAKES[self.type_]:
                 raise ValueError(f"TYPE={self.type_} takes no {key}=")
+        if self.type_ == "3D" and self.direction is not None:
+            raise ValueError("TYPE=3D takes no DIRECTION=: it turns the profile of 2D and SLOPING")
         allowed = ("LINEAR", *_CUBIC.get(self.type_, ()))
         if self.interpolation and self.interpolation not in allowed:
             raise ValueError(f"TYPE={self.type_} takes INTERPOLATION={' or '.join(allowed)}, not {self.interpolation}")

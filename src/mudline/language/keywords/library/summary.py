@@ -112,6 +112,24 @@ class ParaReaction(SummaryRequest):
     axis: Annotated[Name | None, setting("DATA3", AXIS, default="global")] = None
 
 
+class ParaSeabed(SummaryRequest):
+    """What lies on the seabed."""
+
+    rule = "para_seabed"
+    page = "kwd_summarypostprocessing_paraseabed"
+    summary = "Clearance, length on the seabed, or spans and gaps of a set, in the summary."
+    example = "*PARA SEABED\n TITLE=On the seabed\n DATA1=ALL\n DATA2=2\n"
+
+    keyword: Literal["PARA SEABED"] = "PARA SEABED"
+    set_name: Annotated[Name, setting("DATA1", "element set, or ALL", names=Names.SET)]
+    quantity: Annotated[
+        Whole,
+        setting(
+            "DATA2", "1 clearance, 2 length on the seabed, 3 largest span with its average gaps", at_least=1, at_most=3
+        ),
+    ]
+
+
 class SummaryTime(Block):
     """From when to when."""
 

@@ -1,4 +1,4 @@
-"""`*UNITS`: the unit system of decks whose suffix does not say it."""
+"""What a deck says of itself: its title, and the unit system where its suffix does not say it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,19 @@ from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import setting
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.values import OpaqueKeyword
+
+TITLE = OpaqueKeyword(
+    keyword="TITLE",
+    summary="The title of a run.",
+    example="*TITLE\n 10 in. production riser - base case, Hs = 4.5 m\n",
+    certain="It gives a title. No page of the manual was found.",
+    inferred="its lines are text for people: nothing is looked for in them. Its section is not confirmed.",
+    sections=("PREPROCESSOR", "MODEL", "LOAD CASE"),
+    sections_inferred=True,
+    free_text=True,
+    subject="deck",
+)
 
 
 class Units(Block):

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.common import Freedom, require_one
+from mudline.language.keywords.common import OLDER, Freedom, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
@@ -47,6 +47,7 @@ class VesselOffset(Record):
 
     rule = "vessel_offset"
     vessel: Vessel
+    option: Annotated[Name | None, setting("OPTION", "what the offset is given as", inferred=OLDER, older=True)] = None
     offset: Annotated[Motion, setting("OFFSET", "displacements from the initial position")]
 
 
@@ -261,14 +262,18 @@ class VesselRao(Record):
         Name | None,
         setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=Contents.OPERATORS),
     ] = None
+    first: Annotated[
+        Literal["YES", "NO"] | None,
+        setting("FIRSTRAO", "YES: the operators of the first load case", inferred=OLDER, older=True),
+    ] = None
     headings: list[HeadingRao] = []
     lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
 
     @model_validator(mode="after")
     def _fits(self) -> VesselRao:
         """A file, or lines of one layout."""
-        if self.file or self.headings or self.lines is not None:
-            require_one(self, "file", "headings", "lines")
+        if self.file or self.first or self.headings or self.lines is not None:
+            require_one(self, "file", "first", "headings", "lines")
         return self
 
 

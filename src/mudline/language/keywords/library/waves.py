@@ -12,6 +12,7 @@ from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import (
     AMPLITUDE,
+    ANY,
     COUNT,
     CUTOFF,
     DIRECTION,
@@ -281,4 +282,61 @@ class WaveSpectrum(Block):
     option: Annotated[
         Literal["TZ", "TP", "TE"] | None,
         setting("OPTION", "period: mean zero up-crossing, peak, or of energy", default="TZ", inline=True),
+    ] = None
+
+
+class Seastate(Row):
+    """A seastate."""
+
+    height: Annotated[Real, about("significant wave height", unit="L", above=0, usual=SEA_HEIGHT)]
+    period: Annotated[Real, about("period: Tz, Tp or Te, as *WAVE SPECTRUM says", unit="T", above=0, usual=SEA_PERIOD)]
+    occurrences: Annotated[Real, about("number of occurrences", at_least=0, usual=COUNT)]
+
+
+class OtherSeastate(Record):
+    """A seastate whose results are estimated from those of the reference."""
+
+    rule = "other_seastate"
+    seastate: Annotated[Seastate, about("seastate")]
+
+
+class SeastateBlock(Record):
+    """A block of seastates."""
+
+    rule = "seastate_block"
+    reference: Annotated[Seastate, setting("REFERENCE", "seastate that was simulated")]
+    file: Annotated[Name, setting("FILE", "run with its simulation", inline=True)]
+    others: list[OtherSeastate] = []
+
+
+class ScatterDiagram(Block):
+    """Seastates."""
+
+    rule = "scatter_diagram"
+    sections = ("SUMMARY WAVE SCATTER",)
+    subject = "post-processing"
+    page = "kwd_summarywavescatter_scatterdiagram"
+    summary = "Wave scatter diagram in blocks, each with the seastate that was simulated for it."
+    example = "*SCATTER DIAGRAM\n REFERENCE=2.5, 8.5, 410, FILE=Sea 3\n 2.0, 8.5, 620\n 2.5, 9.5, 300\n"
+
+    keyword: Literal["SCATTER DIAGRAM"] = "SCATTER DIAGRAM"
+    blocks: list[SeastateBlock] = []
+
+
+class ScatterOptions(Block):
+    """Options."""
+
+    rule = "scatter_options"
+    sections = ("SUMMARY WAVE SCATTER",)
+    subject = "post-processing"
+    page = "kwd_summarywavescatter_options"
+    summary = "Whether summaries that are there are written again, and the largest power of a wave scatter."
+    example = "*OPTIONS\n OVERWRITE DATA=YES\n POWER RATING=250.0\n"
+
+    keyword: Literal["OPTIONS"] = "OPTIONS"
+    overwrite: Annotated[
+        Literal["YES", "NO"] | None, setting("OVERWRITE DATA", "write summaries that are there again", default="NO")
+    ] = None
+    rating: Annotated[
+        Real | None, setting("POWER RATING", "average powers are cut off at", default="no limit", at_least=0, usual=ANY)
     ] = None

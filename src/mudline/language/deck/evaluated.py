@@ -1,0 +1,240 @@
+"""The deck with numbers in place of its equations and of the labels that `*LABEL` gives."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from types import NoneType
+from typing import TYPE_CHECKING, Any, NewType, cast
+
+from pydantic import BaseModel
+
+from mudline.language.codes.fields import SYN002
+from mudline.language.codes.references import REF007
+from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import DEFINING, NoValueError, Parameters, Value, bare, folded
+from mudline.language.diagnostics import Blocks, Problem, Where
+from mudline.language.keywords.model import FieldSpec, ListRow, Part, record_schema
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.unknown import UNKNOWN
+from mudline.language.keywords.values import Equation, Kind, Label, Names
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.mesh import Labels
+
+LabelNumbers = dict[tuple[Names | None, str], int]
+"""Numbers of nodes and elements by what they are of and their folded label."""
+
+
+def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> LabelNumbers:
+    """The labels that `*LABEL` gives; one that is given twice keeps its first number, and is a problem."""
+    found: LabelNumbers = {}
+    own = len(deck.own_sections)
+    for where, block in deck.blocks("LABEL"):
+        kind = Names.NODE
+        for index, line in enumerate(cast("Labels", block).labels):
+            if line.thing in Names.__members__:
+                kind = Names[str(line.thing)]
+            number = parameters.number(getattr(line.element if kind is Names.ELEMENT else line.node, "number", None))
+            if number is None or not number.is_integer() or not line.label:
+                continue
+            name = folded(bare(line.label))
+            if found.setdefault((kind, name), int(number)) != int(number) and where.section < own:
+                thing = kind.name.lower()
+                message = (
+                    f"label {shown(line.label)} is that of {thing} {found[kind, name]} and of {thing} {int(number)}: "
+                    "give one of them another label"
+                )
+                place = where.inside("labels", index, "label")
+                problems.append(Problem(REF007, message, where=place, blocks=Blocks.NEVER))
+    return found
+
+
+def labels_given(deck: Deck, kind: Names) -> dict[str, str]:
+    """The labels of nodes or of elements that `*LABEL` gives, as written, by their folded form."""
+    found: dict[str, str] = {}
+    for _, block in deck.blocks("LABEL"):
+        thing: str | None = Names.NODE.name
+        for line in cast("Labels", block).labels:
+            thing = line.thing or thing
+            if thing == kind.name and line.label:
+                found.setdefault(folded(bare(line.label)), bare(line.label))
+    return found
+
+
+def all_labels_read(deck: Deck) -> bool:
+    """Return False if a line of `*LABEL` could not be read, which may give any label."""
+    lines = (line for _, block in deck.blocks("LABEL") for line in cast("Labels", block).labels)
+    return all(line.label for line in lines)
+
+
+def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> Problem:
+    """An equation in a field of whole numbers that gives something else."""
+    return Problem(SYN002, f"{equation} gives {value!r}: {label} needs a whole number", None, None, where)
+
+
+_PLAIN = frozenset({float, int, str, NoneType})
+_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
+EvaluatedDeck = NewType("EvaluatedDeck", Deck)
+"""A deck without equations in the sections of the model and of the analysis; only `evaluated` makes one.
+
+A value that an equation did not give is unknown. A label of `*LABEL` is the number of its node or element; others stay.
+"""
+
+
+def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
+    """The deck with numbers for its equations and for the labels of `*LABEL`, and a problem for each without a value.
+
+    Without a value of `$MODEL` nothing can be evaluated, were it only because a function is not known, which is a
+    warning. What other sections hold has no influence on the contact.
+    """
+    copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
+    ready = EvaluatedDeck(replace(deck, sections=copies))
+    labelled = "LABEL" in deck.keywords()
+    plain = deck.origin.no_equations and not deck.bases and not labelled
+    written = [
+        (i, j)
+        for i, section in enumerate(() if plain else copies)
+        if section.name != DEFINING
+        for j, block in enumerate(section.blocks)
+        if labelled or _has_equation(block)
+    ]
+    if not written and "PARAMETERS" not in deck.keywords(DEFINING):
+        return ready, []
+    parameters = Parameters(deck)
+    evaluator = _Evaluator(parameters)
+    if labelled:
+        evaluator.labels = labels_of(deck, parameters, evaluator.problems)
+    for i, j in written:
+        evaluator.blocks = Blocks.ALWAYS if copies[i].name == "MODEL" else Blocks.NEVER
+        copies[i].blocks[j] = evaluator.part(copies[i].blocks[j], Where(i, j))
+    noticed = parameters.problems
+    if evaluator.lacks_parameter:
+        noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
+    return ready, noticed + evaluator.problems
+
+
+@cache
+def _evaluated_slots(kind: type[BaseModel]) -> tuple[str, ...]:
+    """Names of the fields of a part that can hold an equation, or parts that can; none of anything else.
+
+    The question whether a class is one of parts takes longer than this cache.
+    """
+    slots = record_schema(kind).slots if issubclass(kind, Part) else ()
+    return tuple(slot.name for slot in slots if slot.row or slot.record or slot.kind in _EVALUATED)
+
+
+def _has_equation(value: Any) -> bool:
+    """Whether there is an equation in a value or below it; most values are none that can hold one."""
+    if isinstance(value, Equation):
+        return True
+    if isinstance(value, Table):
+        return value.equations
+    held = value
+    if not isinstance(value, list):
+        kind: type[BaseModel] = type(value)
+        names = _evaluated_slots(kind)
+        held = map(value.__dict__.__getitem__, names) if names else ()  # sooner than `getattr` of a model
+    for item in held:  # noqa: SIM110 - `any` takes twice the time
+        if type(item) not in _PLAIN and _has_equation(item):
+            return True
+    return False
+
+
+class _Evaluator:
+    def __init__(self, parameters: Parameters) -> None:
+        self.parameters = parameters
+        self.problems: list[Problem] = []
+        self.labels: LabelNumbers = {}
+        self.lacks_parameter = False
+        self.blocks = Blocks.ALWAYS
+
+    def part(self, part: Any, where: Where) -> Any:
+        """A part without equations; the same object if it has none."""
+        changed: dict[str, object] = {}
+        kind: type[Part] = type(part)
+        for slot in record_schema(kind).slots:
+            value = getattr(part, slot.name)
+            inner = where._replace(path=(*where.path, slot.json))
+            new = self._value(value, slot, inner)
+            if new is not value:
+                changed[slot.name] = new
+        return part.model_copy(update=changed) if changed else part
+
+    def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
+        if isinstance(value, Equation):
+            return self._number(value, slot.kind or Kind.REAL, slot.label, where)
+        if isinstance(value, Label):
+            return self._labelled(value, slot)
+        if isinstance(value, Table):
+            return self._table(value, slot, where) if value.equations or (self.labels and value.words) else value
+        if isinstance(value, ListRow):
+            return self._list_row(value, where)
+        if isinstance(value, Part):
+            return self.part(value, where)
+        if isinstance(value, list) and value and isinstance(value[0], Part):
+            new = [self.part(item, where._replace(path=(*where.path, i))) for i, item in enumerate(value)]
+            return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
+        if self.labels and isinstance(value, list) and any(isinstance(item, Label) for item in value):
+            return [self._labelled(item, slot) for item in value]
+        return value
+
+    def _labelled(self, value: object, slot: FieldSpec) -> object:
+        """The number of a label that `*LABEL` gives; any other value stays."""
+        if not isinstance(value, Label):
+            return value
+        return self.labels.get((slot.about.names or slot.about.defines, folded(bare(value))), value)
+
+    def _list_row(self, row: ListRow, where: Where) -> ListRow:
+        """Its fields have the index as path, as JSON holds them in a list."""
+        changed: dict[str, object] = {}
+        for index, slot in enumerate(record_schema(type(row)).columns):
+            value = getattr(row, slot.name)
+            if isinstance(value, Equation):
+                place = where._replace(path=(*where.path, index))
+                changed[slot.name] = self._number(value, slot.kind or Kind.REAL, slot.label, place)
+            elif isinstance(value, Label):
+                changed[slot.name] = self._labelled(value, slot)
+        return row.model_copy(update=changed) if changed else row
+
+    def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
+        """The value of an equation."""
+        whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+        nothing: Value = UNKNOWN
+        try:
+            value = self.parameters.evaluate(equation, where)
+        except NoValueError as reason:
+            if reason.problem:
+                self.problems.append(replace(reason.problem, blocks=self.blocks))
+            elif self.blocks is Blocks.ALWAYS:  # the problem is placed where the parameter is defined
+                self.lacks_parameter = True
+            return nothing
+        if isinstance(value, str):
+            if kind is Kind.REAL_OR_NAME:
+                return value
+            message = f"{equation} gives the text {value!r}: {label} needs a number"
+            self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
+            return nothing
+        if not whole:
+            return value
+        if value.is_integer():
+            return int(value)
+        self.problems.append(replace(whole_fault(equation, value, label, where), blocks=self.blocks))
+        return nothing
+
+    def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
+        columns = slot.columns
+        values = table.values.copy()
+        words = dict(table.words)
+        for (row, column), word in table.words.items():
+            if isinstance(word, Equation):
+                place = where._replace(path=(*where.path, row, column))
+                values[row, column] = self._number(word, columns[column].kind, columns[column].label, place)
+                del words[row, column]
+            elif isinstance(word, Label) and slot.row:
+                number = self._labelled(word, record_schema(slot.row).columns[column])
+                if isinstance(number, int):
+                    values[row, column] = number
+                    del words[row, column]
+        return Table(values, table.lengths, words)
