@@ -10,7 +10,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.values import Name, Names, Other, Real, Whole
+from mudline.language.keywords.values import Facts, Name, Names, Other, Real, Whole
 
 _PAGE = (
     "no page of the manual was found: the types are those of known decks, other words and lines are passed through "
@@ -209,13 +209,11 @@ class ContactModelling(Block):
     )
 
 
-_WORDS = "the words of the manual are taken as they are, and not checked"
-
-
 class Restart(OpenBlock):
     """The run that goes before."""
 
     rule = "restart"
+    known_forms = True
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_restart"
@@ -233,12 +231,12 @@ class Restart(OpenBlock):
         ),
     ]
     type_: Annotated[
-        Name | None,
-        setting("TYPE", "what follows the last run: DYNAMIC, STATIC or CONTINUATION", inline=True, inferred=_WORDS),
+        Literal["DYNAMIC", "STATIC", "DYNAMIC/STATIC", "CONTINUATION"] | None,
+        setting("TYPE", "what follows the last run", inline=True),
     ] = Field(default=None, alias="type")
     option: Annotated[
-        Name | None,
-        setting("OPTION", "APPEND: results go on in the same file, for a CONTINUATION", inline=True, inferred=_WORDS),
+        Literal["APPEND"] | None,
+        setting("OPTION", "results go on in the same file, for a CONTINUATION", inline=True),
     ] = None
 
 
@@ -246,6 +244,7 @@ class Database(Block):
     """When results are stored."""
 
     rule = "database"
+    facts = Facts(once=True)
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_database"

@@ -59,7 +59,9 @@ class CurrentProfile(Record):
     @model_validator(mode="after")
     def _fits(self) -> CurrentProfile:
         """What its type has."""
-        if self.type_ != "SUBROUTINE":
+        if self.type_ == "SUBROUTINE":
+            require_one(self, "user")
+        else:
             require_one(self, "uniform" if self.type_ == "UNIFORM" else "profile")
         if self.uniform is not None or self.profile is not None:
             require_one(self, "uniform", "profile")

@@ -28,7 +28,7 @@ class DepthCurve(OpenRecord):
     """The curve of a depth."""
 
     rule = "depth_curve"
-    depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
+    depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L", unique=True)]
     points: Annotated[Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement")]
 
 
@@ -37,7 +37,8 @@ class NodeCurve(OpenRecord):
 
     rule = "node_curve"
     node: Annotated[
-        Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE)
+        Ident,
+        setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE, unique=True),
     ]
     points: Annotated[Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement")]
 

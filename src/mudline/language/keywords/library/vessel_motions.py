@@ -12,7 +12,9 @@ from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
 
-Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
+_VESSEL = "vessel of *VESSEL or *VESSEL,INTEGRATED"
+Vessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL)]
+OneVessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL, unique=True)]
 
 
 class Motion(Row):
@@ -30,7 +32,7 @@ class VesselOffset(Record):
     """The offset of a vessel."""
 
     rule = "vessel_offset"
-    vessel: Vessel
+    vessel: OneVessel
     offset: Annotated[Motion, setting("OFFSET", "displacements from the initial position")]
 
 
@@ -179,7 +181,7 @@ class FrequencyRao(Record):
     """Three lines: a frequency, six amplitudes, six phases."""
 
     rule = "frequency_rao"
-    frequency: Annotated[Real, about("wave frequency", at_least=0)]
+    frequency: Annotated[Real, about("wave frequency", at_least=0, unique=True)]
     amplitudes: Annotated[Six, about("amplitudes for a unit wave")]
     phases: Annotated[Six, about("phases, positive for a lag")]
 
@@ -193,7 +195,7 @@ class HeadingRao(Record):
     """The operators of a heading."""
 
     rule = "heading_rao"
-    heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180)]
+    heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180, unique=True)]
     frequencies: list[FrequencyRao] = []
 
 
@@ -220,7 +222,7 @@ class VesselRao(Record):
     """The operators of a vessel: a file, or lines."""
 
     rule = "vessel_rao"
-    vessel: Vessel
+    vessel: OneVessel
     format: Annotated[Name | None, setting("FORMAT", "MCS, AQWA, WAMIT, MOSES, ORCAFLEX, or one of *RAO FORMAT")] = None
     layout: Annotated[
         Literal["MCS", "LINE"] | None,
