@@ -39,6 +39,8 @@ GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
 GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
 GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
 
+GEO015 = Code("GEO015", "no-elements", Severity.INFO)
+
 _PARTS = ("MODEL", "LOAD CASE")
 _ROUNDED = 1e-6
 _OF_CABLE = ("node", "cable", "distance")
@@ -68,15 +70,55 @@ def _blocks(context: LintContext) -> Iterator[tuple[Where, Block | Opaque]]:
 
 def _lacks(context: LintContext, *gifts: Gift) -> bool:
     """Whether what a whole model does not show of some kinds is missing: no line that is not read may give it."""
-    if not context.once(_is_whole):
-        return False
+    return context.once(_is_whole) and not _unread_give(context, *gifts)
+
+
+def _unread_give(context: LintContext, *gifts: Gift) -> bool:
+    """Whether a line that is not read may give a model something of some kinds."""
     sections = context.scene.deck.sections
     unread = (
         (block.keyword, sections[where.section].name)
         for where, block in _blocks(context)
         if type(block) is Opaque or kept_lines(block)
     )
-    return not any(may_give(*one, gift) for one in unread for gift in gifts)
+    return any(may_give(*one, gift) for one in unread for gift in gifts)
+
+
+@rule(GEO015)
+def no_elements(context: LintContext) -> Iterator[Problem]:
+    """A model with nodes and a load case of it stand in the deck, and no element.
+
+    Without elements nothing lies on the seabed: no contact is checked or evaluated, and a deck without a finding says
+    nothing of its line. Add *ELEMENT or *LINES, if the deck is more than a part of a job. Decks that continue another
+    one have the elements of that.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 50.0, 0.0
+          3, 50.0, 20.0
+          GEN=1, 3
+        +*ELEMENT
+        + 1, 1, 2
+        + GEN=1, 2
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          3, 1
+
+    Finds: 1:1
+    """
+    scene = context.scene
+    models = [i for i, section in enumerate(context.deck.own_sections) if section.name == _PARTS[0]]
+    shown = {section.name for section in scene.deck.sections if len(scene.node_ids)}
+    reading = scene.context
+    if len(scene.element_ids) or not shown.issuperset(_PARTS) or reading.external_definers or reading.restart:
+        return
+    if models and not reading.unread and not reading.misplaced_keywords and not _unread_give(context, "elements"):
+        yield Problem(
+            GEO015, "no elements, so there is no contact to check: add *ELEMENT or *LINES", where=Where(models[0], -1)
+        )
 
 
 @rule(GEO007)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
 REF012 = Code("REF012", "long-list", Severity.WARNING)
-REF016 = Code("REF016", "repeated-set", Severity.WARNING)
+REF016 = Code("REF016", "repeated-set", Severity.INFO)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
 REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
 REF020 = Code("REF020", "repeated-name", Severity.WARNING)

@@ -177,7 +177,11 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
         where = f"{'at or below' if seabed else 'below'} the seabed{_level(scene)}"
         which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
         message = f"{which} {where} and no seabed law applies: give STIFFNESS= to a set of them"
-        yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
+        sets = (one for one in scene.set_table.named.values() if one.where and lying[0] in one.elements)
+        bare = [one for one in sets if (scene.law[one.elements] == LawKind.NONE).all()]
+        smallest = min(bare, key=lambda one: len(one.elements), default=None)
+        place = smallest.where if smallest else scene.table.numbered.where(int(lying[0]))
+        yield Problem(SBD006, message, where=place)
 
 
 def _level(scene: Scene) -> str:

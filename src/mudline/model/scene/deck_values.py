@@ -22,7 +22,7 @@ from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.curvilinear import CurvilinearGenerate, CurvilinearNodes
+    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
 
 FOOT = 0.3048
 POUND = 4.4482216152605
@@ -127,12 +127,13 @@ def nodes_on_cables(deck: Deck) -> list[range] | None:
             if hasattr(entry, "nodes"):
                 numbers = entry.nodes.column(0).tolist()
                 found += [range(int(number), int(number) + 1) for number in numbers if math.isfinite(number)]
-                readable = len(found) and all(map(math.isfinite, numbers))
+                readable = all(map(math.isfinite, numbers))
             else:
-                given = cast("CurvilinearGenerate", entry).generate
+                given = entry.generate
                 start, end, step = given.start, given.end, given.increment or 1
-                readable = isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step > 0
-                if readable:
+                readable = False
+                if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step > 0:
+                    readable = True
                     found.append(range(start + step, end, step))
             if not readable or deck.lost(where):
                 return None

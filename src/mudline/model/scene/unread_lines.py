@@ -51,7 +51,7 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
     """Look at every line of a deck itself that is not read; `nodes` are those of the deck, None where others are."""
     looking: _Looking | None = None
     for where, keyword, line in unread_lines(context.written):
-        holds = keyword == KEYWORD and _is_of_vessels(context, where)
+        holds = keyword == KEYWORD and is_of_vessels(context.written, where)
         if len(line) <= _LONGEST and (holds or _WORTH.search(line)):
             looking = looking or _Looking(context, sets)
             looking.look(where, keyword, line)
@@ -59,9 +59,9 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
                 looking.condition(where, keyword, line, nodes)
 
 
-def _is_of_vessels(context: Context, where: Where) -> bool:
+def is_of_vessels(deck: Deck, where: Where) -> bool:
     """Whether the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
-    block = context.written.sections[where.section].blocks[where.block]
+    block = deck.sections[where.section].blocks[where.block]
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 

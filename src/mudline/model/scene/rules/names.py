@@ -12,7 +12,7 @@ from mudline.language.rules import rule
 from mudline.model.scene.names import THINGS, undefined
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.curvilinear import CurvilinearGenerate, CurvilinearNodes
+    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
     from mudline.model.scene.resolved import ResolvedDeck
 
 REF019 = Code("REF019", "undefined-name", Severity.ERROR)
@@ -55,7 +55,7 @@ def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
                 rows = enumerate(entry.nodes.column(1).tolist())
                 used = [(cable, place.inside("nodes", row, 1)) for row, cable in rows]
             else:
-                used = [(cast("CurvilinearGenerate", entry).cable, place.inside("cable"))]
+                used = [(entry.cable, place.inside("cable"))]
             for cable, at in used:
                 if isinstance(cable, int | float) and math.isfinite(cable) and cable not in cables:
                     message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
