@@ -63,8 +63,8 @@ def test_elements_on_the_bed_without_a_law_are_counted_once() -> None:
 def test_a_slope_or_a_profile_hides_no_gap() -> None:
     gap = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 4\n SET=b\n GEN=5, 10\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=a\n"
     gap += " STIFFNESS=1\n*SEABED PROFILE\n TYPE="
-    assert restraint(gap + "SLOPING\n SLOPE=0.0\n") == [(16, "6 elements (first: 5")]
-    assert restraint(gap + "SLOPING\n SLOPE=3.0\n") == [(16, "6 elements (first: 5")]
+    assert restraint(gap + "SLOPING\n SLOPE=0.0\n") == [(18, "6 elements (first: 5")]
+    assert restraint(gap + "SLOPING\n SLOPE=3.0\n") == [(18, "6 elements (first: 5")]
     assert restraint(gap + "SLOPING\n SLOPE=-3.0\n") == []
     assert restraint(gap + "SLOPING\n SLOPE=-3.0\n".replace("-0.05", "-9.0")) == []
 

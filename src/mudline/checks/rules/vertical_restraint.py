@@ -179,8 +179,8 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
         message = f"{which} {where} and no seabed law applies: give STIFFNESS= to a set of them"
         sets = (one for one in scene.set_table.named.values() if one.where and lying[0] in one.elements)
         bare = [one for one in sets if (scene.law[one.elements] == LawKind.NONE).all()]
-        smallest = min(bare, key=lambda one: len(one.elements), default=None)
-        place = smallest.where if smallest else scene.table.numbered.where(int(lying[0]))
+        given = context.written("SEABED PROPERTIES")
+        place = given[0][0] if bare and given else scene.table.numbered.where(int(lying[0]))
         yield Problem(SBD006, message, where=place)
 
 
