@@ -53,7 +53,8 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     count = len(scene.element_ids)
-    for keyword in ("GEOMETRIC SETS", "HYDRODYNAMIC SETS"):
+    given = scene.deck.blocks_that(lambda declared: bool(declared.facts.gives))
+    for keyword in dict.fromkeys(block.keyword for _, block in given):
         places = [(where, scene.set_table.find(entry.set_name)) for where, entry in _named(context, keyword)]
         known = [(where, set_) for where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for _, set_ in known], count):
