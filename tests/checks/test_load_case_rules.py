@@ -105,7 +105,8 @@ def test_elements_without_a_section() -> None:
         HELD,
         LINE + HELD,  # none has a section
         PARTS + "*HINGE\n 3\n" + HELD,
-        PARTS + "*COATINGS\n 3\n" + HELD,
+        PARTS + "*TAPER\n 3\n" + HELD,
+        PARTS + "*UNHEARD OF\n 3\n" + HELD,
         PARTS.replace("1, 2\n*GEO", "1, 2, 3\n*GEO") + HELD,
         PARTS + HELD + "*RESTART\n LAST=static\n",
     ):

@@ -295,7 +295,8 @@ def test_a_setting_of_another_name_is_no_row() -> None:
 
 def test_nodes_out_of_sight_are_one_info() -> None:
     nodes = DECK[DECK.index("*NODE") : DECK.index("*ELEMENT\n")]
-    one = only(changed((nodes, "*CABLE\n 1, 1, 11, 100.0\n*NODE,CURVILINEAR\n 1, 1, 0.0\n 11, 1, 100.0\n")))
+    cable = "*CABLE\n 1, 1, 11, 100.0\n*NODE,CURVILINEAR\n 1, 1, 0.0\n 11, 1, 100.0\n CURV=1, 11, CABLE=1\n"
+    one = only(changed((nodes, cable)))
     assert (one.code, one.severity, one.line, one.blocks) == ("REF006", Severity.INFO, 6, True)
     assert "*NODE,CURVILINEAR may define nodes that this deck does not show" in one.message
 

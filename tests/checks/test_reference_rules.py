@@ -54,6 +54,13 @@ def test_a_second_curve_of_a_set_is_a_duplicate_too() -> None:
     assert messages(text, "REF004")[0].startswith("set 'all' already has a curve")
 
 
+@pytest.mark.parametrize(("again", "letter"), [(" 9, 8\n", "info"), (" 3\n", "warning"), (" GEN=2, 9\n", "warning")])
+def test_a_repeated_set_whose_elements_add_up_is_an_info(again: str, letter: str) -> None:
+    text = "$MODEL\n*ELEMENT SETS\n SET=A\n 1, 2\n GEN=3, 4\n SET=a\n" + again
+    (one,) = (one for one in lint_bytes(text.encode(), "deck.keyxm", select(["REF016"])) if one.code == "REF016")
+    assert (one.severity.value, one.line) == (letter, 6)
+
+
 def test_names_of_256_characters_are_fine() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET={}\n GEN=1, 2\n"
     assert found(text.format("x" * 256), "REF011") == []

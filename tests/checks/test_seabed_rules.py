@@ -60,6 +60,15 @@ def test_elements_on_the_bed_without_a_law_are_counted_once() -> None:
     assert restraint(text.replace("11, -0.05", "11, 0.05")) == [(8, "element 5 lies at or below the seabed (X = 0")]
 
 
+def test_a_slope_or_a_profile_hides_no_gap() -> None:
+    gap = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 4\n SET=b\n GEN=5, 10\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=a\n"
+    gap += " STIFFNESS=1\n*SEABED PROFILE\n TYPE="
+    assert restraint(gap + "SLOPING\n SLOPE=0.0\n") == [(18, "6 elements (first: 5")]
+    assert restraint(gap + "SLOPING\n SLOPE=3.0\n") == [(18, "6 elements (first: 5")]
+    assert restraint(gap + "SLOPING\n SLOPE=-3.0\n") == []
+    assert restraint(gap + "SLOPING\n SLOPE=-3.0\n".replace("-0.05", "-9.0")) == []
+
+
 def test_without_a_seabed_only_elements_below_it_count() -> None:
     assert restraint(PIPE) == [(7, "10 elements (first: 1")]
     assert restraint(PIPE.replace("-0.05", "0.0")) == []
@@ -72,7 +81,6 @@ def test_without_a_seabed_only_elements_below_it_count() -> None:
         "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n FRICTION=0.3\n",
         "*ELASTIC SURFACE\n 100\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n FRICTION=0.3\n",
         "*P-Y\n SET=ALL\n DEPTH=0\n 0, 0\n 100, 0.1\n",
-        "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=3\n",
         "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=5\n",
         "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=5\n" + PROPERTIES + " FRICTION=0.3\n",
         "*ELASTIC SURFACE\n x, 0.3\n",

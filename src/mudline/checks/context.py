@@ -75,7 +75,7 @@ class LintContext:
     def noticed(self) -> dict[str, list[Problem]]:
         """What reading and resolving the deck, and the rules that block, report, by code."""
         found: dict[str, list[Problem]] = {}
-        for problem in chain(self.scene.findings, _of_variations(self.deck)):
+        for problem in chain(self.scene.findings, of_variations(self.deck)):
             found.setdefault(problem.code.code, []).append(problem)
         return found
 
@@ -99,7 +99,7 @@ def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where
             yield where.inside("sets", index), entry
 
 
-def _of_variations(deck: Deck) -> Iterator[Problem]:
+def of_variations(deck: Deck) -> Iterator[Problem]:
     """Undefined names in variations: they are faults of the varied decks, and not of this one."""
     if not may_vary(deck):
         return

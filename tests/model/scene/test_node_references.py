@@ -113,9 +113,29 @@ def test_lines_make_nodes_of_their_own() -> None:
 def test_nodes_on_cables_are_one_info() -> None:
     cables = "*CABLE\n 1, 1, 2, 50.0\n*NODE,CURVILINEAR\n 99, 1, 5.0\n"
     text = PIPE + cables + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert reported(text)[0] == ("I", "REF006", LINE - 1, 1)
-    expected = "*NODE,CURVILINEAR may define nodes that this deck does not show: 2 uses of such nodes (first: node 99)"
+    assert reported(text) == [("I", "REF006", LINE - 1, 1), ("E", "REF006", LINE + 5, 2)]
+    expected = "*NODE,CURVILINEAR may define nodes that this deck does not show: 1 use of such nodes (first: node 99)"
     assert messages(text)[0].startswith(expected)
+
+
+def test_a_node_that_no_cable_holds_is_missing() -> None:
+    text = PIPE + "*CABLE\n 1, 1, 98, 50.0\n*NODE,CURVILINEAR\n 20, 1, 5.0\n 30, 1, 9.0\n CURV=20, 30, 5, CABLE=1\n"
+    held = HELD + " 20, 1\n 25, 1\n 26, 1\n"
+    line = text.count("\n") + HELD.count("\n")
+    assert ("E", "REF006", PIPE.count("\n") + 2, 8) in reported(text + held)
+    assert ("E", "REF006", line + 3, 2) in reported(text + held)
+    assert len(reported(text + held)) == 3
+    unknown = text.replace("CURV=20", "CURV={Top}")
+    assert all(letter == "I" for letter, *_ in reported(unknown + held))
+
+
+def test_cables_that_nodes_lie_on() -> None:
+    text = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 9.0\n*CABLE\n 1, 1, 2, 50.0\n*NODE,CURVILINEAR\n"
+    rows = " 20, 1, 5.0\n 30, 4, 9.0\n CURV=20, 30, 5, CABLE=6\n"
+    found = [one for one in reported(text + rows) if one[1] == "REF019"]
+    assert found == [("E", "REF019", 9, 6), ("E", "REF019", 10, 24)]
+    kept = text.replace("50.0\n", "50.0\n a line of another form\n") + rows
+    assert [one for one in reported(kept) if one[1] == "REF019"] == [("W", "REF019", 10, 6), ("W", "REF019", 11, 24)]
 
 
 def test_a_label_that_is_nearly_one_of_a_line() -> None:

@@ -177,7 +177,8 @@ def test_the_block_that_may_define_it_is_named() -> None:
     assert messages(PIPE + sections + seabed)[0].endswith(ending)
     ending = "a line of *LINE PATH SECTIONS that could not be used may define it"
     assert messages(PIPE + LINES + sections + " SECTIN=b, 1\n" + seabed)[0].endswith(ending)
-    assert reported(PIPE + "*NODE,CURVILINEAR\n 1, 1, 2.0\n" + seabed) == [("E", "REF001", 13, 6)]
+    cable = "*CABLE\n 1, 1, 2, 50.0\n"
+    assert reported(PIPE + cable + "*NODE,CURVILINEAR\n 1, 1, 2.0\n" + seabed) == [("E", "REF001", 15, 6)]
 
 
 # --------------------------------------------------------------------------------------------------------------- labels

@@ -44,6 +44,24 @@ def _told(found: list[Diagnostic]) -> list[str]:
     return [f"{one.code} {one.message.removesuffix(_NOT_READ).split(':')[0]}" for one in own]
 
 
+# -------------------------------------------------------------------------------------------------------------- vessels
+
+
+@pytest.mark.parametrize(
+    ("lines", "found"),
+    [
+        (" 2, Sami\n", ["REF019 vessel 'Sami' is not defined (did you mean Semi?)"]),
+        (" 2, Semi, 3\n {Top}, Semi\n =[Ks], Semi\n", []),
+        (" 7, Semi\n", ["REF006 node 7 is not defined"]),
+        (" 7, 3, Sami\n", ["REF006 node 7 is not defined", "REF019 vessel 'Sami' is not defined (did you mean Semi?)"]),
+        (" VESSEL=Semi\n 7, 3\n", ["REF006 node 7 is not defined"]),
+        (" 2, 3\n TYPE=FILE\n 7, Sami\n", []),
+    ],
+)
+def test_node_and_vessel_of_a_condition(lines: str, found: list[str]) -> None:
+    assert told(f"$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n{lines}") == found
+
+
 # --------------------------------------------------------------------------------------------------------------- curves
 
 

@@ -54,7 +54,10 @@ NAMED = CURVES | THINGS | {Names.SET, Names.CURVE}
 
 
 def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines that hold a keyword of their section without its star; where nothing is said of them, in column 1 only."""
+    """Lines that hold a keyword of their section without its star, or a section without its dollar.
+
+    Where nothing is said of them, in column 1 only.
+    """
     text = blocks.text
     said = {line_at(text, start_of(text, one)).start: one for one in reversed(problems)}
     for section in text.tree.sections:
@@ -63,34 +66,38 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
                 continue
             line = line_at(text, leaf.span.start)
             written = text.source.unified[slice(*line)].rstrip()
-            name = starless(written.lstrip(), section.name)
+            name = _marked(written.lstrip(), section.name)
             problem = said.get(line.start)
             if not name or (problem is None and written[:1].isspace()):
                 continue
             comment = problem.code is SYN013 if problem else leaf.kind is not Kind.TEXT
             read = "a comment" if comment else "data"
-            message = f"{written.strip()} without its star is read as {read}: write *{name}"
+            mark = "star" if name[0] == "*" else "dollar"
+            message = f"{written.strip()} without its {mark} is read as {read}: write {name}"
             own = Span(line.start, line.start + len(written))
             place = problem.span if problem else own
             known = problem if problem and problem.code is not SYN016 else None
             code = SYN013 if comment else known.code if known else SYN001
             cause = Problem(code, message, place, known.weight if known and not comment else None)
-            certain = section.name in (catalogue.sections_of(name) or ())
+            certain = name[0] == "$" or section.name in (catalogue.sections_of(name[1:]) or ())
             lines = Span(line.start, blocks.block_at(line.start).end)
-            yield Correction(cause, (TextEdit(own, f"*{name}"),), lines, does=f"write *{name}", certain=certain)
+            yield Correction(cause, (TextEdit(own, name),), lines, does=f"write {name}", certain=certain)
 
 
-def starless(line: str, section: str) -> str:
-    """The keyword of a section that a line without a star is, or ""."""
-    if not line[:1].isalpha() or "=" in line or line.upper() not in _known():
+def _marked(line: str, section: str) -> str:
+    """The keyword of a section that a line without a star is, or the section that it begins, with their mark; or ""."""
+    name = line.upper()
+    if not line[:1].isalpha() or "=" in line or name not in _known():
         return ""
-    sections = catalogue.sections_of(line.upper())
-    return "" if sections and section not in sections else line.upper()
+    sections = catalogue.sections_of(name)
+    if sections is not None and (not sections or section in sections):
+        return f"*{name}"
+    return f"${name}" if name in catalogue.SECTIONS else ""
 
 
 @cache
 def _known() -> frozenset[str]:
-    return frozenset(catalogue.keywords())
+    return frozenset([*catalogue.keywords(), *catalogue.SECTIONS])
 
 
 # ------------------------------------------------------------------------------------------------ the line of a keyword

@@ -157,7 +157,7 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     lacking = scene.section_table.of_element < 0
     if not np.count_nonzero(lacking):
         return
-    needing = lacking & ~_without_sections(scene)
+    needing = lacking & ~without_sections(scene)
     sets = scene.set_table.named.values() if needing.any() else ()
     bare_sets = [one for one in sets if not one.open and lacking[one.elements].all() and needing[one.elements].any()]
     for section in repeated if bare_sets else ():
@@ -227,7 +227,7 @@ def _lengths_fit(values: Sequence[object], columns: Sequence[FieldSpec], most: f
     return complete and has_wall and max(lengths, default=0.0) <= most * min(lengths, default=0.0)
 
 
-def _without_sections(scene: Scene) -> Mask:
+def without_sections(scene: Scene) -> Mask:
     """Elements that take no section: springs, hinges and flex joints, by their numbers or sets."""
     found = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in scene.deck.blocks_that(lambda declared: declared.facts.zero_length):

@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.checks.context import LintContext
+from mudline.checks.rules.geometry import without_sections
 from mudline.checks.rules.references import WATER
 from mudline.checks.rules.seabed_position import first_of
+from mudline.checks.rules.vertical_restraint import in_another_pipe
 from mudline.language.deck.model import Opaque
-from mudline.language.diagnostics import Code, Problem, Severity
-from mudline.language.keywords.catalogue import may_have_no_length
+from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.catalogue import may_give
 from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import Block, Part
 from mudline.language.keywords.naming import idents_given, may_name
-from mudline.language.keywords.values import Names
+from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.deck_values import number
@@ -37,24 +39,86 @@ GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
 GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
 GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
 
+GEO015 = Code("GEO015", "no-elements", Severity.INFO)
+
+_PARTS = ("MODEL", "LOAD CASE")
 _ROUNDED = 1e-6
 _OF_CABLE = ("node", "cable", "distance")
 """Share of a length by which it may be rounded."""
 
 
 def _is_whole(context: LintContext) -> bool:
-    """Whether a deck shows a whole model and a load case of it, all lines of which are read.
+    """Whether a deck shows a whole model and a load case of it, no line of which is lost."""
+    scene = context.scene
+    reading = scene.context
+    shown = {section.name for section in scene.deck.sections if section.name in _PARTS}
+    if len(shown) < len(_PARTS) or not len(scene.element_ids) or reading.external_definers or reading.restart:
+        return False
+    kept: dict[str, int] = {}
+    for where, block in _blocks(context):
+        if block.keyword in reading.unread:
+            lines = 0 if type(block) is Opaque else len(kept_lines(block))
+            kept[block.keyword] = kept.get(block.keyword, 0) + lines - scene.deck.lost(where)
+    return all(kept.get(keyword, -1) >= 0 for keyword in reading.unread)
 
-    Joints, springs and the like take no properties, and a keyword that is passed through may be of one, or hold a line.
+
+def _blocks(context: LintContext) -> Iterator[tuple[Where, Block | Opaque]]:
+    for i, section in enumerate(context.scene.deck.sections):
+        if section.name in _PARTS:
+            yield from ((Where(i, j), block) for j, block in enumerate(section.blocks))
+
+
+def _lacks(context: LintContext, *gifts: Gift) -> bool:
+    """Whether what a whole model does not show of some kinds is missing: no line that is not read may give it."""
+    return context.once(_is_whole) and not _unread_give(context, *gifts)
+
+
+def _unread_give(context: LintContext, *gifts: Gift) -> bool:
+    """Whether a line that is not read may give a model something of some kinds."""
+    sections = context.scene.deck.sections
+    unread = (
+        (block.keyword, sections[where.section].name)
+        for where, block in _blocks(context)
+        if type(block) is Opaque or kept_lines(block)
+    )
+    return any(may_give(*one, gift) for one in unread for gift in gifts)
+
+
+@rule(GEO015)
+def no_elements(context: LintContext) -> Iterator[Problem]:
+    """A model with nodes and a load case of it stand in the deck, and no element.
+
+    Without elements nothing lies on the seabed: no contact is checked or evaluated, and a deck without a finding says
+    nothing of its line. Add *ELEMENT or *LINES, if the deck is more than a part of a job. Decks that continue another
+    one have the elements of that.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 50.0, 0.0
+          3, 50.0, 20.0
+          GEN=1, 3
+        +*ELEMENT
+        + 1, 1, 2
+        + GEN=1, 2
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          3, 1
+
+    Finds: 1:1
     """
     scene = context.scene
-    parts = [section for section in scene.deck.sections if section.name in ("MODEL", "LOAD CASE")]
-    blocks = [block for section in parts for block in section.blocks]
-    if len({section.name for section in parts}) < 2 or not len(scene.element_ids):
-        return False
-    if any(type(block) is Opaque or may_have_no_length(block.keyword) for block in blocks):
-        return False
-    return not (scene.context.external_definers or scene.context.restart or scene.context.unread)
+    models = [i for i, section in enumerate(context.deck.own_sections) if section.name == _PARTS[0]]
+    shown = {section.name for section in scene.deck.sections if len(scene.node_ids)}
+    reading = scene.context
+    if len(scene.element_ids) or not shown.issuperset(_PARTS) or reading.external_definers or reading.restart:
+        return
+    if models and not reading.unread and not reading.misplaced_keywords and not _unread_give(context, "elements"):
+        yield Problem(
+            GEO015, "no elements, so there is no contact to check: add *ELEMENT or *LINES", where=Where(models[0], -1)
+        )
 
 
 @rule(GEO007)
@@ -63,7 +127,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
 
     No set with a line in *GEOMETRIC SETS holds it: it has neither stiffness nor weight. A range of a set ends too
     early, or a new part of the line was not put into a set. Extend the set, or give it a section. Decks that are only
-    the model or only the load case are left out, and models with joints, springs and the like, whose elements take no
+    the model or only the load case are left out, and so are elements of joints, springs and the like, which take no
     properties.
 
     Example on held:
@@ -80,9 +144,9 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
     Finds: 8:2
     """
     scene = context.scene
-    if not context.once(_is_whole) or not context.blocks("GEOMETRIC SETS"):
+    if not context.blocks("GEOMETRIC SETS") or not _lacks(context, "elements", "sections"):
         return
-    bare = np.flatnonzero(scene.section_table.of_element < 0)
+    bare = np.flatnonzero((scene.section_table.of_element < 0) & ~without_sections(scene))
     if bare.size and bare.size < len(scene.element_ids):
         what = first_of("element", scene.element_ids[bare[0]], bare.size)
         message = f"{what} without a line in *GEOMETRIC SETS: put it into a set that has one, or give it a section"
@@ -93,8 +157,8 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
 def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     """Elements have no hydrodynamic properties in a load case with waves or a current.
 
-    No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right inside another
-    pipe or in a moonpool, and a slip elsewhere. Put them into a set with coefficients.
+    No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right in a moonpool,
+    and a slip elsewhere. Inner pipes of *PIP SECTION need none. Put the elements into a set with coefficients.
 
     Example on held:
          $MODEL
@@ -120,8 +184,7 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     cases = (section for section in context.deck.sections if section.name == "LOAD CASE")
     flows = any(WATER.fullmatch(block.keyword) for case in cases for block in case.blocks)
     blocks = context.blocks("HYDRODYNAMIC SETS")
-    kept = any(True for _, block in blocks for _ in kept_lines(block))
-    if not flows or kept or not context.once(_is_whole):
+    if not flows or not _lacks(context, "elements", "hydrodynamics"):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in blocks:
@@ -130,7 +193,7 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
             if found is None:
                 return
             covered[found.elements] = True
-    bare = np.flatnonzero(~covered)
+    bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
     if bare.size:
         what = first_of("element", scene.element_ids[bare[0]], bare.size)
         message = f"{what} without coefficients in *HYDRODYNAMIC SETS: give them, else neither drag nor added mass acts"
@@ -151,7 +214,7 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     scene = context.scene
-    if not context.once(_is_whole):
+    if not _lacks(context, "elements"):
         return
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     ends = scene.element_nodes
@@ -178,7 +241,7 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     scene = context.scene
-    if not context.once(_is_whole) or (scene.element_nodes < 0).any():
+    if not _lacks(context, "elements", "supports") or (scene.element_nodes < 0).any():
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     held = _named(context)
@@ -206,7 +269,9 @@ def _named_nodes(context: LintContext) -> Mask:
     numbers: set[int] = set()
     for section in scene.deck.sections:
         for block in section.blocks:
-            if isinstance(block, Block) and block.facts.defines not in ("nodes", "elements"):
+            if isinstance(block, Opaque):
+                numbers.update(_whole(word for line in block.lines for word in line.replace("=", ",").split(",")))
+            elif block.facts.defines not in ("nodes", "elements"):
                 numbers.update(_of_block(block))
     named = np.zeros(len(scene.node_ids), dtype=np.bool_)
     indices = scene.nodes.indices(np.array(sorted(numbers), dtype=np.int64)) if numbers else np.zeros(0, np.intp)

@@ -19,7 +19,7 @@ from mudline.model.scene.names import THINGS, repeated
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.mesh import SetList
+    from mudline.language.keywords.library.mesh import ElementSet, SetList
     from mudline.language.keywords.library.preprocessor import Parameter
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
@@ -114,7 +114,8 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
     Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
-    stiffness and curve. Names are case-insensitive. Put the elements under one SET=, or choose another name.
+    stiffness and curve. Names are case-insensitive. It is an info where the numbers of both lie apart, so that they add
+    up. Put the elements under one SET=, or choose another name.
 
     Example on sets:
           1, 2
@@ -126,15 +127,27 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
 
     Finds: 14:6
     """
-    known: set[str] = set()
+    known: dict[str, list[tuple[int, int]]] = {}
     for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
         name = known_name(entry.name)
         if name is None or (key := folded(name)) == ALL:
             continue
+        own = [*_spans(entry)]
         if key in known:
             message = f"set {shown(name)} is already defined, and this adds to it: put its elements under one SET="
-            yield Problem(REF016, message, where=where.inside("name"))
-        known.add(key)
+            apart = own and all(last < low or high < first for low, high in own for first, last in known[key])
+            yield Problem(REF016, message, None, Severity.INFO if apart else None, where.inside("name"))
+        known.setdefault(key, []).extend(own)
+
+
+def _spans(entry: ElementSet) -> Iterator[tuple[int, int]]:
+    """The lowest and the highest number of each line of a set that has numbers alone."""
+    for member in entry.members:
+        span = getattr(member, "generate", None)
+        numbers = getattr(member, "elements", None) or ([span.start, span.end] if span else [])
+        whole = [number for number in numbers if isinstance(number, int)]
+        if whole:
+            yield min(whole), max(whole)
 
 
 @rule(REF020)

@@ -132,7 +132,7 @@ def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
         yield Problem(SBD025, message, where=where.inside("properties"))
 
 
-class _Overlap(NamedTuple):
+class Overlap(NamedTuple):
     """Places of two sets in their list, and the elements (indices) of the earlier one that the later one overrides."""
 
     earlier: int
@@ -140,7 +140,7 @@ class _Overlap(NamedTuple):
     elements: Indices
 
 
-def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
+def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
     """Each set against those that held its elements until then; sets that are not known against their namesakes."""
     holder = np.full(count, -1, dtype=np.intp)
     names: dict[str, int] = {}
@@ -149,34 +149,34 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
         first = int(before[0]) if index and before.size else -1
         if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
             if first >= 0:
-                yield _Overlap(first, index, later.elements)
+                yield Overlap(first, index, later.elements)
         else:
             order = np.argsort(before, kind="stable")
             parts, starts = np.unique(before[order], return_index=True)
             for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
                 if earlier >= 0:
-                    yield _Overlap(earlier, index, elements)
+                    yield Overlap(earlier, index, elements)
         name = folded(later.name)
         if not later.elements.size and name in names:
-            yield _Overlap(names[name], index, later.elements)
+            yield Overlap(names[name], index, later.elements)
         names[name] = index
         holder[later.elements] = index
 
 
 def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:
     """Overlaps that are reported, each with the place of the overridden definition in the list."""
-    for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+    for earlier, later, elements in overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
         one, other = grants[earlier].set_, grants[later].set_
         where = grants[later].where
         place = where._replace(path=(*where.path[:2], "set"))
-        if _within(one, other, len(scene.element_ids)):
+        if within(one, other, len(scene.element_ids)):
             message = (
                 f"{_called(one, other)} is overridden by this one for all its elements: "
                 "put the larger set first, or remove one"
             )
             lost = not _alike(scene, grants[earlier], grants[later])
             yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
-        elif not _within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+        elif not within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition overrides the earlier one of SET={shown(one.name)} for "
                 f"{_counted(scene, elements)}: give each element one definition"
@@ -184,7 +184,7 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
             yield earlier, Problem(SBD008, message, where=place)
 
 
-def _within(part: NamedSet, whole: NamedSet, count: int) -> bool:
+def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
     """Whether the elements of one set are all in another one, as far as they are known."""
     if folded(whole.name) in (folded(part.name), folded(ALL)):
         return True
@@ -227,7 +227,7 @@ def _entry(scene: Scene, grant: SetLaw) -> Record:
 def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
     """Overlaps that matter: of curves with other points, on elements that no newer keyword holds."""
     curves = scene.laws.curves
-    for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+    for earlier, later, elements in overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
         one, other = curves[grants[earlier].curve], curves[grants[later].curve]
         held = elements[scene.laws.of_element[elements] != scene.laws.covered[elements]]
         if np.array_equal(one.points, other.points) or (elements.size and not held.size):

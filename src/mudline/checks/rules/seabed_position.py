@@ -15,11 +15,12 @@ from mudline.language.rules import rule
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
+from mudline.model.scene.references import freedom_and_step
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.vertical_axis import FLAT
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.loads import Boundary, FixedNode, FixedRange
+    from mudline.language.keywords.library.loads import Boundary, FixedValues
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -31,6 +32,7 @@ DEEPEST = 5.0
 """Diameters below the seabed."""
 
 _IN_PLANE = (1, 2)
+_FREEDOMS = range(1, 7)
 
 
 def depths(context: LintContext) -> Floats:
@@ -293,14 +295,14 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
         return
-    held = list(_held(scene))
+    held = [one for one in held_nodes(scene) if one.dof in _IN_PLANE]
     if not held or scene.context.restart:  # the deck that is continued may constrain the other one
         return
     given = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
-    for _, dof, nodes in held:
+    for _, dof, nodes, _ in held:
         given[dof - 1, nodes] = True
     alone = (given[0] != given[1]) & _on_slope(context)
-    for where, dof, nodes in held:
+    for where, dof, nodes, _ in held:
         found = nodes[alone[nodes]]
         if found.size:
             which = first_of("node", scene.node_ids[found[0]], found.size)
@@ -329,40 +331,33 @@ def _on_slope(context: LintContext) -> Mask:
     return sloping
 
 
-def _held(scene: Scene) -> Iterator[tuple[Where, int, Indices]]:
-    """Each constraint of degree of freedom 1 or 2: its place, the degree, the indices of its nodes."""
+class Held(NamedTuple):
+    """What a line of `*BOUNDARY` holds: its place, the degree of freedom, the indices of its nodes, and how."""
+
+    where: Where
+    dof: int
+    nodes: Indices
+    how: tuple[object, object]
+
+
+def held_nodes(scene: Scene) -> Iterator[Held]:
+    """What each line of `*BOUNDARY` holds; of those whose form is not public nothing."""
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
         for i, type_ in enumerate(cast("Boundary", block).types):
             for j, entry in enumerate(type_.entries):
                 place = where.inside("types", i, "entries", j)
-                generated = getattr(entry, "generate", None)
-                if generated is None:
-                    yield from _single(scene, cast("FixedNode", entry), place)
+                if hasattr(entry, "generate"):
+                    values = cast("FixedValues | None", entry.generate)
+                    if values is None:
+                        continue
+                    at, step = freedom_and_step(values)
+                    given = (values.third, values.fourth, values.fifth, None)
+                    numbers: tuple[object, ...] = (values.start, values.end, step)
+                    dof, value, place = given[at - 2], given[at - 1], place.inside("generate")
                 else:
-                    yield from _range(scene, cast("FixedRange", entry), place)
-
-
-def _single(scene: Scene, entry: FixedNode, where: Where) -> Iterator[tuple[Where, int, Indices]]:
-    node, dof = entry.node, entry.dof
-    if isinstance(node, int) and abs(node) <= LARGEST_WHOLE and dof in _IN_PLANE:
-        found = np.flatnonzero(scene.node_ids == node)
-        yield where.inside("dof"), int(dof), found
-
-
-def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Where, int, Indices]]:
-    """Nodes of a GEN=: of three values the last one is the degree of freedom, of five the fourth.
-
-    Four values can be read in two ways; they are read as increment and degree of freedom.
-    """
-    values = entry.generate
-    if values.third is None:
-        return
-    step, dof = (1, values.third) if values.fourth is None else (values.third, values.fourth)
-    numbers = (values.start, values.end, step)
-    if dof not in _IN_PLANE or not all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in numbers):
-        return
-    start, end, step = (int(value) for value in numbers)
-    if step > 0:
-        ids = scene.node_ids
-        found = np.flatnonzero((ids >= start) & (ids <= end) & ((ids - start) % step == 0))
-        yield where.inside("generate"), int(dof), found
+                    numbers, dof, value = (entry.node, entry.node, 1), entry.dof, entry.value
+                    place = place.inside("dof")
+                whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
+                if whole and cast("int", numbers[2]) > 0 and dof in _FREEDOMS:
+                    nodes = scene.nodes.between(*cast("tuple[int, int, int]", numbers))
+                    yield Held(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.seabed_position import first_of
+from mudline.checks.rules.seabed_position import depths, first_of
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.model import Opaque
@@ -31,7 +31,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """Nothing supports elements of the model vertically.
 
     Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
-    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed (X = 0) in the
+    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed in the
     deck's coordinates, and no law, or a stiffness of 0, applies to them; inner pipes of *PIP SECTION need none. A
     static run may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
 
@@ -58,7 +58,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return  # it may hold the pipe
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
-    yield from _zeros(scene)
+    yield from _zeros(context)
     free = scene.law == LawKind.NONE
     if not np.count_nonzero(free):
         return
@@ -93,20 +93,21 @@ def _stray_laws(context: LintContext) -> Iterator[Problem]:
             yield Problem(SBD006, message, place, repair=repair)
 
 
-def _zeros(scene: Scene) -> Iterator[Problem]:
-    """Stiffnesses of 0 of elements that lie at or below a flat seabed."""
+def _zeros(context: LintContext) -> Iterator[Problem]:
+    """Stiffnesses of 0 of elements that lie at or below the seabed."""
+    scene = context.scene
     grants = scene.laws.set_laws
     zero = [
         i
         for i, grant in enumerate(grants)
         if grant.kind is LawKind.LINEAR and grant.stiffness == 0.0 and not grant.unknown
     ]
-    for index in zero if scene.seabed.kind is SeabedKind.FLAT else ():
+    for index in zero:
         elements = np.flatnonzero(scene.laws.of_element == index)
-        lying = elements[_depths(scene, elements) >= 0.0]
+        lying = elements[_depths(context, elements) >= 0.0]
         if lying.size and "SEABED CONTACT" not in scene.extensions:
             which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
-            message = f"{which} at or below the seabed (X = 0) and this stiffness is 0: give another one"
+            message = f"{which} at or below the seabed{_level(scene)} and this stiffness is 0: give another one"
             yield Problem(SBD006, message, where=grants[index].where)
 
 
@@ -117,18 +118,24 @@ _SAME_PLACE = 3
 def _inner_pipes(scene: Scene, free: Mask) -> Mask:
     """Those of the elements without a law (m,) that lie in another pipe, so that the seabed does not touch them.
 
-    *PIP SECTION names their sets; where they are only connected, their middles are those of elements with a law.
+    Where *PIP SECTION does not name them, but they are connected, their middles are those of elements with a law.
     """
-    inside = np.zeros(len(free), dtype=np.bool_)
-    for _, block in scene.deck.blocks("PIP SECTION"):
-        for pipe in cast("PipSections", block).pipes:
-            if set_ := scene.set_table.find(pipe.inner or ""):
-                inside[set_.elements] = True
+    inside = in_another_pipe(scene)
     placed = (scene.element_nodes >= 0).all(axis=1)
     outer = set(_middles(scene, np.flatnonzero(placed & (scene.law != LawKind.NONE))))
     alone = np.flatnonzero(placed & free & ~inside)
     inside[alone] = [middle in outer for middle in _middles(scene, alone)]
     return inside & free
+
+
+def in_another_pipe(scene: Scene) -> Mask:
+    """The elements (m,) of the inner pipes that `*PIP SECTION` names."""
+    inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for _, block in scene.deck.blocks("PIP SECTION"):
+        for pipe in cast("PipSections", block).pipes:
+            if set_ := scene.set_table.find(pipe.inner or ""):
+                inside[set_.elements] = True
+    return inside
 
 
 def _middles(scene: Scene, elements: Indices) -> list[tuple[float, ...]]:
@@ -156,28 +163,41 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
 
 
 def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
-    """Elements at or below a flat seabed without any law; without any seabed in the deck only those below count."""
+    """Elements at or below the seabed without any law; without any seabed in the deck only those below count."""
     if not elements.size:
         return
     scene = context.scene
-    if scene.laws.uncertain or scene.may_have_more_laws or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
+    if scene.laws.uncertain or scene.may_have_more_laws or context.in_soil:
         return
     seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater
     parts = (elements[block] for block in blocks_of(len(elements)))
-    lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
+    lying = np.concatenate([part[lies(_depths(context, part), 0.0)] for part in parts])
     if lying.size:
-        where = "at or below" if seabed else "below"
+        where = f"{'at or below' if seabed else 'below'} the seabed{_level(scene)}"
         which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
-        message = f"{which} {where} the seabed (X = 0) and no seabed law applies: give STIFFNESS= to a set of them"
-        yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
+        message = f"{which} {where} and no seabed law applies: give STIFFNESS= to a set of them"
+        sets = (one for one in scene.set_table.named.values() if one.where and lying[0] in one.elements)
+        bare = [one for one in sets if (scene.law[one.elements] == LawKind.NONE).all()]
+        given = context.written("SEABED PROPERTIES")
+        place = given[0][0] if bare and given else scene.table.numbered.where(int(lying[0]))
+        yield Problem(SBD006, message, where=place)
 
 
-def _depths(scene: Scene, elements: Indices) -> Floats:
-    """Mean depths of the two nodes; NaN where one is not known."""
-    depths = np.full(len(elements), np.nan)
+def _level(scene: Scene) -> str:
+    """Where a flat seabed is, for a message."""
+    return " (X = 0)" if scene.seabed.kind is SeabedKind.FLAT else ""
+
+
+def _depths(context: LintContext, elements: Indices) -> Floats:
+    """Mean depths of the two nodes below the seabed, at least; NaN where one is not known."""
+    scene = context.scene
+    found = np.full(len(elements), np.nan)
     ends = scene.element_nodes[elements]
     known = (ends >= 0).all(axis=1)
-    heights = scene.coordinates[ends[known], 0]
-    depths[known] = 0.0 - (0.5 * heights[:, 0] + 0.5 * heights[:, 1])
-    return depths
+    if scene.seabed.kind is SeabedKind.FLAT:
+        below = 0.0 - scene.coordinates[ends[known], 0]
+    else:
+        below = context.once(depths)[ends[known]]
+    found[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
+    return found

@@ -35,6 +35,10 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Combination
 
 
+MOST_LOOKED_AT = 1000
+"""Decks whose names are looked at where none is to be written."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Group:
     """A combination with its variations: a deck for each combination of their cases."""
@@ -59,6 +63,16 @@ def plan(deck: Deck) -> ExpansionPlan:
     return _Planner(deck.require()).plan()
 
 
+def plan_faults(deck: Deck) -> list[Problem]:
+    """Why the decks that a deck describes cannot be planned; of very many decks only what their variations lack."""
+    planner = _Planner(deck)
+    try:
+        planner.plan(MOST_LOOKED_AT)
+    except DeckError:
+        return [problem for problem in planner.problems if problem.weight is Severity.ERROR]
+    return []
+
+
 class _Planner:
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
@@ -69,7 +83,7 @@ class _Planner:
         self.problems: list[Problem] = []
         self.effort = Effort()
 
-    def plan(self) -> ExpansionPlan:
+    def plan(self, most_named: int = MOST_DECKS) -> ExpansionPlan:
         reader = CaseReader(self.text, self.targets)
         variations = reader.read()
         self.problems += self.targets.parameters.problems + reader.problems
@@ -81,7 +95,7 @@ class _Planner:
         if not groups:
             self._report(f"no *COMBINATIONS: add it to $PREPROCESSOR to define the decks{self._excel()}", Where())
         self._raise_any()
-        decks = self._named(groups, total)
+        decks = self._named(groups, total) if total <= most_named else []
         self._raise_any()
         self._readable(decks)
         self._raise_any()

@@ -15,8 +15,8 @@ from typing import cast
 from mudline.basics.spelling import Effort, nearest
 from mudline.language.keywords import index
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.names_only import NAMES, ZERO_LENGTH
-from mudline.language.keywords.values import Entry, Facts, Names, OpaqueKeyword
+from mudline.language.keywords.names_only import GIVES, NAMES, ZERO_LENGTH
+from mudline.language.keywords.values import Entry, Facts, Gift, Names, OpaqueKeyword
 
 SECTIONS = (
     "PREPROCESSOR",
@@ -143,6 +143,22 @@ def has_certain_section(keyword: str) -> bool:
     """Whether it is certain where a keyword belongs; of postprocessing that is inferred."""
     certain = (sections_of(keyword) or ("",))[0] in CERTAIN_SECTIONS
     return certain or bool(_read(keyword)) or sections_of(keyword) == ()
+
+
+@lru_cache(_ASKED)
+def may_give(keyword: str, section: str, what: Gift) -> bool:
+    """Whether lines of a keyword that are not read may give a model something.
+
+    An unknown keyword may give anything, and so may one that stands in a section where it does not belong.
+    """
+    if found := block_class(section, keyword):
+        facts = found.facts
+        makes = what == "elements" and facts.defines in ("nodes", "elements", "sets")
+        return makes or what in facts.gives or (what != "elements" and facts.zero_length)
+    if kept := opaque_keyword(section, keyword):
+        return what in kept.gives
+    misplaced = bool(_read(keyword)) and section not in NAMES.get(keyword, ())
+    return misplaced or keyword not in NAMES or what in GIVES.get(keyword, ())
 
 
 @cache

@@ -40,7 +40,8 @@ class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
     `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
+    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. A `unique`
+    one tells the records of a list apart, so no two of them should have the same. Behind a
     setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
     they are kept in a record that can keep lines. None: what stands behind it has one form. What is `older`, a field or
     some words of a choice, only decks of an older program have, whose files end in .das.
@@ -58,6 +59,7 @@ class FieldInfo:
     defines: Names | None = None
     holds: Contents | None = None
     heading: str = ""
+    unique: bool = False
     opaque: tuple[str, ...] | None = None
     usual: Expected = ()
     older: bool | tuple[str, ...] = False

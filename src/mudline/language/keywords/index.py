@@ -166,14 +166,21 @@ ENTRIES: tuple[Entry, ...] = (
         "post-processing",
         names=("ELEMENT",),
     ),
-    Entry("PARA FORCE", "summary", "ParaForce", ("SUMMARY POSTPROCESSING",), "post-processing", names=("ELEMENT",)),
+    Entry(
+        "PARA FORCE",
+        "summary",
+        "ParaForce",
+        ("SUMMARY POSTPROCESSING",),
+        "post-processing",
+        names=("ELEMENT", "VARIABLE"),
+    ),
     Entry(
         "PARA FORCE ENVELOPE",
         "summary",
         "ParaForceEnvelope",
         ("SUMMARY POSTPROCESSING",),
         "post-processing",
-        names=("SET",),
+        names=("SET", "VARIABLE"),
     ),
     Entry(
         "PARA KINEMATIC",

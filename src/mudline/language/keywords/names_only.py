@@ -5,6 +5,8 @@ A keyword that a module of the library declares for some sections may be here fo
 
 from __future__ import annotations
 
+from mudline.language.keywords.values import Gift
+
 _POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 
 NAMES: dict[str, tuple[str, ...]] = {
@@ -80,6 +82,17 @@ NAMES: dict[str, tuple[str, ...]] = {
     ),
 }
 """The sections of each; none: known to exist, section not confirmed."""
+
+GIVES: dict[str, tuple[Gift, ...]] = {
+    **dict.fromkeys(("EQUIVALENT", "FLEX JOINTS", "PROPERTIES"), ("sections", "hydrodynamics")),
+    **dict.fromkeys(("DAMPER", "TENSIONER"), ("sections", "hydrodynamics", "supports")),
+    **dict.fromkeys(("FLOATING BODY", "POINT BUOY"), ("hydrodynamics", "supports")),
+    "MOONPOOL": ("hydrodynamics",),
+    "TAPER": ("sections",),
+    "TOP TENSION": ("supports",),
+    **dict.fromkeys(("GUIDE", "WINCH"), ("elements", "sections", "hydrodynamics", "supports")),
+}
+"""What each may give to nodes and elements, as its name says, since its lines are not known; others give nothing."""
 
 ZERO_LENGTH = ("FLEX JOINTS", "DAMPER")
 """Those whose elements may have no length."""

@@ -128,6 +128,10 @@ class Successor:
         return f"{self.key}= of *{self.keyword}" if self.key else f"*{self.keyword}"
 
 
+Gift = Literal["elements", "sections", "hydrodynamics", "supports"]
+"""What the lines of a keyword may give to a model: some of these, or nothing; the kinds of names are `Names`."""
+
+
 @dataclass(frozen=True, slots=True)
 class Facts:
     """Facts about a keyword.
@@ -141,8 +145,9 @@ class Facts:
     record as a whole. `carried` are the fields that a block has from the block before it, where it does not give them.
     `seabed_type` is the type of seabed that a legacy surface is. `gives_law` is the kind of law that elements get in
     place of what they had, and the field of a record that asks for it. `soil_springs` hold elements in the soil, and
-    what `moves_vessels` lets them follow the waves or a time history; of elements with `zero_length` the ends may lie
-    at one place. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
+    what `moves_vessels` lets them follow the waves or a time history; lines that are kept may be of what it `gives` to
+    elements and nodes; it may stand `once` in a section; of elements with `zero_length` the ends may lie at one place.
+    What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
     `instead_of` says what to write instead of a setting that other keywords have.
     """
 
@@ -159,6 +164,8 @@ class Facts:
     gives_law: tuple[Literal["", "soil", "nodal"], str] = ("", "")
     soil_springs: bool = False
     moves_vessels: bool = False
+    gives: tuple[Gift, ...] = ()
+    once: bool = False
     zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)
@@ -199,6 +206,7 @@ class Names(Enum):
     DRAG_LIFT = "a drag lift curve"
     PIP_STIFFNESS = "a stiffness of pipe-in-pipe connections"
     S_N_CURVE = "an S-N curve"
+    VARIABLE = "an output variable"
 
     __hash__ = object.__hash__  # that of `Enum` is a function of Python, and names are looked up by kind
 
@@ -254,9 +262,9 @@ class OpaqueKeyword:
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
     what we conclude. `name_settings` has the settings that give names; of a SET only the first value is a name.
     `labels` says that any text among its lines may be the label of a node; in `free_text`, words for people, nothing is
-    looked for. `makes` are the keywords of what it may
-    define: a thing of these kinds that is missing may come from here. `sections_inferred` says that its section is not
-    confirmed: in another one it is not reported.
+    looked for. `makes` are the keywords of what it may define: a thing of these kinds that is missing may come from
+    here. `gives` is what elements and nodes may have from it: rules that look for what is missing of that say nothing
+    in a deck with it. `sections_inferred` says that its section is not confirmed: in another one it is not reported.
     """
 
     keyword: str
@@ -270,6 +278,7 @@ class OpaqueKeyword:
     labels: bool = False
     free_text: bool = False
     makes: tuple[str, ...] = ()
+    gives: tuple[Gift, ...] = ()
     subject: Subject = "model"
     zero_length: bool = False
 

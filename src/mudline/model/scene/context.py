@@ -28,6 +28,7 @@ from mudline.model.scene.deck_values import (
     external_definers,
     is_read_definer,
     makes_labels,
+    nodes_on_cables,
     opaque_labels,
     opaque_set_names,
 )
@@ -139,10 +140,9 @@ class Context:
         """
         if isinstance(lacks, int) and self._is_excused(keyword, lacks):
             return
-        if keyword in _NUMBERED and (definer := self._definer(keyword)):
-            use = self._out_of_sight.setdefault(
-                (definer, keyword), _Uses(code, lacks if isinstance(lacks, int) else None, where)
-            )
+        number = lacks if isinstance(lacks, int) else None
+        if keyword in _NUMBERED and (definer := self._definer(keyword, number)):
+            use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
             use.count += 1
             use.blocks = blocks or use.blocks
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
@@ -195,10 +195,21 @@ class Context:
         places = (Where(i, j) for i, one in models for j, block in enumerate(one.blocks) if block.keyword == keyword)
         return next(places, None)
 
-    def _definer(self, keyword: str) -> str:
-        """The keyword whose lines are not read and may define things with numbers of a kind, or ""."""
+    def _definer(self, keyword: str, number: int | None) -> str:
+        """The keyword whose lines are not read and may define a thing with a number, None for any, or ""."""
         unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
-        return next((definer for definer in unread if definition_by(definer, keyword)), "")
+        return next((definer for definer in unread if self._definition_by(definer, keyword, number)), "")
+
+    def _definition_by(self, definer: str, keyword: str, number: int | None) -> str:
+        """How a definer may define a thing, in words; "" when it cannot, or has other numbers."""
+        words = definition_by(definer, keyword)
+        known = words and number is not None and catalogue.facts_of(definer).out_of_sight
+        placed = self._on_cables if known else None
+        return "" if placed is not None and not any(number in numbers for numbers in placed) else words
+
+    @cached_property
+    def _on_cables(self) -> list[range] | None:
+        return nodes_on_cables(self.deck)
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, lacks: int | str | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
@@ -213,7 +224,8 @@ class Context:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
         if keyword == "ELEMENT SETS" and (lost := catalogue.in_order(filter(is_read_definer, self.unread))):
             return f"a line of *{lost[0]} that could not be used may define it"
-        if words := next(filter(None, (definition_by(definer, keyword) for definer in self.external_definers)), ""):
+        definitions = (self._definition_by(definer, keyword, number) for definer in self.external_definers)
+        if words := next(filter(None, definitions), ""):
             return words
         if self.restart:
             return "the deck that *RESTART continues may define it"

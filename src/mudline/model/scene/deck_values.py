@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
@@ -19,6 +20,9 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
 
 FOOT = 0.3048
 POUND = 4.4482216152605
@@ -113,6 +117,27 @@ def is_read_definer(keyword: str) -> bool:
     """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
     facts = catalogue.facts_of(keyword)
     return bool(facts.makes) and not facts.out_of_sight
+
+
+def nodes_on_cables(deck: Deck) -> list[range] | None:
+    """The numbers of the nodes that lie on cables, in ranges; None where some of them are not known."""
+    found: list[range] = []
+    for where, block in deck.blocks("NODE,CURVILINEAR"):
+        for entry in cast("CurvilinearNodes", block).entries:
+            if hasattr(entry, "nodes"):
+                numbers = entry.nodes.column(0).tolist()
+                found += [range(int(number), int(number) + 1) for number in numbers if math.isfinite(number)]
+                readable = all(map(math.isfinite, numbers))
+            else:
+                given = entry.generate
+                start, end, step = given.start, given.end, given.increment or 1
+                readable = False
+                if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step > 0:
+                    readable = True
+                    found.append(range(start + step, end, step))
+            if not readable or deck.lost(where):
+                return None
+    return found
 
 
 def definition_by(definer: str, keyword: str) -> str:

@@ -126,7 +126,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     check_chains(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
-    check_unread_lines(context, sets)
+    check_unread_lines(context, sets, nodes if external is None else None)
     if external is None:  # a file of elements does not define every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)

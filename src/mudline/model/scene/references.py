@@ -150,7 +150,7 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
         return
     numbers: list[int] = []
     places: list[Where] = []
-    shown_nodes = _shows_nodes(context, nodes)
+    shown_nodes = shows_nodes(context, nodes)
     for node, where in named:
         if isinstance(node, Label):
             check_label(context, REF006, node, where)
@@ -165,7 +165,7 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
         context.report_missing(REF006, message, places[index], "NODE", numbers[index])
 
 
-def _shows_nodes(context: Context, nodes: Numbered) -> bool:
+def shows_nodes(context: Context, nodes: Numbered) -> bool:
     """Whether the deck shows nodes at all: one without any has its model somewhere else."""
     return len(nodes) > 0 or "NODE" in context.deck.keywords()
 
@@ -215,7 +215,7 @@ def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Wh
         return
     found = len(nodes.between(start, end, step)) if len(nodes) else 0
     wanted = (end - start) // step + 1
-    if found < wanted and _shows_nodes(context, nodes) and not context.possible_definition("NODE"):
+    if found < wanted and shows_nodes(context, nodes) and not context.possible_definition("NODE"):
         message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
         context.report(REF006, message, where, Severity.WARNING if found else None)
 

@@ -7,14 +7,19 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from functools import cached_property
 
+import numpy as np
+
 from mudline.language.codes.fields import SYN002, SYN006
+from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF006, REF015
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import NoValueError, Parameters, bare, folded
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.keeping import is_read, kept_lines, kept_places
+from mudline.language.keywords.model import record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
 from mudline.language.syntax.fields import Field, Group, read_line
@@ -22,7 +27,8 @@ from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
 from mudline.model.scene.names import CURVES, names_of
-from mudline.model.scene.references import check_label, sets_of_postprocessing
+from mudline.model.scene.numbering import Numbered
+from mudline.model.scene.references import KEYWORD, check_label, sets_of_postprocessing, shows_nodes
 from mudline.model.scene.sets import Sets
 
 _EQUATION = re.compile(r"=\[[^\[\]\r\n]*\]")
@@ -41,16 +47,28 @@ _THINGS = ("GEN", *(kind.name for kind in (Names.SET, Names.ELEMENT, Names.NODE,
 Line = tuple[Where, str]
 
 
-def check_unread_lines(context: Context, sets: Sets) -> None:
-    """Look at every line of a deck itself that is not read, but for titles and other text for people."""
+def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> None:
+    """Look at every line of a deck itself that is not read, but for titles and other text for people.
+
+    `nodes` are those of the deck, None where others are.
+    """
     looking: _Looking | None = None
     for where, keyword, line in unread_lines(context.written):
-        if len(line) > _LONGEST or not _WORTH.search(line):
+        holds = keyword == KEYWORD and is_of_vessels(context.written, where)
+        if len(line) > _LONGEST or not (holds or _WORTH.search(line)):
             continue
         kept = catalogue.opaque_keyword(context.written.sections[where.section].name, keyword)
         if not (kept and kept.free_text):
             looking = looking or _Looking(context, sets)
             looking.look(where, keyword, line)
+            if holds:
+                looking.condition(where, keyword, line, nodes)
+
+
+def is_of_vessels(deck: Deck, where: Where) -> bool:
+    """Whether the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
+    block = deck.sections[where.section].blocks[where.block]
+    return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 
 def unread_lines(deck: Deck) -> Iterator[tuple[Where, str, str]]:
@@ -104,6 +122,7 @@ class _Looking:
             self._equation(match[0], where.inside(*match.span()))
         known = catalogue.sections_of(keyword) is not None
         _, groups, problems = read_line(line, Span(0, len(line)))
+        self._keyless(where, keyword, groups)
         for problem in problems:
             self._unclosed(problem, where, line)
         for group in groups:
@@ -117,6 +136,40 @@ class _Looking:
                     check(where.inside(*value.span), keyword, value.text)
                 elif group.key == "CURVE" and _uses_curve(groups):
                     self._curve(where.inside(*value.span), keyword, value.text)
+
+    def condition(self, where: Where, keyword: str, line: str, nodes: Numbered | None) -> None:
+        """The node that follows a vessel, first on its line, and the vessel where it stands there.
+
+        The form of the line is not public: a node, a vessel and degrees of freedom are what decks show.
+        """
+        first, *others = read_line(line, Span(0, len(line))).groups[0].fields
+        node = read_number(first.text)
+        if node is None or not node.is_integer():
+            return
+        shown_nodes = nodes is not None and shows_nodes(self.context, nodes)
+        lacks = nodes is not None and shown_nodes and (nodes.indices(np.array([node])) < 0).any()
+        if lacks and not self.context.possible_definition("NODE", int(node)):
+            message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number{_UNREAD}"
+            self._note(Problem(REF006, message, None, Severity.WARNING, where.inside(*first.span), lacks=f"{node:.0f}"))
+        for given in others:
+            if given.text and read_number(given.text) is None and not given.text.startswith(("=[", "{")):
+                self._vessel(where.inside(*given.span), keyword, given.text)
+
+    def _keyless(self, where: Where, keyword: str, groups: list[Group]) -> None:
+        """A line of a keyword that is read, which lacks the key before its first value."""
+        section = self.context.written.sections[where.section].name
+        block = catalogue.block_class(section, keyword)
+        first = groups[0].fields[0]
+        alone = len(groups) > 1 and not groups[0].key and len(groups[0].fields) == 1 and first.text[:1].isalpha()
+        if block is None or not alone:
+            return
+        records = [record for slot in record_schema(block).slots for record in slot.record.values()]
+        for keys in (record_schema(record).keys for record in records):
+            slot = keys.get(groups[1].key)
+            if slot is not None and isinstance(slot.about, Setting) and slot.about.inline:
+                message = f"no line of *{keyword} begins so: write {next(iter(keys))}={first.text}{_UNREAD}"
+                self._note(Problem(SYN001, message, None, Severity.WARNING, where.inside(*first.span)))
+                return
 
     def _note(self, problem: Problem) -> None:
         self.context.note(replace(problem, blocks=Blocks.NEVER))

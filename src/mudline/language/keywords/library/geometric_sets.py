@@ -155,7 +155,7 @@ class GeometricSet(Record):
         Literal["FLEXIBLE", "RIGID", "MOORING", "TRUSS"] | None,
         setting("OPTION", "format of the property line; holds until it is changed", default="FLEXIBLE"),
     ] = None
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET, unique=True)] = Field(alias="set")
     buoyancy: Annotated[Literal["DISTRIBUTED"] | None, setting("BUOYANCY", "distributed buoyancy", inline=True)] = None
     eiyy_curve: Annotated[
         Name | None, setting("EIYY", _CURVE.format("EIyy"), inline=True, names=Names.MOMENT_CURVATURE)
@@ -212,7 +212,7 @@ class GeometricSets(Block):
     """Section properties by set."""
 
     rule = "geometric_sets"
-    facts = Facts(later_wins=True)
+    facts = Facts(gives=("sections",), later_wins=True)
     page = "kwd_model_geometricsets"
     summary = "Stiffness, mass and diameters of element sets, in one of four formats."
     example = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"

@@ -63,7 +63,7 @@ class HydrodynamicSet(OpenRecord):
     """The coefficients of a set."""
 
     rule = "hydrodynamic_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET, unique=True)] = Field(alias="set")
     type_: Annotated[
         Literal["CONSTANT"] | Other | None,
         setting(
@@ -78,7 +78,7 @@ class HydrodynamicSets(OpenBlock):
 
     rule = "hydrodynamic_sets"
     page = "kwd_model_hydrodynamicsets"
-    facts = Facts(later_wins=True)
+    facts = Facts(gives=("hydrodynamics",), later_wins=True)
     open_lines = False
     summary = "Drag, inertia and added mass coefficients by element set."
     example = "*HYDRODYNAMIC SETS\n DIAMETER=DRAG\n SET=ALL, TYPE=CONSTANT\n 1.0, 0.0, 2.0, 1.0, 0.0\n"

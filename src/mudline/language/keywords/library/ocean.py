@@ -14,7 +14,7 @@ class Ocean(Block):
     """The sea."""
 
     rule = "ocean"
-    facts = Facts(tells_units=True)
+    facts = Facts(once=True, tells_units=True)
     page = "kwd_model_ocean"
     summary = "Water depth, density of sea water, gravity."
     example = "*OCEAN\n 500.0, 1025.0, 9.81\n"

@@ -45,6 +45,7 @@ class DepthCurve(OpenRecord):
             "DEPTH",
             "depth below the mudline, negative above it",
             unit="L",
+            unique=True,
             usual=Usual(-500.0, 500.0, "piles are no longer", remark=True),
         ),
     ]
@@ -58,7 +59,8 @@ class NodeCurve(OpenRecord):
 
     rule = "node_curve"
     node: Annotated[
-        Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE)
+        Ident,
+        setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE, unique=True),
     ]
     points: Annotated[
         Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement", usual=SOIL_CURVES)

@@ -36,7 +36,7 @@ LocalNode = Annotated[
 class ForceVariable(Row):
     """What is asked for."""
 
-    variable: Annotated[Name, about("output variable, in the words of the manual")]
+    variable: Annotated[Name, about("output variable, in the words of the manual", names=Names.VARIABLE)]
     location: Annotated[Name | None, about(LOCATION)] = None
 
 

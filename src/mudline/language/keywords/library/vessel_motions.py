@@ -24,7 +24,9 @@ from mudline.language.keywords.usual import (
 )
 from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
 
-Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
+_VESSEL = "vessel of *VESSEL or *VESSEL,INTEGRATED"
+Vessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL)]
+OneVessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL, unique=True)]
 
 
 class Motion(Row):
@@ -46,7 +48,7 @@ class VesselOffset(Record):
     """The offset of a vessel."""
 
     rule = "vessel_offset"
-    vessel: Vessel
+    vessel: OneVessel
     option: Annotated[Name | None, setting("OPTION", "what the offset is given as", inferred=OLDER, older=True)] = None
     offset: Annotated[Motion, setting("OFFSET", "displacements from the initial position")]
 
@@ -208,7 +210,13 @@ class FrequencyRao(Record):
 
     rule = "frequency_rao"
     frequency: Annotated[
-        Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
+        Real,
+        about(
+            "wave frequency",
+            at_least=0,
+            unique=True,
+            usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True),
+        ),
     ]
     amplitudes: Annotated[Six, about("amplitudes for a unit wave", usual=LONG_WAVE)]
     phases: Annotated[SixPhases, about("phases, positive for a lag")]
@@ -223,7 +231,7 @@ class HeadingRao(Record):
     """The operators of a heading."""
 
     rule = "heading_rao"
-    heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180)]
+    heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180, unique=True)]
     frequencies: list[FrequencyRao] = []
 
 
@@ -252,7 +260,7 @@ class VesselRao(Record):
     """The operators of a vessel: a file, or lines."""
 
     rule = "vessel_rao"
-    vessel: Vessel
+    vessel: OneVessel
     format: Annotated[Name | None, setting("FORMAT", "MCS, AQWA, WAMIT, MOSES, ORCAFLEX, or one of *RAO FORMAT")] = None
     layout: Annotated[
         Literal["MCS", "LINE"] | None,

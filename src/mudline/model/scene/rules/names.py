@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
-from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity
+from mudline.language.keywords.keeping import is_read
 from mudline.language.rules import rule
 from mudline.model.scene.names import THINGS, undefined
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
     from mudline.model.scene.resolved import ResolvedDeck
 
 REF019 = Code("REF019", "undefined-name", Severity.ERROR)
@@ -36,4 +39,25 @@ def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 7:9
     """
-    return undefined(scene.context, THINGS, REF019)
+    yield from undefined(scene.context, THINGS, REF019)
+    yield from _cables(scene)
+
+
+def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The cables, which have numbers, that nodes lie on."""
+    blocks = scene.context.blocks("CABLE")
+    cables = {cable.cable for _, block in blocks for cable in block.cables}
+    doubt = any(not is_read(block) or scene.deck.lost(where) for where, block in blocks) or scene.context.restart
+    for where, block in scene.context.blocks("NODE,CURVILINEAR"):
+        for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
+            place = where.inside("entries", index)
+            if hasattr(entry, "nodes"):
+                rows = enumerate(entry.nodes.column(1).tolist())
+                used = [(cable, place.inside("nodes", row, 1)) for row, cable in rows]
+            else:
+                used = [(entry.cable, place.inside("cable"))]
+            for cable, at in used:
+                if isinstance(cable, int | float) and math.isfinite(cable) and cable not in cables:
+                    message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
+                    severity = Severity.WARNING if doubt else None
+                    yield Problem(REF019, message, None, severity, at, blocks=Blocks.NEVER, lacks=f"{cable:g}")
