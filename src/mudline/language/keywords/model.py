@@ -276,9 +276,8 @@ class Block(Record):
 
     `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
     format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
-    that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
-    the declaration does not know is passed through unchanged; with `known_forms` only one whose key or place it does
-    not know: in others a fault is a fault.
+    that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` lines of unknown forms
+    are passed through unchanged; with `known_forms` only those whose key or place is not known.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
@@ -402,10 +401,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
     return found
 
 
-@cache
-def is_part(kind: type[BaseModel]) -> bool:
-    """Return True for a class of parts: to ask a model itself takes several times as long."""
-    return issubclass(kind, Part)
+_is_part = cache(lambda kind: issubclass(kind, Part))  # to ask a model itself takes several times as long
 
 
 def _walk(part: Part, prefix: Path, wanted: Wanted | None, found: list[Value]) -> None:
@@ -417,7 +413,7 @@ def _walk(part: Part, prefix: Path, wanted: Wanted | None, found: list[Value]) -
             if own:
                 found.append(Value(path, slot, item))
             kind: type[BaseModel] = type(item)
-            if is_part(kind):
+            if _is_part(kind):
                 _walk(item, path, wanted, found)
 
 

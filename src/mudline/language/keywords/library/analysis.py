@@ -11,7 +11,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, STEP, Usual
-from mudline.language.keywords.values import Facts, Name, Names, Other, Real, Whole
+from mudline.language.keywords.values import Name, Names, Other, Real, Whole
 
 _PAGE = (
     "no page of the manual was found: the types are those of known decks, other words and lines are passed through "
@@ -350,7 +350,6 @@ class Database(Block):
     """When results are stored."""
 
     rule = "database"
-    facts = Facts(once=True)
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_database"
