@@ -18,12 +18,10 @@ SECTIONS = "$MODEL\n*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n" + STEEL + " SET=
     ("text", "place"),
     [
         ("$MODEL\n*OCEAN\n 500.0\n*OCEAN\n 400.0\n", (4, 1)),
-        ("$LOAD CASE\n*DATABASE\n TIME=ALL\n*DATABASE\n TIME=END\n", (4, 1)),
         (VESSELS + "*OFFSET\n VESSEL=A\n OFFSET=0, 1\n*OFFSET\n VESSEL=a\n OFFSET=0, 2\n", (12, 9)),
         (VESSELS + "*RAO\n VESSEL=A\n FILE=a\n VESSEL=A\n FILE=b\n", (11, 9)),
         (VESSELS + f"*RAO\n VESSEL=A\n HEADING=0\n 0.1\n{ROWS} HEADING=0.0\n 0.1\n{ROWS}", (14, 10)),
         (VESSELS + f"*RAO\n VESSEL=A\n HEADING=0\n 0.1\n{ROWS} 0.1\n{ROWS}", (14, 2)),
-        (SPRINGS.format("0"), (7, 8)),
         (COEFFICIENTS.format('"all"'), (6, 6)),
         (SECTIONS.format("All"), (6, 6)),
     ],
@@ -55,6 +53,5 @@ def test_which_one_holds_is_said() -> None:
         "'ALL' is already given in *GEOMETRIC SETS, and the later one holds"
         in messages(SECTIONS.format("ALL"), "REF022")[0]
     )
-    assert (
-        "DEPTH=0 is already given in *P-Y, and which of them holds is not" in messages(SPRINGS.format("0"), "REF022")[0]
-    )
+    twice = VESSELS + f"*RAO\n VESSEL=A\n HEADING=0\n 0.1\n{ROWS} HEADING=0.0\n 0.1\n{ROWS}"
+    assert "is already given in *RAO, and which of them holds is not" in messages(twice, "REF022")[0]

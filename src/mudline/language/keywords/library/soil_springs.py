@@ -45,7 +45,6 @@ class DepthCurve(OpenRecord):
             "DEPTH",
             "depth below the mudline, negative above it",
             unit="L",
-            unique=True,
             usual=Usual(-500.0, 500.0, "piles are no longer", remark=True),
         ),
     ]
