@@ -47,19 +47,19 @@ def unusual_values(context: LintContext) -> list[Problem]:
     """
     deck = Numbers(context, units_of(context))
     with np.errstate(all="ignore"):  # numbers may be as large as they like
-        told = _of_deck(deck)
-        heavy = any(problem.code in (UNT001, UNT004, UNT006) for _, problem in told)
-        if heavy and any(usual.of in WEIGHED for usual, _ in told):
-            told = _of_deck(replace(deck, weighs=False))
-    found = [problem for _, problem in told]
+        judged = _of_deck(deck)
+        heavy = any(problem.code in (UNT001, UNT004, UNT006) for _, problem in judged)
+        if heavy and any(usual.of in WEIGHED for usual, _ in judged):
+            judged = _of_deck(replace(deck, weighs=False))
+    found = [problem for _, problem in judged]
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and found else set()
     return [one for one in found if not commas or not text or text.place(one).line not in commas]
 
 
-def _of_deck(deck: Numbers) -> list[Told]:
+def _of_deck(deck: Numbers) -> list[Judged]:
     placed = deck.context.scene.context.placed.values()
-    return [told for blocks in placed for where, block in blocks for told in _inside(deck, block, None, where)]
+    return [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, None, where)]
 
 
 def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
@@ -70,7 +70,7 @@ def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
 # ------------------------------------------------------------------------------------------------------- what is judged
 
 
-class Told(NamedTuple):
+class Judged(NamedTuple):
     """A finding, and the range that its value is outside of."""
 
     usual: Usual
@@ -87,18 +87,18 @@ def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, .
     return own, tuple(slot for slot in slots if slot.parts)
 
 
-def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Told]:
+def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Judged]:
     """What is unusual in a part and in those inside it: of a part one finding of each code, with others under it."""
     own, outer = _judged(type(part))
     if not (own or outer):
         return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    by_code: dict[Code, list[Told]] = {}
+    by_code: dict[Code, list[Judged]] = {}
     for slot in own:
         value = getattr(part, slot.name, None)
         if isinstance(value, float | int | Part):
             given = math.nan if isinstance(value, Part) else float(value)
-            for one in _told(of, slot, given, where.inside(slot.json)):
+            for one in _compared(of, slot, given, where.inside(slot.json)):
                 by_code.setdefault(one.problem.code, []).append(one)
     commas = [one for found in by_code.values() for one in found if _COMMA in one.problem.message]
     rows = (
@@ -110,7 +110,7 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
         more = f"; and {counted(len(others), 'more field')} of it" if others else ""
         problem = first.problem
         following = tuple(one.problem for one in others)
-        yield Told(first.usual, replace(problem, message=problem.message + more, following=following))
+        yield Judged(first.usual, replace(problem, message=problem.message + more, following=following))
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
@@ -122,7 +122,7 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
                 yield from _inside(deck, one, part, where.inside(slot.json, index))
 
 
-def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Told]:
+def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
     """What is unusual in a table: of a column the first row; where that is nothing, in the whole of it."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     names = [column.name for column in columns]
@@ -137,22 +137,22 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Told]:
         for at, value in enumerate(values.tolist()):
             cells = SimpleNamespace(**dict(zip(names, table.values[at].tolist(), strict=False)))
             row = replace(of, part=cells, holder=of.part, columns=columns)
-            if found := _told(row, column, value, of.where.inside(slot.json, at, index)):
+            if found := _compared(row, column, value, of.where.inside(slot.json, at, index)):
                 yield from found
                 return
-    yield from _told(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan, of.where)
+    yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan, of.where)
 
 
 # ----------------------------------------------------------------------------------------------------------- judgement
 
 
-def _told(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[Told]:
+def _compared(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[Judged]:
     """The finding about a value (as the deck has it), for the first of its ranges that it is outside of; or none."""
     for usual in slot.about.usuals if not slot.about.fault(value) else ():
         if _is_unusual(of, slot, usual, value):
             code = UNT008 if usual.remark else CODES[usual.code]
             message = f"{_seen(of, slot, usual, value)}: {_advice(of, slot, usual, value, where)}"
-            return [Told(usual, Problem(code, message, where=where))]
+            return [Judged(usual, Problem(code, message, where=where))]
     return []
 
 
