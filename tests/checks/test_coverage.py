@@ -59,7 +59,7 @@ def test_a_node_at_a_place_and_on_a_vessel(line: str, count: int) -> None:
     assert found(LINE + HELD + f" TYPE=VESSEL\n {line}\n", "BND002") == [("BND002", 15, 2)] * count
 
 
-@pytest.mark.parametrize("keyword", ["TITLE", "TOLERANCE", "DAMPING", "COATINGS", "TEMPERATURE"])
+@pytest.mark.parametrize("keyword", ["TITLE", "DAMPING", "COATINGS", "TEMPERATURE"])
 def test_a_keyword_that_gives_nothing_hides_nothing(keyword: str) -> None:
     deck = sections("1, 2", "4, 5") + f"*HYDRODYNAMIC SETS\n SET=A\n 1.0\n*{keyword}\n 5\n" + HELD + CURRENT
     assert [code for code, _, _ in found(deck, "GEO007", "GEO008")] == ["GEO007", "GEO008"]

@@ -27,13 +27,11 @@ def given_twice(context: LintContext) -> Iterator[Problem]:
     Remove one of them, or correct its name. Sets, curves, nodes, elements and seabed laws have rules of their own.
 
     Example:
-         $LOAD CASE
-         *DATABASE
-          TIME=ALL
-        -*DATABASE
-        - TIME=END
-        +*ANALYSIS TYPE
-        + TYPE=STATIC
+         $MODEL
+         *OCEAN
+          500.0, 1025.0, 9.81
+        -*OCEAN
+        - 450.0, 1025.0, 9.81
 
     Finds: 4:1
     """

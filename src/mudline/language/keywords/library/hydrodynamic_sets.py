@@ -88,11 +88,12 @@ class HydrodynamicSets(OpenBlock):
         Literal["DRAG", "BUOYANCY"] | None, setting("DIAMETER", "diameter of inertia forces", default="DRAG")
     ] = None
     option: Annotated[
-        Name | None,
+        Literal["REYNOLDS"] | Other | None,
         setting(
             "OPTION",
             "that forces follow the Reynolds number of the moment",
             inferred="its key, from the public reader of .das decks: the manual has an optional line for it",
+            opaque=(),
         ),
     ] = None
     sets: list[HydrodynamicSet] = []
