@@ -75,15 +75,15 @@ def test_several_settings_on_a_line() -> None:
     same(
         """\
         *geometric sets
-        option=flexible
+        option=rigid
         set=ALL,buoyancy = distributed ,, Plastic  Hardening=steel
-        ,,,1E6,100.,0.,.2,.3,.3,,
+        2E11,8E10,.3,.28,7850.,,
         """,
         """\
         *GEOMETRIC SETS
-         OPTION=FLEXIBLE
+         OPTION=RIGID
          SET=ALL, BUOYANCY=DISTRIBUTED, PLASTIC HARDENING=steel
-         , , , 1E6, 100., 0., .2, .3, .3
+         2E11, 8E10, .3, .28, 7850.
         """,
     )
 
