@@ -164,7 +164,7 @@ def test_mark_counts_what_is_escaped(place: Place) -> None:
 
 
 def test_mark_at_the_end_of_a_line(place: Place) -> None:
-    outcome = run("lint", place(CLEAN + "*DRAG LIFT\n CURVE=Lift\n 0.0, =[1"))
+    outcome = run("lint", place(CLEAN.replace("*OCEAN\n 100.0, 1025.0, 9.81\n", "") + "*OCEAN\n 1, 2, =[1"))
     source, under = marked(outcome)
     assert source.endswith("=[1")
     assert under.rstrip().endswith("^")
