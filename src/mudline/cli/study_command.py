@@ -72,7 +72,7 @@ def command(
     given = GivenDeck(deck, stdin_name, units).load()
     with naming_causes(given):
         scene = resolve(given).require()
-    found = study(scene, only or PARTS, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
+        found = study(scene, only or PARTS, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
     if plot.path is not None:
         _plot(found, plot, view)
     if output:

@@ -92,6 +92,16 @@ def test_a_deck_without_elements_is_refused_as_evaluate_does() -> None:
     assert outcome.err == run("evaluate", SAMPLES / "lines-deck.keyxm").err
 
 
+def test_a_refused_deck_names_the_cause_as_evaluate_does(deck: Path) -> None:
+    text = deck.read_text(encoding="utf-8")
+    assert "*SEABED STIFFNESS" in text
+    deck.write_text(text.replace("*SEABED STIFFNESS", "*SEABED STIFNESS"), encoding="utf-8")
+    outcome = run("study", deck)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "SYN009 keyword *SEABED STIFNESS is not known" in outcome.err
+    assert outcome.err == run("evaluate", deck).err
+
+
 def test_the_function_has_arrays_and_a_plot(deck: Path) -> None:
     plt = pytest.importorskip("matplotlib.pyplot")
     found = mudline.study(mudline.read(deck), only=["accuracy"])

@@ -26,7 +26,7 @@ def parser(name: str, start: str = "start", makes: Makes | None = None) -> Lark:
 
     To compile a grammar takes ten times as long as to load its tables.
     """
-    saved = _tables(name).get(start)
+    saved = _tables(name, makes).get(start)
     return Lark.load(BytesIO(saved)) if saved else _compiled(name, start, makes)
 
 
@@ -38,7 +38,7 @@ def save_tables(name: str, makes: Makes | None = None) -> Path:
         _compiled(name, start, makes).save(saved)
         tables[start] = saved.getvalue()
     path = grammar_file(f"{name}.lark").with_suffix(".tables")
-    write_atomically(path, pickle.dumps((lark.__version__, _text(name), tables)))
+    write_atomically(path, pickle.dumps((*_stamp(name, makes), tables)))
     return path
 
 
@@ -65,14 +65,19 @@ def _text(name: str) -> str:
     return grammar_file(f"{name}.lark").read_text(encoding="utf-8")
 
 
+def _stamp(name: str, makes: Makes | None) -> tuple[str, str, str]:
+    """What tables hold on to: lark's version, the class that they name, and the grammar."""
+    return lark.__version__, f"{makes.__module__}.{makes.__qualname__}" if makes else "", _text(name)
+
+
 @cache
-def _tables(name: str) -> dict[str, bytes]:
-    """Return the tables that were made when the package was built; none of another lark or grammar."""
+def _tables(name: str, makes: Makes | None) -> dict[str, bytes]:
+    """Return the tables that were made when the package was built; none of another lark, class or grammar."""
     path = grammar_file(f"{name}.tables")
     if not path.exists():
         return {}
-    version, text, tables = pickle.loads(path.read_bytes())  # noqa: S301 - a file of the package
-    return tables if (version, text) == (lark.__version__, _text(name)) else {}
+    *stamp, tables = pickle.loads(path.read_bytes())  # noqa: S301 - a file of the package
+    return tables if tuple(stamp) == _stamp(name, makes) else {}
 
 
 def _below(grammar: Grammar, start: str) -> Grammar:
