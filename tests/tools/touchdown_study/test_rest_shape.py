@@ -9,6 +9,8 @@ import pytest
 
 import mudline
 from mudline.model.contact.touchdown import line_summaries
+from mudline.model.results.evaluation import evaluate_scene
+from mudline.model.results.plot_data import PlotData
 from mudline.model.scene.model import Scene
 from mudline.tools.touchdown_study.rest_shape import RestShape, rest_shape
 from tests.helpers.samples import SAMPLES
@@ -152,3 +154,18 @@ def test_moordyn_with_bending_touches_down_at_the_same_place(tmp_path: Path) -> 
     result = model.scene.contact().evaluate(rest_shape(model.scene).positions.whole[0])
     ours = line_summaries(result)[0].touchdown[0].y * model.units.length
     assert ours == pytest.approx(theirs, abs=1.0)
+
+
+def test_the_picture_of_the_model_has_the_shape_that_is_evaluated() -> None:
+    plots = pytest.importorskip("mudline.model.results.plots", reason="matplotlib is not installed")
+    scene, shape = shape_of(Riser())
+    evaluation = evaluate_scene(scene, shape.positions)
+    (part,) = evaluation.parts()
+    data = PlotData.of_evaluation(evaluation)
+    data.take(part)
+    line = plots.model_figure(scene, data).axes[0].lines[0].get_xydata()
+    drawn = np.unique(line[np.isfinite(line).all(axis=1)], axis=0)
+    given = np.asarray(part.result.step(0).positions)
+    assert len(drawn) == len(given)
+    assert np.allclose(np.sort(drawn[:, 1]), np.sort(given[:, 0]), rtol=0.0, atol=1e-9)
+    assert not np.allclose(np.sort(drawn[:, 1]), np.sort(scene.coordinates[:, 0]), rtol=0.0, atol=0.1)

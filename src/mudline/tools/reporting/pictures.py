@@ -54,7 +54,8 @@ def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]
     if scene is None:
         return
     if found.get("model") and can_draw(scene):
-        words = "Elevation and plan of the line in the deck's own coordinates, by set, over the seabed"
+        shape = "at its resting shape" if report.at_rest and drawn is not None else "in the deck's own coordinates"
+        words = f"Elevation and plan of the line {shape}, by set, over the seabed"
         yield "model", words, partial(model_figure, scene, drawn)
     if found.get("contact") and drawn is not None:
         words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"

@@ -1,4 +1,4 @@
-"""The line of a deck in its own coordinates: elevation over the seabed and plan, by set. Needs matplotlib."""
+"""The line of a deck where it is evaluated: elevation over the seabed and plan, by set. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -37,16 +37,22 @@ def can_draw(scene: Scene) -> bool:
 
 @drawing()
 def model_figure(scene: Scene, data: PlotData | None) -> Figure:
-    """Return elevation and plan; `data` has the seabed and the touchdown points, if they are known."""
+    """Return elevation and plan; `data` has positions, seabed and touchdown points, if they are known.
+
+    Nodes without a position are at the deck's own coordinates.
+    """
     figure = new_figure(5.6)
     upper, lower = figure.subplots(2, 1, height_ratios=(3, 2))
-    span = np.ptp(scene.coordinates[_nodes(scene)], axis=0)
+    places = scene.coordinates
+    if data is not None and data.drawn.result.positions is not None:
+        places = np.where(np.isnan(data.drawn.result.positions), places, data.drawn.result.positions)
+    span = np.ptp(places[_nodes(scene)], axis=0)
     along, across = (1, 2) if span[1] >= span[2] else (2, 1)
     groups = _by_set(scene)
     for axes, up, title in ((upper, 0, "Elevation"), (lower, across, "Plan")):
         for number, (name, elements) in enumerate(groups):
             kept = elements[:: max(1, -(-len(elements) // MOST_POINTS))]
-            ends = scene.coordinates[scene.element_nodes[kept]]
+            ends = places[scene.element_nodes[kept]]
             x, y = (gapped(*ends[:, :, axis].T) for axis in (along, up))
             color, width = style_of(number).color, _WIDTHS[number % len(_WIDTHS)]
             axes.plot(x, y, color=color, linewidth=width, label=legend_name(name), solid_capstyle="butt", zorder=3)
@@ -58,9 +64,7 @@ def model_figure(scene: Scene, data: PlotData | None) -> Figure:
         axes.set_ylabel(labelled(_AXES[up], unit))
         finish(axes)
     if not span[across]:
-        lower.set_ylim(
-            *(scene.coordinates[_nodes(scene)[0], across] + np.array([-0.5, 0.5]) * max(span[along] / 20, 1))
-        )
+        lower.set_ylim(*(places[_nodes(scene)[0], across] + np.array([-0.5, 0.5]) * max(span[along] / 20, 1)))
     legend(upper)
     return figure
 

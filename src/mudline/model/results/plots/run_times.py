@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from mudline.model.results.plots.style import drawing, printable, style_of
 
@@ -17,31 +18,35 @@ if TYPE_CHECKING:
 
 _LEAST = 1e-5
 """Smaller errors are drawn as this one."""
-_GOALS = (0.01, 0.02, 0.05)
-_MILLI = 1e3
+_GOALS = (1.0, 2.0, 5.0)
+"""In percent."""
+_PERCENT, _MILLI = 1e2, 1e3
 _STAR: dict[str, Any] = {"markersize": 15, "markeredgecolor": "black", "zorder": 5}
+"""How the deck's own step is marked."""
 
 
 def draw_run_times(axes: Axes, run_times: Floats, errors: Floats, marked: Mask, names: Sequence[str]) -> None:
     """Draw errors (k, n) of the quantities `names` over run times (k,), in seconds for a second of motion."""
     times = _MILLI * run_times
     for at, name in enumerate(names):
-        look, values = style_of(at), np.maximum(errors[:, at], _LEAST)
+        look, values = style_of(at), _PERCENT * np.maximum(errors[:, at], _LEAST)
         axes.plot(times, values, label=name, color=look.color, marker=look.marker, linewidth=1.5)
-        axes.plot(
-            times[marked], values[marked], "*", color=look.color, markersize=15, markeredgecolor="black", zorder=5
-        )
-    axes.plot([], [], "*", color="0.6", markersize=15, markeredgecolor="black", label="the deck's own step")
+        axes.plot(times[marked], values[marked], "*", color=look.color, **_STAR)
+    axes.plot([], [], "*", color="0.6", label="the deck's own step", **_STAR)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("{x:g}")
     for goal in _GOALS:
         axes.axhline(goal, color="0.4", linewidth=1.0, linestyle=":")
-        text = f" {100.0 * goal:g} %"
+        text = f" {goal:g} %"
         axes.annotate(text, (0.0, goal), xycoords=("axes fraction", "data"), va="bottom", color="0.3")
     axes.grid(visible=True, which="major", color="0.9")
     axes.set_xlabel("run time [ms per s of motion]")
-    axes.set_ylabel("error of the last period [-]")
-    axes.legend(frameon=False)
+    axes.set_ylabel("error of the last period [%]")
+    axes.legend(edgecolor="none", framealpha=0.9)
 
 
 @drawing()
