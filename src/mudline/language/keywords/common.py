@@ -1,7 +1,5 @@
 """Parts that keywords of several subjects share."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from mudline.language.keywords.fields import about

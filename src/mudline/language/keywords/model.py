@@ -1,7 +1,5 @@
 """What a keyword module declares: rows, records and blocks, whose fields carry their meaning, unit and range."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -62,7 +60,7 @@ class Rows(FieldInfo):
     what kind of curve it is, in words. It is linear between its points, its end sections go on beyond them.
     """
 
-    row: type[Row] | None = None
+    row: type["Row"] | None = None
     unordered: bool = False
     curve: str = ""
     abscissa: str = ""
@@ -124,13 +122,13 @@ class Rows(FieldInfo):
         }
 
 
-def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
+def rows(row: type["Row"], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
 def curve_points(
-    row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "", usual: Expected = ()
+    row: type["Row"], meaning: str, kind: str, *, abscissa: str, inferred: str = "", usual: Expected = ()
 ) -> Rows:
     """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
     return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, usual=usual)
@@ -155,7 +153,7 @@ class Value(NamedTuple):
     """What a field of a part holds: one item of a list, a whole table, or a part with fields of its own."""
 
     path: Path
-    field: FieldSpec
+    field: "FieldSpec"
     value: Any
 
 
@@ -183,7 +181,7 @@ class Part(BaseModel):
         _walk(self, (), wanted, found)
         return found
 
-    def at(self, path: Path) -> tuple[FieldSpec | None, Any]:
+    def at(self, path: Path) -> tuple["FieldSpec | None", Any]:
         """Return the field and the value that a path leads to; None for a value that is not there."""
         field: FieldSpec | None = None
         value: Any = self

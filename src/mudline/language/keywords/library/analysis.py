@@ -1,8 +1,6 @@
 """Kind of run of a load case: time, steps, convergence, contact, restart, what is stored."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -105,7 +103,7 @@ class TimeSpan(Block):
         return str(given.get("step") or "FIXED").lower()
 
     @model_validator(mode="after")
-    def _fits(self) -> TimeSpan:
+    def _fits(self) -> Self:
         """Each form has its own lines."""
         step = self.step or "FIXED"
         if getattr(self, step.lower()) is None or (self.fixed and self.variable):
@@ -197,7 +195,7 @@ class Tolerances(Record):
         return "frequency" if given.get("analysis") == "FREQUENCY" else "steps"
 
     @model_validator(mode="after")
-    def _fits(self) -> Tolerances:
+    def _fits(self) -> Self:
         """The line of its kind of run."""
         require_one(self, "frequency" if self.analysis == "FREQUENCY" else "steps")
         require_one(self, "steps", "frequency")
@@ -218,7 +216,7 @@ class Tolerance(Block):
     tolerances: list[Tolerances] = []
 
     @model_validator(mode="after")
-    def _fits(self) -> Tolerance:
+    def _fits(self) -> Self:
         """One line for a kind of run."""
         kinds = [one.analysis or "STATIC/TIME" for one in self.tolerances]
         if len(set(kinds)) < len(kinds):
@@ -285,7 +283,7 @@ class Criteria(Block):
     ] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> Criteria:
+    def _fits(self) -> Self:
         """One thing is changed."""
         require_one(self, "variable", "option")
         return self
@@ -365,7 +363,7 @@ class Database(Block):
     interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0, usual=OF_THE_RUN)] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> Database:
+    def _fits(self) -> Self:
         """Only selected times have a line of their own."""
         if self.time == "SELECTED" and self.interval is None:
             raise ValueError("TIME=SELECTED needs a line `start, interval` below it")
@@ -431,7 +429,7 @@ class TimeStepping(Block):
         return "hilber_hughes" if given.get("type_", given.get("type")) == "HILBER-HUGHES" else "alphas"
 
     @model_validator(mode="after")
-    def _fits(self) -> TimeStepping:
+    def _fits(self) -> Self:
         """Each scheme has its own parameters, given once."""
         of_alpha, of_hughes = self.infinity is not None or self.alphas is not None, self.hilber_hughes is not None
         if (of_alpha and self.type_ == "HILBER-HUGHES") or (of_hughes and self.type_ != "HILBER-HUGHES"):

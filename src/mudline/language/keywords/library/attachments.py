@@ -1,7 +1,5 @@
 """Masses and drag chains at nodes."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Auxiliary bodies, which are drawn and have no stiffness (superseded, still legal)."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting

@@ -1,8 +1,6 @@
 """Currents: of a load case, and of SHEAR7."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -67,7 +65,7 @@ class CurrentProfile(Record):
         return "uniform" if given.get("type") == "UNIFORM" else "profile"
 
     @model_validator(mode="after")
-    def _fits(self) -> CurrentProfile:
+    def _fits(self) -> Self:
         """What its type has."""
         if self.type_ == "SUBROUTINE" and self.user is None:
             raise ValueError("TYPE=SUBROUTINE needs USER=, the file with it")

@@ -1,7 +1,5 @@
 """Cables, and the nodes placed along them (superseded, still legal)."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting

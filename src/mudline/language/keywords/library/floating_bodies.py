@@ -1,7 +1,5 @@
 """Floating bodies of a coupled analysis: added mass, radiation damping, coefficients of wind and current."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -57,7 +55,7 @@ class FrequencyMatrix(Record):
     matrix: Matrix
 
     @model_validator(mode="after")
-    def _whole(self) -> FrequencyMatrix:
+    def _whole(self) -> Self:
         """Six lines."""
         _require_six(self.matrix)
         return self
@@ -77,7 +75,7 @@ class MatrixType(Record):
     frequencies: list[FrequencyMatrix] = []
 
     @model_validator(mode="after")
-    def _fits(self) -> MatrixType:
+    def _fits(self) -> Self:
         """What its type has."""
         require_one(self, "frequencies" if self.type_ == "FREQUENCY" else "matrix")
         require_one(self, "frequencies", "matrix")
@@ -97,7 +95,7 @@ class BodyMatrices(Record):
     types: list[MatrixType] = []
 
     @model_validator(mode="after")
-    def _fits(self) -> BodyMatrices:
+    def _fits(self) -> Self:
         """A file, or matrices."""
         require_one(self, "file", "types")
         return self
@@ -154,7 +152,7 @@ class BodyDrag(Record):
     matrix: Matrix
 
     @model_validator(mode="after")
-    def _whole(self) -> BodyDrag:
+    def _whole(self) -> Self:
         """Six lines."""
         _require_six(self.matrix)
         return self
@@ -203,7 +201,7 @@ class BodyCoefficients(Record):
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> BodyCoefficients:
+    def _fits(self) -> Self:
         """A file, or rows."""
         require_one(self, "file", "headings")
         return self
@@ -226,7 +224,7 @@ class VesselCoefficients(Record):
         return "tag" if number == 0 else "headings"
 
     @model_validator(mode="after")
-    def _fits(self) -> VesselCoefficients:
+    def _fits(self) -> Self:
         """A file, or rows."""
         require_one(self, "file", "headings")
         return self

@@ -1,8 +1,6 @@
 """`*GEOMETRIC SETS`: stiffness, mass and diameters by element set."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -221,7 +219,7 @@ class GeometricSets(Block):
     sets: list[GeometricSet] = []
 
     @model_validator(mode="after")
-    def _formats(self) -> GeometricSets:
+    def _formats(self) -> Self:
         """Every set has one property line, in the format that OPTION= says."""
         option = "FLEXIBLE"
         for index, entry in enumerate(self.sets):

@@ -1,7 +1,5 @@
 """Drag, inertia and lift coefficients."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

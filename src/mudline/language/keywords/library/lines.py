@@ -4,8 +4,6 @@ The formats of `*LINES`, `*LINE PATHS` and `*LINE LOCATIONS` are not public: the
 are used.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Loads, boundary conditions and internal fluids of a load case."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Literal
 

@@ -1,8 +1,6 @@
 """Nodes, elements, their labels, and element sets of the model."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
@@ -200,7 +198,7 @@ class LabelLine(Record):
         return str(given.get("thing") or last or "NODE").lower()
 
     @model_validator(mode="after")
-    def _fits(self) -> LabelLine:
+    def _fits(self) -> Self:
         """A node or an element."""
         require_one(self, "node", "element")
         return self
@@ -218,7 +216,7 @@ class Labels(Block):
     labels: list[LabelLine] = []
 
     @model_validator(mode="after")
-    def _fits(self) -> Labels:
+    def _fits(self) -> Self:
         """The first line says what it is of."""
         if self.labels and self.labels[0].thing is None:
             raise ValueError("TYPE=NODE or TYPE=ELEMENT must stand above the first label")

@@ -1,7 +1,5 @@
 """`*OCEAN`: water depth, density and gravity."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about

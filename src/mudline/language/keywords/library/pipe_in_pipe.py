@@ -1,8 +1,6 @@
 """Pipe in pipe: sections, what connects them, and lines that lie in or on each other."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -95,7 +93,7 @@ class PipCurve(Record):
         return "law" if given.get("type") == "POWER LAW" else "points"
 
     @model_validator(mode="after")
-    def _fits(self) -> PipCurve:
+    def _fits(self) -> Self:
         """What its type has."""
         require_one(self, "law" if self.type_ == "POWER LAW" else "points")
         require_one(self, "law", "points")
@@ -228,7 +226,7 @@ class PipLink(Record):
     bulkhead: Annotated[Bulkheads | None, about("bulkheads")] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> PipLink:
+    def _fits(self) -> Self:
         """One kind of connection."""
         require_one(self, "stiffness", "curve", "bulkhead")
         return self

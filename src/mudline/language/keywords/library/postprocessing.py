@@ -1,8 +1,6 @@
 """Postprocessing: element sets, traces, clearance, code checks and fatigue."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -164,7 +162,7 @@ class ClearSets(Block):
     ranges: list[ClearRange] = []
 
     @model_validator(mode="after")
-    def _fits(self) -> ClearSets:
+    def _fits(self) -> Self:
         """Two groups."""
         if len(self.ranges) != _GROUPS:
             raise ValueError(f"{len(self.ranges)} lines are given: expected exactly {_GROUPS}")

@@ -1,8 +1,6 @@
 """Parameters, and the decks that are made from variations."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
@@ -71,7 +69,7 @@ class VariedParameter(Record):
     generate: Annotated[ValueRange | None, setting("GEN", "range of numbers", inline=True, behind="PARA")] = None
 
     @model_validator(mode="after")
-    def _given(self) -> VariedParameter:
+    def _given(self) -> Self:
         """Values come from one of the two."""
         if (self.values is None) == (self.generate is None):
             found = "neither" if self.values is None else "both"

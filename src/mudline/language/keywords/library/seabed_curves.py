@@ -1,7 +1,5 @@
 """Force-embedment curves."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Resistance of the seabed along it: friction, and the walls of trenches."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, field_validator

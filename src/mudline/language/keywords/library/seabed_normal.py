@@ -1,7 +1,5 @@
 """Resistance of the seabed normal to it: contact, soil, unloading, suction (extensions)."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

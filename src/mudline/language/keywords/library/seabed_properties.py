@@ -1,7 +1,5 @@
 """Contact of the seabed by element set, and the legacy surfaces that it supersedes."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,8 +1,6 @@
 """Shape of the seabed: planes and profiles."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -133,7 +131,7 @@ class SeabedProfile(Block):
     ] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> SeabedProfile:
+    def _fits(self) -> Self:
         """Each type has its own settings."""
         given = [key for key in _SETTINGS if getattr(self, key.lower()) is not None]
         for key in _NEEDS[self.type_]:

@@ -1,7 +1,5 @@
 """Curves of non-linear stiffness that `*GEOMETRIC SETS` names."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting

@@ -1,7 +1,5 @@
 """Soil springs: curves of resistance against displacement, by depth or by node."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,8 +1,6 @@
 """Springs, dampers and joints."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -47,7 +45,7 @@ class Springs(Record):
         return "points" if given.get("type") == "NONLINEAR" else "stiffness"
 
     @model_validator(mode="after")
-    def _fits(self) -> Springs:
+    def _fits(self) -> Self:
         """One way to say which, and what its type has."""
         require_one(self, "elements", "set_name")
         require_one(self, "stiffness" if self.type_ == "LINEAR" else "points")
@@ -180,7 +178,7 @@ class FlexJoint(Record):
         return "points" if given["type"] == "NONLINEAR" else "stiffness"
 
     @model_validator(mode="after")
-    def _fits(self) -> FlexJoint:
+    def _fits(self) -> Self:
         """One way to say which, and what its type has."""
         require_one(self, "element", "set_name")
         require_one(self, "stiffness" if self.type_ == "LINEAR" else "points")

@@ -1,7 +1,5 @@
 """Requests of summary postprocessing (`*PARA ...`), and the part of a run that is summarised."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting

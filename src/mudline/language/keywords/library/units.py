@@ -1,7 +1,5 @@
 """What a deck says of itself: its title, and the unit system where its suffix does not say it."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import setting

@@ -1,8 +1,6 @@
 """Motions of vessels in a load case: offsets, drifts, velocities, response amplitude operators."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -162,7 +160,7 @@ class VesselDrift(Record):
     ] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> VesselDrift:
+    def _fits(self) -> Self:
         """A line of its type."""
         require_one(self, "sinusoid" if self.type_ == "SINUSOIDAL" else "file")
         require_one(self, "sinusoid", "file")
@@ -278,7 +276,7 @@ class VesselRao(Record):
     lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
 
     @model_validator(mode="after")
-    def _fits(self) -> VesselRao:
+    def _fits(self) -> Self:
         """A file, or lines of one layout."""
         if self.file or self.first or self.headings or self.lines is not None:
             require_one(self, "file", "first", "headings", "lines")

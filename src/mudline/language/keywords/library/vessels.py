@@ -1,7 +1,5 @@
 """Vessels where they are at first, and bodies that are drawn."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting

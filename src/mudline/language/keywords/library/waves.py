@@ -1,8 +1,6 @@
 """Regular, irregular and tabulated waves of a load case, and the spectra of a wave scatter."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -115,7 +113,7 @@ class JonswapSea(OpenRecord):
         return f"{chosen}_shape" if given.get("spec") in (None, "NORMAL") else f"{chosen}_height"
 
     @model_validator(mode="after")
-    def _fits(self) -> JonswapSea:
+    def _fits(self) -> Self:
         """One line, where its form is known."""
         if self.spec in (None, "NORMAL", "HSTZ", "HSTP"):
             require_one(self, "area_shape", "progression_shape", "area_height", "progression_height")
@@ -194,7 +192,7 @@ class RegularWave(Record):
         return "band" if fields == len(Band.model_fields) else "directed_band"
 
     @model_validator(mode="after")
-    def _fits(self) -> RegularWave:
+    def _fits(self) -> Self:
         """One line."""
         require_one(self, "wave", "band", "directed_band")
         return self
