@@ -111,9 +111,9 @@ def _bed(
         raise click.UsageError("a seabed in metres becomes two files: give -o OUT.keyxm")
     if within is None or not 0.0 < within < math.inf:
         raise click.UsageError("a seabed is thinned: give its largest error, as in --within 0.05")
-    for library, extra in (("scipy", "surface"), *[("rasterio", "bathymetry")] * (form == "geotiff")):
+    for library in ("scipy", *["rasterio"] * (form == "geotiff")):
         if find_spec(library) is None:
-            notify_missing(f"a seabed ({form})", library, extra)
+            notify_missing(f"a seabed ({form})", library, "bathymetry")
             return FOUND
     from mudline.cli.evaluate_inputs import read_file  # noqa: PLC0415 - only a seabed needs it
     from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
