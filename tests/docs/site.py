@@ -107,6 +107,8 @@ def _page(markdown: str, source: Path, here: str) -> str:
         titled = _FILE_NAME.sub(lambda match: _title(source.parent / match[1], match[0]), pieces[index])
         pieces[index] = _TARGET.sub(lambda match: _rewritten(match, source, here), _ROW.sub(_plain_bars, titled))
     boost = next((boost for name, boost in BOOSTS if here.startswith(name)), 1.0)
+    if here.startswith("keywords/") and any(source.parent.glob(f"{source.stem}-*.md")):
+        boost *= 3.0  # NODE is asked for, not NODE,CURVILINEAR
     head = f"---\nsearch:\n  boost: {boost}\n---\n\n" if boost != 1.0 else ""
     return head + "".join(pieces)
 
