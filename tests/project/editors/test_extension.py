@@ -116,6 +116,7 @@ def test_the_package_unpacked(tmp_path: Path) -> None:
             "icons/deck-light.svg",
             "icons/mudline.png",
             "images/findings.png",
+            "images/help.png",
             "language-configuration.json",
             "package.json",
             "readme.md",
