@@ -20,7 +20,6 @@ import pytest
 from hatch_build import description
 from mudline.cli.main import COMMANDS
 from tests.docs.make import ROOT
-from tests.docs.site import write
 from tests.helpers.processes import TIMEOUT
 
 if TYPE_CHECKING:
@@ -56,8 +55,10 @@ _ANCHOR = re.compile(r'\s(?:id|name)="([^"]+)"')
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    for module in ("mkdocs", "material", "mkdocstrings"):
+    for module in ("mkdocs", "material", "mkdocstrings", "latex2mathml"):
         pytest.importorskip(module)
+    from tests.docs.site import write  # noqa: PLC0415 - needs what builds the site
+
     folder, source = tmp_path_factory.mktemp("site"), tmp_path_factory.mktemp("source")
     write(source)
     # Beside what is said of a page, MkDocs prints a note of its theme's makers on the future of both.
