@@ -122,11 +122,13 @@ extension: ## the extension for VS Code, in editors/vscode (needs npm)
 	npm install --silent --prefix editors/vscode
 	npm run --silent --prefix editors/vscode package
 
+# The pages are written first: with hooks, no other program than MkDocs could build the site of them.
 site: $(VENV)/.developer ## the pages of docs/ as a site, in site/
-	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+	$(BIN)/python -m tests.docs.site build/site
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet --config-file build/site/mkdocs.yml --site-dir $(CURDIR)/site
 
-serve: $(VENV)/.developer ## the site at http://127.0.0.1:8000, built again when a page changes
-	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs serve
+serve: site ## the site at http://127.0.0.1:8000
+	$(BIN)/python -m http.server --bind 127.0.0.1 --directory site 8000
 
 build: $(VENV)/.developer ## the source archive and the wheel, in dist/
 	$(BIN)/python -m hatchling build

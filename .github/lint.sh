@@ -13,5 +13,10 @@ paths=(${MUDLINE_PATHS:-.})
 options=(${MUDLINE_ARGS:-})
 set +f
 
+# A table of the findings for the page of the run.
+if [ -n "${GITHUB_STEP_SUMMARY:-}" ]; then
+  options=(--output-format "markdown=$GITHUB_STEP_SUMMARY" ${options[@]+"${options[@]}"})
+fi
+
 exec "${MUDLINE_PYTHON:-python}" -P -m mudline lint --output-format "${MUDLINE_FORMAT:-github}" \
   ${options[@]+"${options[@]}"} -- "${paths[@]}"

@@ -8,12 +8,13 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from junitparser import JUnitXml
+from markdown_it import MarkdownIt
 
 from mudline.checks.output import form, visible
-from mudline.language.diagnostics import Severity
+from mudline.language.diagnostics import Diagnostic, Severity
 from tests.checks.made_rules import finding
 from tests.cli.runner import run
 from tests.helpers.builders.decks import BAD_NUMBER
@@ -141,3 +142,33 @@ def test_control_characters_are_replaced() -> None:
     (failure,) = case.result
     assert case.classname == "o\ufffddd.keyxm"
     assert failure.text == failure.message == "o\ufffddd.keyxm:3:2: 10\ufffd[31m\ufffd<&\"']]>\ufffd\ufffd\ufffdé"
+
+
+# ------------------------------------------------------------------------------------------------------------- Markdown
+
+
+def table_of(found: list[Diagnostic]) -> tuple[str, list[list[str]]]:
+    """The heading and the cells of a summary as a host shows them; what is markup in a cell is not text."""
+    tokens = MarkdownIt("gfm-like", {"linkify": False}).parse("".join(form("markdown", ["a.keyxm"], "")(found)))
+    heading, *cells = [token for token in tokens if token.type == "inline"]
+    assert {child.type for cell in cells for child in cell.children or ()} <= {"text", "text_special"}
+    shown = ["".join(child.content for child in cell.children or ()) for cell in cells]
+    return heading.content, [shown[at : at + 4] for at in range(4, len(shown) - 3, 4)]
+
+
+@given(TEXTS)
+@example("*a* `b` <img src=x> | [c](https://d) @someone $e$ ~~f~~ &amp; www.g.h")
+def test_nothing_of_a_deck_is_markup_in_a_summary(message: str) -> None:
+    message = f"x{message}x"  # blanks at the edges of a cell are not shown
+    _, ((severity, place, rule, said),) = table_of([finding(file="a|b.keyxm", message=message)])
+    assert (severity, place, rule) == ("warning", "a|b.keyxm:3:2", "LEG001 superseded-keyword")
+    assert said == visible(message)
+
+
+def test_a_summary_has_errors_first_and_counts_what_it_leaves_out() -> None:
+    found = [finding(line=line) for line in range(1, 300)] + [finding(line=999, severity=Severity.ERROR)]
+    heading, rows = table_of(found)
+    assert heading == "mudline: 1 error, 299 warnings in 1 file"
+    assert [row[1].split(":")[1] for row in rows[:2]] == ["999", "1"]
+    assert len(rows) == 200
+    assert "".join(form("markdown", ["a.keyxm"], "")(found)).endswith("\nand 100 findings more.\n")

@@ -133,6 +133,13 @@ def test_a_rule_of_a_plugin_has_the_address_that_its_package_tells(tmp_path: Pat
     assert found["url"] == "https://acme.example/rules"
 
 
+def test_a_page_among_the_installed_files_is_no_address_of_a_report(here: Path) -> None:
+    (here / "deck.keyxm").write_text(BAD_NUMBER, encoding="utf-8")
+    (rule,) = log_of(run("lint", "deck.keyxm", "--output-format", "sarif"))["tool"]["driver"]["rules"]
+    assert rule["id"] == "SYN002"
+    assert "helpUri" not in rule
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no file names in odd bytes")
 @pytest.mark.parametrize(("name", "uri"), [(b"deck-\xff.keyxm", "deck-%FF.keyxm"), (b"<a:?>.das", "%3Ca%3A%3F%3E.das")])
 def test_a_name_in_odd_bytes_is_its_bytes(here: Path, name: bytes, uri: str) -> None:

@@ -108,6 +108,11 @@ def test_a_code_of_mudline_has_a_page_among_the_installed_files() -> None:
         assert Path(url2pathname(urlsplit(address).path)).read_text(encoding="utf-8").count(f"# {code} ") == 1
 
 
+def test_a_code_of_mudline_has_the_page_of_the_site_that_its_package_names(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "_documentation", {"mudline": "https://mudline.example/"}.get)
+    assert page("CRV001") == "https://mudline.example/rules/CRV001.html"
+
+
 def test_a_code_without_a_page_has_none() -> None:
     assert page("XYZ999") is None
 

@@ -230,7 +230,7 @@ def test_files_that_are_not_workbooks(folder: Path) -> None:
 def test_without_openpyxl(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mudline.cli.convert_command.find_spec", lambda _: None)
     outcome = run("convert", book({"Clay": CLAY}), "-o", "out.keyxm")
-    assert (outcome.code, outcome.err) == (1, "mudline: .xlsx needs openpyxl: pip install 'mudline[excel]'\n")
+    assert (outcome.code, outcome.err) == (1, 'mudline: .xlsx needs openpyxl: python -m pip install "mudline[excel]"\n')
 
 
 # ----------------------------------------------------------------------------------------- mudline evaluate -o out.xlsx
@@ -302,4 +302,7 @@ def test_without_xlsxwriter(place: Place, monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr("mudline.cli.result_files.form_module", missing)
     outcome = run("evaluate", place(), "-o", "out.xlsx")
-    assert (outcome.code, outcome.err) == (1, "mudline: .xlsx needs xlsxwriter: pip install 'mudline[excel]'\n")
+    assert (outcome.code, outcome.err) == (
+        1,
+        'mudline: .xlsx needs xlsxwriter: python -m pip install "mudline[excel]"\n',
+    )

@@ -312,7 +312,7 @@ def test_no_matplotlib(place: Place, folder: Path, monkeypatch: pytest.MonkeyPat
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     outcome = run("curves", place(), "--plot", "out.png")
     assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == "mudline: --plot needs matplotlib: pip install 'mudline[plot]'\n"
+    assert outcome.err == 'mudline: --plot needs matplotlib: python -m pip install "mudline[plot]"\n'
     assert not (folder / "out.png").exists()
 
 

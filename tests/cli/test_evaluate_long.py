@@ -39,7 +39,7 @@ def test_without_pyarrow(place: Place, folder: Path) -> None:
     with patch.dict("sys.modules", {"mudline.model.results.forms.parquet": None}):
         outcome = run("evaluate", place(), "-o", "out.parquet")
     assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n"
+    assert outcome.err == 'mudline: .parquet needs pyarrow: python -m pip install "mudline[frames]"\n'
     assert [path.name for path in folder.iterdir()] == ["deck.keyxm"]
 
 

@@ -136,7 +136,7 @@ def test_without_its_library_it_names_the_extra(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr("mudline.cli.lsp_command.find_spec", lambda _: None)
     outcome = run("lsp")
     assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err == "mudline: lsp needs pygls: pip install 'mudline[lsp]'\n"
+    assert outcome.err == 'mudline: lsp needs pygls: python -m pip install "mudline[lsp]"\n'
 
 
 def test_the_library_is_imported_when_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,6 +21,8 @@ from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
 from tests.faults import report
 from tests.faults.rates import run
+from tests.project.editors.notepad import LANGUAGE, language_text
+from tests.project.editors.snippets import SNIPPETS, snippets_text
 from tests.project.editors.textmate import GRAMMAR, grammar_text
 from tests.project.editors.words import WORDS, words_text
 
@@ -81,7 +83,13 @@ def write() -> None:
         file = ROOT / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
-    made = {CONFIG_SCHEMA: output("mudline schema config"), WORDS: words_text(), GRAMMAR: grammar_text()}
+    made = {
+        CONFIG_SCHEMA: output("mudline schema config"),
+        WORDS: words_text(),
+        GRAMMAR: grammar_text(),
+        LANGUAGE: language_text(),
+        SNIPPETS: snippets_text(),
+    }
     for path, text in made.items():
         (ROOT / path).parent.mkdir(parents=True, exist_ok=True)
         (ROOT / path).write_text(text, encoding="utf-8", newline="\n")

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from textwrap import fill
 
 from mudline.checks.engine import lint_bytes
 from mudline.language.diagnostics import Diagnostic
 from mudline.language.rules import Rule
 from tests.docs.marking import MADE, marked
+
+_WIDTH = 90
+"""Columns of text that a page shows without scrolling."""
 
 _INDEX = """{made}
 
@@ -19,7 +23,7 @@ it: `--select SYN`, `--ignore CRV002`, `--ignore unsorted-points`. `mudline rule
 
 An *error* means that the deck is illegal or has no meaning. A *warning* is a likely mistake, or a place where the
 meaning is our choice. An *info* is something to know. A rule that is *off* runs only where it is selected. `--fix`
-makes a *safe* fix, `--fix --unsafe-fixes` also an *unsafe* one; the column shows that of the example.
+makes a *safe* fix, `--fix --unsafe-fixes` also an *unsafe* one; column and pages show that of the example.
 
 | code | slug | severity | fix | finds |
 | --- | --- | --- | --- | --- |
@@ -48,7 +52,7 @@ _PAGE = """{made}
 
 {title}
 
-Severity: {severity}{off}. [All rules](README.md).
+Severity: {severity}{off}. Fix: {fix}. [All rules](README.md).
 
 {why}
 
@@ -58,7 +62,7 @@ Bad{remark}:
 {bad}
 ```
 
-What `mudline lint --output-format concise` says:
+What `mudline lint --output-format concise` says, wrapped:
 
 ```text
 {says}
@@ -79,16 +83,25 @@ def rule_index(rules: Iterable[Rule]) -> str:
 
 def _row(rule: Rule) -> str:
     code = rule.code
-    fixes = {finding.fix.applicability for finding in _found(rule) if finding.fix}
     severity = f"{code.severity}, off" if rule.off else code.severity
     fields = (
         f"[{code.code}]({code.code}.md)",
         f"`{code.slug}`",
         severity,
-        ", ".join(sorted(fixes)),
+        _fix(rule),
         marked(rule.page.title),
     )
     return f"| {' | '.join(fields)} |"
+
+
+def _fix(rule: Rule) -> str:
+    """Which fixes the findings of the bad deck have."""
+    return ", ".join(sorted({found.fix.applicability for found in _found(rule) if found.fix})) or "none"
+
+
+def _wrapped(found: Diagnostic) -> str:
+    """A finding as concise text, in lines that a page shows whole."""
+    return fill(str(found), _WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
 
 
 def _found(rule: Rule) -> list[Diagnostic]:
@@ -108,6 +121,7 @@ def rule_page(rule: Rule) -> str:
         why=marked(rule.page.why),
         remark=f" ({rule.page.remark})" if rule.page.remark else "",
         bad=rule.page.bad.rstrip("\n"),
-        says="\n".join(str(finding) for finding in _found(rule)),
+        says="\n".join(map(_wrapped, _found(rule))),
+        fix=_fix(rule),
         good=rule.page.good.rstrip("\n"),
     )

@@ -17,6 +17,8 @@ from urllib.parse import unquote
 
 import pytest
 
+from hatch_build import description
+from mudline.cli.main import COMMANDS
 from tests.docs.make import ROOT
 from tests.helpers.processes import TIMEOUT
 
@@ -27,13 +29,18 @@ pytestmark = pytest.mark.slow
 
 VISITED = (
     "index.html",
+    "install.html",
+    "commands/mudline-evaluate.html",
     "tutorials/first-deck.html",
     "tutorials/touchdown-zone-in-waves.html",
     "keywords/seabed-stiffness.html",
-    "python-api.html",
+    "api/contact.html",
     "rules/CRV003.html",
 )
 """A page of each kind."""
+
+FOUND = {"NODE": "*NODE", "SEABED STIFFNESS": "*SEABED STIFFNESS", "install": "Install mudline"}
+"""What a search finds first."""
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 NO_OTHER_HOST = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
@@ -48,12 +55,16 @@ _ANCHOR = re.compile(r'\s(?:id|name)="([^"]+)"')
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    for module in ("mkdocs", "material", "mkdocstrings"):
+    for module in ("mkdocs", "material", "mkdocstrings", "latex2mathml"):
         pytest.importorskip(module)
-    folder = tmp_path_factory.mktemp("site")
+    from tests.docs.site import write  # noqa: PLC0415 - needs what builds the site
+
+    folder, source = tmp_path_factory.mktemp("site"), tmp_path_factory.mktemp("source")
+    write(source)
     # Beside what is said of a page, MkDocs prints a note of its theme's makers on the future of both.
     environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
-    build = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
+    settings = ["--config-file", str(source / "mkdocs.yml"), "--site-dir", str(folder)]
+    build = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", *settings]
     ran = subprocess.run(build, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=False)
     assert (ran.returncode, ran.stdout + ran.stderr) == (0, "")
     return folder
@@ -113,6 +124,7 @@ def test_every_page_is_built(site: Path) -> None:
     of_docs = {path.relative_to(ROOT / "docs").with_suffix(".html") for path in ROOT.glob("docs/**/*.md")}
     wanted = {path.with_name("index.html") if path.stem == "README" else path for path in of_docs}
     assert {path.as_posix() for path in wanted} <= set(built)
+    assert {f"commands/mudline-{name}.html" for name in COMMANDS} <= set(built)
 
 
 def test_links_of_built_pages_lead_somewhere(site: Path) -> None:
@@ -121,12 +133,28 @@ def test_links_of_built_pages_lead_somewhere(site: Path) -> None:
     assert broken == []
 
 
+def test_links_of_the_description_on_an_index_lead_somewhere(site: Path) -> None:
+    text = description((ROOT / "README.md").read_text(encoding="utf-8"), "https://mudline.example")
+    addresses = re.findall(r"\]\(https://mudline\.example/([^)#]*)", text)
+    assert len(addresses) > 20
+    assert [name for name in addresses if not (site / name).is_file()] == []
+
+
+def test_a_heading_of_a_command_is_on_its_page_and_its_options_on_the_page_of_all(site: Path) -> None:
+    everything = (site / "cli.html").read_text(encoding="utf-8")
+    assert everything.count("<th>option</th>") > 15
+    assert 'href="commands/mudline-evaluate.html#positions"' in everything
+    assert 'id="positions"' in (site / "commands/mudline-evaluate.html").read_text(encoding="utf-8")
+    assert 'id="positions"' not in everything
+
+
 def test_decks_are_coloured(site: Path) -> None:
     text = (site / "rules/CRV003.html").read_text(encoding="utf-8")
     assert '<span class="k">*SEABED STIFFNESS</span>' in text, "install mudline again: its lexer is not registered"
 
 
 def test_a_browser_shows_pages_without_errors_and_without_other_hosts(address: str, browser: Browser) -> None:
+    expect = pytest.importorskip("playwright.sync_api").expect
     requests: list[str] = []
     faults: list[str] = []
     with browser.new_context(viewport={"width": PHONE, "height": 844}, color_scheme="dark") as context:
@@ -144,6 +172,13 @@ def test_a_browser_shows_pages_without_errors_and_without_other_hosts(address: s
         page.locator("label.md-header__button[for=__search]").click()
         page.locator("input.md-search__input").press_sequentially("suction")  # the page listens to keys, not to `fill`
         page.locator(".md-search-result__item").first.wait_for()
+        for words, first in FOUND.items():
+            page.goto(address + "index.html")
+            page.locator("label.md-header__button[for=__search]").click()
+            page.locator("input.md-search__input").press_sequentially(words)
+            # Results of the first letters are replaced by those of all.
+            page.locator(".md-search-result__meta", has_text="matching").wait_for()
+            expect(page.locator(".md-search-result__item h1").first).to_have_text(first, timeout=SLOW)
     assert faults == []
     assert [url for url in requests if not url.startswith((address, "data:", "blob:"))] == []
     assert len(requests) > len(VISITED)

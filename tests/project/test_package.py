@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 import mudline
+from hatch_build import description
 from mudline.basics.resources import grammar_file
 from tests.helpers.lowest import constraints
 from tests.helpers.processes import TIMEOUT
@@ -50,9 +51,13 @@ def test_the_source_archive_makes_the_same_wheel(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def wheel_names(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
-    folder = tmp_path_factory.mktemp("dist")
-    return set(contents(built("wheel", ROOT, folder)))
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return built("wheel", ROOT, tmp_path_factory.mktemp("dist"))
+
+
+@pytest.fixture(scope="module")
+def wheel_names(wheel: Path) -> set[str]:
+    return set(contents(wheel))
 
 
 def test_version_is_that_of_the_metadata() -> None:
@@ -85,6 +90,71 @@ def test_wheel_holds_the_pages_of_rules_and_the_decks_that_examples_stand_on(whe
     decks = {path.relative_to(ROOT / "src").as_posix() for path in (ROOT / "src").rglob("*.keyxm")}
     assert decks
     assert pages | decks <= wheel_names
+
+
+# ----------------------------------------------------------------------------------------- what an index and users show
+
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+PICTURE = re.compile(r"!\[[^\]]*\]\(([^)]*)\)")
+
+
+def test_the_description_has_links_to_the_site_that_the_project_names() -> None:
+    text = description(README, "https://mudline.example/docs/")
+    assert PICTURE.findall(text) == ["https://mudline.example/docs/images/touchdown.png"]
+    targets = re.findall(r"\]\(([^)]*)\)", text)
+    assert len(targets) > 20
+    assert [target for target in targets if not target.startswith("https://")] == []
+    assert "https://mudline.example/docs/rules/index.html" in targets
+    assert "https://mudline.example/docs/project/samples/index.html" in targets
+    assert "](https://mudline.example/docs/tutorials/first-deck.html)" in text
+
+
+def test_the_description_of_a_project_without_an_address_has_no_link_that_leads_nowhere(wheel: Path) -> None:
+    (name,) = [name for name in contents(wheel) if name.endswith(".dist-info/METADATA")]
+    metadata_text = contents(wheel)[name].decode()
+    assert "Description-Content-Type: text/markdown\n" in metadata_text
+    assert "Project-URL" not in metadata_text
+    assert "\n# mudline\n" in metadata_text
+    assert "](" not in metadata_text.partition("\n# mudline\n")[2]
+
+
+def test_the_readme_is_short_and_has_a_picture() -> None:
+    assert 5000 < len(README.encode()) < 9000
+    assert len(PICTURE.findall(README)) == 1
+
+
+def test_no_file_that_a_user_copies_has_an_address_to_fill_in_or_an_invented_one() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    own = {str(address) for address in project.get("urls", {}).values()}
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False)  # noqa: S607
+    copied = (".github/", "docs/", "editors/", "samples/", "action.yml", "Dockerfile", "README.md", "CONTRIBUTING.md")
+    names = [
+        name for name in listed.stdout.splitlines() if name.startswith((*copied, "CITATION", "SECURITY", "pyproj"))
+    ]
+    assert len(names) > 300
+    found = []
+    for name in names:
+        text = (ROOT / name).read_bytes().decode("utf-8", "ignore")
+        addresses = re.findall(r"(?:https?://|git@)[^\s\"')>]*/mudline[^\s\"')>]*", text)
+        found += [f"{name}: {one}" for one in addresses if one not in own]
+        found += [f"{name}: {one}" for one in re.findall(r"\bOWNER\b|YOUR[-_ ]?(?:ORG|NAME)\b", text)]
+    assert found == []
+
+
+def test_the_extras_are_few_and_each_has_its_row_on_the_page_that_installs() -> None:
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    page = (ROOT / "docs/install.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\| `([a-z]+)` \|", page, re.MULTILINE) == [
+        *(name for name in extras if name not in {"all", "archive", "cluster"}),
+        *("all", "archive", "cluster"),
+    ]
+    named = {word for path in ROOT.rglob("docs/**/*.md") for word in _EXTRAS.findall(path.read_text(encoding="utf-8"))}
+    named |= {word for path in ROOT.rglob("src/**/*.py") for word in _EXTRAS.findall(path.read_text(encoding="utf-8"))}
+    assert {name for words in named for name in words.split(",")} <= extras.keys()
+
+
+_EXTRAS = re.compile(r"\bmudline\[([a-z,]+)\]")
 
 
 def test_dependencies_have_lower_bounds_only() -> None:

@@ -33,6 +33,8 @@ beforeEach(() => {
   state.errors.length = 0;
   state.documents.length = 0;
   state.diagnostics.clear();
+  state.interpreter = undefined;
+  state.folders = undefined;
   state.config = { "mudline.command": SERVER };
 });
 
@@ -96,8 +98,63 @@ test("the command restarts the server, and so does its setting", async () => {
 test("a program that is missing is said, with what to do", async () => {
   state.config = { "mudline.command": [path.join(folder, "no-mudline"), "lsp"] };
   await activate(context);
-  await until(() => state.errors.some((text) => text.includes("mudline does not start")), "the message");
+  await until(() => state.errors.some((text) => text.includes("does not start")), "the message");
   assert.ok(state.errors.some((text) => text.includes('pip install "mudline[lsp]"')));
+});
+
+/** An environment with a program called mudline that runs the server of the tests; returns its folder. */
+function environment(place) {
+  const programs = path.join(folder, place, process.platform === "win32" ? "Scripts" : "bin");
+  const run = SERVER.map((word) => JSON.stringify(word)).join(" ");
+  fs.mkdirSync(programs, { recursive: true });
+  const name = process.platform === "win32" ? "mudline.exe" : "mudline"; // there it is found only, not run
+  fs.writeFileSync(path.join(programs, name), `#!/bin/sh\nexec ${run} "$@"\n`, { mode: 0o755 });
+  return path.join(folder, place);
+}
+
+const workspaceOf = (place) => [{ uri: vscode.Uri.file(place), name: "work", index: 0 }];
+
+test("mudline is found in .venv of the workspace, and before it in the selected interpreter", async () => {
+  const { find } = require("../find.js");
+  const venv = environment(".venv");
+  const other = environment("other");
+  assert.equal(find([], undefined, [folder]).source, ".venv");
+  assert.ok(find([], undefined, [folder]).command[0].startsWith(venv));
+  for (const interpreter of [other, path.join(other, process.platform === "win32" ? "Scripts" : "bin", "python")]) {
+    const found = find([], interpreter, [folder]);
+    assert.equal(found.source, "the selected interpreter");
+    assert.ok(found.command[0].startsWith(other));
+  }
+  assert.equal(find([], path.join(folder, "empty", "bin", "python"), [folder]).source, ".venv");
+  assert.deepEqual(find([], undefined, []), { command: ["mudline"], source: "PATH" });
+  assert.deepEqual(find(["here", "lsp"], other, [folder]), { command: ["here", "lsp"], source: "mudline.command" });
+});
+
+test("the server of the selected interpreter serves, and the one of another interpreter after it", { skip: process.platform === "win32" }, async () => {
+  state.config = {};
+  state.interpreter = environment("selected");
+  const document = open();
+  await activate(context);
+  await until(() => foundIn(document).length, "findings");
+  state.diagnostics.clear();
+  state.interpreter = environment("another");
+  emitter("interpreter").fire();
+  await until(() => foundIn(document).length, "findings of the other interpreter");
+  assert.deepEqual(state.errors, []);
+});
+
+test("a task lints all decks of a folder", async () => {
+  state.config = {};
+  environment(".venv");
+  state.folders = workspaceOf(folder);
+  await activate(context);
+  const [task] = state.taskProviders.get("mudline").provideTasks();
+  assert.deepEqual(task.execution.args, ["lint", "--color", "never", "."]);
+  assert.ok(task.execution.process.startsWith(path.join(folder, ".venv")));
+  assert.equal(task.execution.options.cwd, folder);
+  assert.equal(task.problemMatchers, "$mudline");
+  state.trusted = false;
+  assert.deepEqual(state.taskProviders.get("mudline").provideTasks(), []);
 });
 
 test("no program is started in a workspace that is not trusted, until it is", async () => {

@@ -12,6 +12,9 @@ const state = {
   diagnostics: new Map(),
   providers: [],
   commands: new Map(),
+  taskProviders: new Map(),
+  interpreter: undefined,
+  folders: undefined,
   errors: [],
   log: [],
 };
@@ -156,7 +159,9 @@ const workspace = partial({
   get textDocuments() {
     return state.documents;
   },
-  workspaceFolders: undefined,
+  get workspaceFolders() {
+    return state.folders;
+  },
   notebookDocuments: [],
   getConfiguration: (section) => ({
     get: (key, fallback) => state.config[`${section}.${key}`] ?? fallback,
@@ -195,12 +200,50 @@ const commands = partial({
   },
 });
 
+const tasks = {
+  registerTaskProvider: (type, provider) => {
+    state.taskProviders.set(type, provider);
+    return new Disposable(() => state.taskProviders.delete(type));
+  },
+};
+
+/** The extension for Python, with an interpreter that was selected; undefined: it is not installed. */
+const extensions = {
+  getExtension: (name) =>
+    name === "ms-python.python" && state.interpreter
+      ? {
+          activate: async () => ({
+            environments: {
+              getActiveEnvironmentPath: () => ({ path: state.interpreter }),
+              onDidChangeActiveEnvironmentPath: emitter("interpreter").event,
+            },
+          }),
+        }
+      : undefined,
+};
+
+class ProcessExecution {
+  constructor(process, args, options) {
+    Object.assign(this, { process, args, options });
+  }
+}
+
+class Task {
+  constructor(definition, scope, name, source, execution, problemMatchers) {
+    Object.assign(this, { definition, scope, name, source, execution, problemMatchers });
+  }
+}
+
 const known = {
   version: "1.101.0",
   workspace,
   window,
   languages,
   commands,
+  tasks,
+  extensions,
+  ProcessExecution,
+  Task,
   env: { language: "en", appName: "stub", openExternal: async () => true, uriScheme: "vscode" },
   Disposable,
   EventEmitter,

@@ -1,4 +1,7 @@
-"""What is installed beside mudline, as the folders on Python's path show it without their packages being read."""
+"""What is installed beside mudline, and what installs more of it: the extras.
+
+The folders on Python's path show it without their packages being read.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,11 @@ from contextlib import suppress
 from importlib.machinery import PathFinder
 
 _METADATA = (".dist-info", ".egg-info")
+
+
+def install_hint(extra: str) -> str:
+    """Return the command that installs an extra, in the quotes that every shell takes: cmd.exe keeps single ones."""
+    return f'python -m pip install "mudline[{extra}]"'
 
 
 def metadata_folders() -> Iterator[str]:

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from stat import S_ISREG
 from typing import NamedTuple
 
+from mudline.basics.paths import relative_path
+
 StrPath = str | os.PathLike[str]
 _Identity = tuple[int, int] | str
 """Device and number of a regular file, whatever it is called; the real path of one that is not there yet."""
@@ -119,8 +121,8 @@ def _read_as(run: Run, path: StrPath) -> str | None:
 
 
 def _refusal(output: Output, read: str) -> OverwriteError:
-    name = read if read == _STDIN else os.path.relpath(read) if os.path.isabs(read) else read  # noqa: PTH117 - text
-    shown = name.replace(os.sep, "/")
+    absolute = read != _STDIN and os.path.isabs(read)  # noqa: PTH117 - text
+    shown = relative_path(read) if absolute else read.replace(os.sep, "/")
     return OverwriteError(f"{output} would replace {shown}, which this run reads: give another name")
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mudline.basics.overwriting import reading
+from mudline.basics.paths import relative_path
 from mudline.basics.spelling import nearest
 
 Values = dict[str, Any]
@@ -70,11 +71,7 @@ class Configuration:
 
     def relative(self, path: str) -> str:
         """A path as seen from the folder of the configuration, with `/`."""
-        folder = os.curdir if self.path is None else self.path.parent
-        try:
-            return os.path.relpath(path, folder).replace(os.sep, "/")
-        except ValueError:  # another drive
-            return path.replace(os.sep, "/")
+        return relative_path(path, os.curdir if self.path is None else self.path.parent)
 
 
 class Given(NamedTuple):

@@ -253,7 +253,7 @@ def page(code: str) -> str | None:
     if package != "mudline":
         return _documentation(package.rpartition(" ")[0])
     if site := _documentation(package):
-        return f"{site.rstrip('/')}/rules/{code}/"
+        return f"{site.rstrip('/')}/rules/{code}.html"
     file = rule_file(code)
     return file.as_uri() if file.exists() else None
 

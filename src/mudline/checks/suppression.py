@@ -8,7 +8,6 @@ baseline records known findings by path, code and the text of their line, not by
 from __future__ import annotations
 
 import json
-import os
 import re
 from bisect import bisect_right
 from collections import Counter
@@ -19,6 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mudline.basics.overwriting import reading
+from mudline.basics.paths import relative_path
 from mudline.basics.spelling import nearest
 from mudline.checks.context import LintContext
 from mudline.checks.registry import find, rules
@@ -304,7 +304,7 @@ class Baseline:
 
     def unknown(self, found: Sequence[Diagnostic], data: bytes, path: str) -> list[Diagnostic]:
         """The findings of a file that are not recorded, or more of a kind than are."""
-        self.seen.add(self._relative(path))
+        self.seen.add(relative_path(path, self.folder))
         new: list[Diagnostic] = []
         for one, entry in zip(found, self._entries(found, data, path), strict=True):
             self.met[entry] += 1
@@ -325,18 +325,11 @@ class Baseline:
 
     def _entries(self, found: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[Entry]:
         source = Source.from_bytes(data, "")
-        relative = self._relative(path)
+        relative = relative_path(path, self.folder)
         lines = len(source.line_starts)
         for one in found:
             content = source.line(one.line).strip()[:_RECORDED] if one.line <= lines else ""
             yield Entry(relative, one.code, content)
-
-    def _relative(self, path: str) -> str:
-        try:
-            relative = os.path.relpath(path, self.folder)
-        except ValueError:  # another drive
-            relative = str(Path(path).absolute())
-        return relative.replace(os.sep, "/")
 
 
 def read_baseline(path: Path) -> Baseline:

@@ -43,6 +43,7 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 @options.option("--within", type=float, metavar="METRES", help="Thin a seabed (.tif, .asc) as far as this error.")
 @options.option("--origin", metavar="E,N", help="Easting and northing of Y = Z = 0 of a seabed (default 0,0).")
 @options.option("--datum", type=float, metavar="ELEVATION", help="Elevation of X = 0 of a seabed (default 0).")
+@options.flag("--anonymous", help="Replace names, drop what the contact does not need, move the origin; forces stay.")
 @takes_deck
 def command(
     *,
@@ -54,6 +55,7 @@ def command(
     within: float | None,
     origin: str | None,
     datum: float | None,
+    anonymous: bool,
     view: View,
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML; tables (.xlsx, .csv) and seabeds (.tif, .asc) to a deck.
@@ -73,6 +75,8 @@ def command(
         return FOUND
     if form != "keyword":
         _require_values(read)
+    if anonymous:
+        read = _anonymous(read, view)
     if in_order:
         for name in sort_curves(read):
             notify(f"curve {name} keeps its order: a ratio in it is an equation")
@@ -83,8 +87,23 @@ def command(
     path = Path(output)
     write_text(path, [text])
     if not view.quiet:
-        notify(f"{read.file} -> {path.as_posix()}")
+        notify(f"{deck.path if anonymous else read.file} -> {path.as_posix()}")
     return DONE
+
+
+def _anonymous(deck: Deck, view: View) -> Deck:
+    """The deck without what tells whose it is; says what was done to it. Raises DeckError."""
+    from mudline.editing.anonymizing import TOLERANCE, anonymous  # noqa: PLC0415 - few decks are given away
+
+    made = anonymous(deck)
+    if not view.quiet:
+        notify(f"both decks evaluated: forces are the same to {TOLERANCE:g} of the largest")
+        if made.left_out:
+            notify(f"left out: {', '.join(f'*{keyword}' for keyword in made.left_out)}")
+        if any(made.shift):
+            notify("for you alone: {:g} was taken from Y and {:g} from Z".format(*made.shift))
+        notify("diameters, soil, elevations and numbers of nodes and elements stay: read the deck before you send it")
+    return made.deck
 
 
 def _origin(given: str | None, datum: float | None) -> tuple[float, float, float]:
@@ -111,9 +130,9 @@ def _bed(
         raise click.UsageError("a seabed in metres becomes two files: give -o OUT.keyxm")
     if within is None or not 0.0 < within < math.inf:
         raise click.UsageError("a seabed is thinned: give its largest error, as in --within 0.05")
-    for library, extra in (("scipy", "surface"), *[("rasterio", "bathymetry")] * (form == "geotiff")):
+    for library in ("scipy", *["rasterio"] * (form == "geotiff")):
         if find_spec(library) is None:
-            notify_missing(f"a seabed ({form})", library, extra)
+            notify_missing(f"a seabed ({form})", library, "bathymetry")
             return FOUND
     from mudline.cli.evaluate_inputs import read_file  # noqa: PLC0415 - only a seabed needs it
     from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above

@@ -49,7 +49,7 @@ def command(
 
     PATHS are decks, or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that
     begin as decks do). Decks that have not changed are not read again; those that are no longer
-    there are dropped. Needs pip install 'mudline[archive]'.
+    there are dropped. Needs the extra mudline[archive].
     """
     if missing := [name for name in ("duckdb", "pyarrow") if find_spec(name) is None]:
         notify_missing("mudline index", " and ".join(missing), "archive")

@@ -13,6 +13,7 @@ import click
 
 from mudline import __version__
 from mudline.basics.overwriting import reading
+from mudline.basics.paths import relative_path
 from mudline.basics.short_repr import counted
 from mudline.checks.configuration import Given as GivenRules
 from mudline.checks.engine import LintSettings
@@ -178,7 +179,7 @@ def _row(content: dict[str, Any], page: Path | None, target: Target | None) -> d
     verdict = content["verdict"]
     words = verdict["verdict"].partition(":")[0]
     kind = "as far as read" if words.startswith("legal as far") else words.partition(",")[0]
-    address = "" if page is None or target is None else os.path.relpath(page, target.index.parent).replace(os.sep, "/")
+    address = "" if page is None or target is None else relative_path(page, target.index.parent)
     counts = {name: verdict[name] for name in ("errors", "warnings")}
     keywords = verdict["keywords"]
     read = {"read": keywords["read"], "total": keywords["total"]}

@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Any
 
 import click
 
 from mudline.checks.configuration import EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
 from mudline.cli import DONE, options
-from mudline.cli.streams import emit_json
+from mudline.cli.inputs import STDIN
+from mudline.cli.streams import emit_json, write_text
 from mudline.language.deck.document import json_schema
 
 
 @options.command("schema")
 @click.argument("what", type=click.Choice(["deck", "config"]), default="deck")
+@options.option("-o", "--output", type=options.OUTPUT_FILE, metavar="OUT", help="Write to this file.")
 @options.common
-def command(*, what: str) -> int:
+def command(*, what: str, output: str | None) -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it, or of the configuration.
 
     Editors complete and check a mudline.toml by the schema of the configuration.
     """
-    emit_json(configuration_schema() if what == "config" else json_schema())
+    schema = configuration_schema() if what == "config" else json_schema()
+    if output is None or output == STDIN:
+        emit_json(schema)
+    else:
+        write_text(Path(output), [json.dumps(schema, indent=1, ensure_ascii=False), "\n"])
     return DONE
 
 

@@ -13,6 +13,7 @@ from typing import BinaryIO
 
 import click
 
+from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim
 from mudline.basics.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
@@ -98,7 +99,7 @@ def notify_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
 
 def notify_missing(what: str, library: str, extra: str) -> None:
     """Print which extra brings a library that is not installed."""
-    notify(f"{what} needs {library}: pip install 'mudline[{extra}]'")
+    notify(f"{what} needs {library}: {install_hint(extra)}")
 
 
 def reason(error: OSError) -> str:

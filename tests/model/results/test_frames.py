@@ -135,7 +135,9 @@ def test_without_a_library_or_what_was_evaluated(monkeypatch: pytest.MonkeyPatch
     ):
         with monkeypatch.context() as patched:
             patched.setitem(sys.modules, library, None)
-            with pytest.raises(ImportError, match=r"not installed: pip install 'mudline\[frames\]'") as caught:
+            with pytest.raises(
+                ImportError, match=r'not installed: python -m pip install "mudline\[frames\]"'
+            ) as caught:
                 make()
             assert caught.value.name == library
     bare = ContactInput(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import sys
 import zipfile
@@ -14,8 +15,10 @@ import pytest
 
 import mudline
 from mudline.language.deck.forms import SUFFIXES
-from tests.cli.runner import ROOT
+from tests.cli.runner import ROOT, process
+from tests.helpers.builders.decks import BAD_NUMBER
 from tests.project.editors.extension import EXTENSION, needs_node, node
+from tests.project.editors.snippets import snippets_text
 
 ABOUT: dict[str, Any] = json.loads((EXTENSION / "package.json").read_text(encoding="utf-8"))
 
@@ -38,9 +41,42 @@ def test_the_version_and_the_suffixes_are_those_of_mudline() -> None:
 def test_every_named_file_is_there() -> None:
     (language,) = ABOUT["contributes"]["languages"]
     (grammar,) = ABOUT["contributes"]["grammars"]
-    names = [language["configuration"], *language["icon"].values(), grammar["path"]]
+    (snippets,) = ABOUT["contributes"]["snippets"]
+    names = [language["configuration"], *language["icon"].values(), grammar["path"], snippets["path"], ABOUT["icon"]]
     assert [name for name in names if not (EXTENSION / name).is_file()] == []
     assert json.loads((EXTENSION / language["configuration"]).read_text(encoding="utf-8"))["comments"]
+
+
+def test_it_can_be_published() -> None:
+    assert "private" not in ABOUT
+    icon = (EXTENSION / ABOUT["icon"]).read_bytes()
+    assert icon.startswith(b"\x89PNG")
+    assert [int.from_bytes(icon[at : at + 4], "big") for at in (16, 20)] == [128, 128]
+    assert "](images/findings.png)" in (EXTENSION / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_snippets_are_fresh_and_their_blocks_are_legal() -> None:
+    text = (EXTENSION / "snippets/mudline.json").read_text(encoding="utf-8")
+    assert text == snippets_text(), "run make docs"
+    given = json.loads(text)
+    assert len(given) > 90
+    body = "\n".join(given["*SEABED STIFFNESS"]["body"])
+    filled = re.sub(r"\$\{\d+:([^}]*)\}|\$0", r"\1", body)
+    deck = mudline.from_keyword(f"$MODEL\n{filled}", units="metric")
+    assert [block.keyword for block in deck.sections[0].blocks] == ["SEABED STIFFNESS"]
+
+
+def test_the_problem_matcher_takes_what_the_task_prints(tmp_path: Path) -> None:
+    (matcher,) = ABOUT["contributes"]["problemMatchers"]
+    (tmp_path / "decks").mkdir()
+    (tmp_path / "decks/a b.keyxm").write_text(BAD_NUMBER, encoding="utf-8")
+    outcome = process("lint", "--color", "never", ".", cwd=tmp_path)
+    pattern = matcher["pattern"]
+    found = [match for line in outcome.out.splitlines() if (match := re.fullmatch(pattern["regexp"][1:-1], line))]
+    keys = ("file", "line", "column", "severity", "code")
+    assert [tuple(match[pattern[key]] for key in keys) for match in found] == [
+        ("decks/a b.keyxm", "6", "11", "error", "SYN002")
+    ]
 
 
 def test_no_file_names_a_host_for_packages() -> None:
@@ -61,7 +97,7 @@ def test_the_grammar_gives_the_scopes_that_are_written_down() -> None:
 
 @needs_node
 def test_the_client_with_a_server_of_its_own() -> None:
-    assert "# pass 5\n" in node("node", "--test", "--test-reporter=tap", "test/client.test.js")
+    assert "# pass 8\n" in node("node", "--test", "--test-reporter=tap", "test/client.test.js")
 
 
 @needs_npm
@@ -78,9 +114,13 @@ def test_the_package_unpacked(tmp_path: Path) -> None:
             "dist/extension.js",
             "icons/deck-dark.svg",
             "icons/deck-light.svg",
+            "icons/mudline.png",
+            "images/findings.png",
+            "images/help.png",
             "language-configuration.json",
             "package.json",
             "readme.md",
+            "snippets/mudline.json",
             "syntaxes/mudline.tmLanguage.json",
         )
     }

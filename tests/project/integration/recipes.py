@@ -18,8 +18,9 @@ CLEAN = "$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n"
 FAULTY = "$MODEL\n*OCEAN\n 100.0, l025.0, 9.81\n"
 
 _PYTHON = f"""#!/bin/sh
-if [ "$1 $2 $3" = "-P -m pip" ]; then shift 3; exec pip "$@"; fi
-exec {shlex.quote(sys.executable)} "$@"
+if [ "$1" = "-P" ]; then shift; fi
+if [ "$1 $2" = "-m pip" ]; then shift 2; exec pip "$@"; fi
+exec {shlex.quote(sys.executable)} -P "$@"
 """
 _PIP = '#!/bin/sh\necho "pip $*" >>"$INSTALLED"\n'
 _MUDLINE = f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m mudline "$@"\n'

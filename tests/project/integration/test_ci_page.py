@@ -37,7 +37,8 @@ def test_the_job_of_gitlab_leaves_a_report_and_fails(folder: Path) -> None:
     done = shell("\n".join(job["script"]), folder)
     assert (done.returncode, done.stderr) == (1, "")
     assert done.stdout.startswith("decks/bad.keyxm:3:9: error SYN002 ")
-    assert installed(folder) == "pip install mudline\n"
+    assert installed(folder) == "pip install --quiet mudline\n"
+    assert "| error | decks/bad.keyxm:3:9 | SYN002 " in (folder / "mudline.md").read_text(encoding="utf-8")
     report = folder / job["artifacts"]["reports"]["codequality"]
     (issue,) = json.loads(report.read_text(encoding="utf-8"))
     assert issue["location"] == {"path": "decks/bad.keyxm", "lines": {"begin": 3, "end": 3}}
@@ -51,18 +52,49 @@ def test_the_job_of_gitlab_passes_for_clean_decks(folder: Path) -> None:
     assert json.loads((folder / "gl-code-quality.json").read_text(encoding="utf-8")) == []
 
 
+def test_a_note_is_sent_only_where_there_is_a_token_and_a_merge_request(folder: Path) -> None:
+    (script,) = example("mudline")["after_script"]
+    sent = folder.parent / "programs" / "curl"
+    sent.write_text('#!/bin/sh\nprintf "%s\\n" "$@" >sent\n')
+    sent.chmod(0o755)
+    assert (shell(script, folder).returncode, (folder / "sent").exists()) == (0, False)
+    given = {"CI_API_V4_URL": "https://git.example/api/v4", "CI_PROJECT_ID": "7", "CI_MERGE_REQUEST_IID": "3"}
+    assert shell(script, folder, MUDLINE_TOKEN="t", **given).returncode == 0  # noqa: S106 - of nobody
+    *_, body, address = (folder / "sent").read_text().splitlines()
+    assert (body, address) == ("body=<mudline.md", "https://git.example/api/v4/projects/7/merge_requests/3/notes")
+
+
+def test_the_steps_of_github_install_and_lint(folder: Path, tmp_path: Path) -> None:
+    steps = [step["run"] for step in example("steps") if "run" in step]
+    summary = tmp_path / "summary.md"
+    done = shell("\n".join(steps), folder, GITHUB_STEP_SUMMARY=str(summary))
+    assert done.returncode == 1
+    assert done.stdout.startswith("::error file=decks/bad.keyxm,line=3,")
+    assert installed(folder) == "pip install mudline\n"
+    assert summary.read_text(encoding="utf-8").startswith("### mudline: 1 error in 2 files\n")
+
+
 def test_the_workflow_of_github_gives_inputs_that_the_action_has() -> None:
     action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-    steps = [*example("steps"), *example("jobs")["decks"]["steps"]]
-    given = [step["with"] for step in steps if step["uses"].startswith("OWNER/mudline@")]
-    assert len(given) == 2
+    given = [step["with"] for step in example("action") if step["uses"].startswith("./")]
+    assert len(given) == 1
     assert all(inputs.keys() <= action["inputs"].keys() for inputs in given)
 
 
 def test_the_sarif_that_is_uploaded_is_the_one_that_is_written() -> None:
-    _, lint, upload = example("jobs")["decks"]["steps"]
-    assert lint["with"]["args"] == f"--output-format sarif={upload['with']['sarif_file']}"
+    *_, lint, upload = example("jobs")["decks"]["steps"]
+    assert f" --output-format sarif={upload['with']['sarif_file']} " in lint["run"]
     assert upload["if"] == "always()"
+
+
+def test_every_action_has_one_version_everywhere() -> None:
+    files = [ROOT / "action.yml", *(ROOT / ".github/workflows").glob("*.yml"), *(ROOT / "docs").rglob("*.md")]
+    used: dict[str, set[str]] = {}
+    for path in files:
+        for name, version in re.findall(r"uses: ([\w./-]+)@(\S+)", path.read_text(encoding="utf-8")):
+            used.setdefault(name, set()).add(version)
+    assert {name: versions for name, versions in used.items() if len(versions) > 1} == {}
+    assert "actions/checkout" in used
 
 
 def test_the_hooks_that_are_named_are_there() -> None:
@@ -105,6 +137,13 @@ def steps(folder: Path, **inputs: str) -> list[tuple[int, str]]:
 def filled(text: str, given: dict[str, str]) -> str:
     """An expression of the workflow with the value of the input; an unknown input is a KeyError."""
     return re.sub(r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: given[match[1]], text)
+
+
+def test_the_summary_of_a_run_has_the_findings(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
+    (_, (code, _)) = steps(folder)
+    assert code == 1
+    assert "| error | decks/bad.keyxm:3:9 | SYN002 " in (tmp_path / "summary.md").read_text(encoding="utf-8")
 
 
 def test_findings_are_annotations_and_fail_the_job(folder: Path) -> None:

@@ -21,6 +21,9 @@ COUNTED: dict[str, Callable[[str], int]] = {
     "github": lambda text: lines(text, r"::error file=bad\.keyxm,.+::.+"),
     "gitlab": lambda text: len(json.loads(text)),
     "junit": lambda text: int(ET.fromstring(text.encode()).attrib["failures"]),  # noqa: S314 - our own text
+    "markdown": lambda text: (
+        text.count("\n| error | bad.keyxm:6:11 | SYN002 bad-number | ") or lines(text, "### mudline: no .+") - 1
+    ),
     "sarif": lambda text: len(json.loads(text)["runs"][0]["results"]),
 }
 """How many findings a form tells; fails where anything else stands in the text."""

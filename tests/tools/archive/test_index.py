@@ -220,4 +220,4 @@ def test_a_missing_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("mudline.cli.index_command.find_spec", lambda _: None)
     outcome = run("index", tmp_path, "-o", tmp_path / "x")
     assert outcome.code == 2
-    assert "mudline index needs duckdb and pyarrow: pip install 'mudline[archive]'" in outcome.err
+    assert 'mudline index needs duckdb and pyarrow: python -m pip install "mudline[archive]"' in outcome.err

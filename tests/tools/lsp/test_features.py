@@ -7,6 +7,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
 from mudline.editing.formatting.document import formatted
+from mudline.tools.lsp.colours import LEGEND
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 from tests.tools.lsp.editor import Editor, applied, document
 
@@ -78,4 +79,50 @@ async def test_equations_have_hints(editor: Editor) -> None:
     assert found == [
         (lines.index(" wide, =[depth/2]"), "= 50"),
         (lines.index(" LATERAL==[wide*2]"), "= 100"),
+    ]
+
+
+COLOURED = (
+    "C über\n$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Röhre \U0001f600\n STIFFNESS==[2*depth]\n *NOTHING\n 1\n"
+)
+
+
+async def test_documents_of_json_have_the_colours_of_the_editor(editor: Editor) -> None:
+    uri = await editor.open('{"format": "mudline-deck"}', "deck.json")
+    found = await editor.client.text_document_semantic_tokens_full_async(types.SemanticTokensParams(document(uri)))
+    assert found is not None
+    assert not found.data
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+async def test_a_deck_has_colours(editor: Editor, end: str) -> None:
+    uri = await editor.open(COLOURED.replace("\n", end))
+    found = await editor.client.text_document_semantic_tokens_full_async(types.SemanticTokensParams(document(uri)))
+    assert found is not None
+    line = column = 0
+    coloured = []
+    lines = [text.encode("utf-16-le") for text in COLOURED.split("\n")]
+    for at in range(0, len(found.data), 5):
+        down, along, length, kind, _ = found.data[at : at + 5]
+        line, column = line + down, along if down else column + along
+        written = lines[line][2 * column : 2 * (column + length)].decode("utf-16-le")
+        coloured.append((written, LEGEND.token_types[kind]))
+    assert coloured == [
+        ("C über", "comment"),
+        ("$MODEL", "namespace"),
+        ("*SEABED PROPERTIES", "keyword"),
+        ("TYPE", "property"),
+        ("=", "operator"),
+        ("ELASTIC", "enumMember"),
+        ("SET", "property"),
+        ("=", "operator"),
+        ("Röhre \U0001f600", "string"),
+        ("STIFFNESS", "property"),
+        ("=", "operator"),
+        ("=[", "operator"),
+        ("2", "number"),
+        ("*", "operator"),
+        ("depth", "variable"),
+        ("]", "operator"),
+        ("1", "number"),
     ]

@@ -89,4 +89,4 @@ def test_a_scheduler_needs_its_library() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert done.returncode == 2
-    assert "mudline: --scheduler needs dask.distributed: pip install 'mudline[cluster]'" in done.stderr
+    assert 'mudline: --scheduler needs dask.distributed: python -m pip install "mudline[cluster]"' in done.stderr

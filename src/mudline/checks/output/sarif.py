@@ -100,7 +100,7 @@ def _descriptor(found: Diagnostic) -> dict[str, Any]:
     title = rule.page.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
     why = rule.page.why if rule else _NO_RULE
     severity = rule.code.severity if rule else found.severity
-    help_uri = page(found.code)
+    address = page(found.code) or ""
     return {
         "id": found.code,
         "name": "".join(word.capitalize() for word in found.slug.split("-")),
@@ -108,7 +108,8 @@ def _descriptor(found: Diagnostic) -> dict[str, Any]:
         "fullDescription": {"text": why},
         "defaultConfiguration": {"level": LEVELS[severity], "enabled": not (rule and rule.off)},
         "help": {"text": f"{title}\n\n{why}"} | ({"markdown": _markdown(rule)} if rule else {}),
-        **({"helpUri": help_uri} if help_uri else {}),
+        # An installed file is another one, or none, where the report is read.
+        **({"helpUri": address} if address.startswith("http") else {}),
     }
 
 

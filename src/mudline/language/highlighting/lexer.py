@@ -55,7 +55,6 @@ class DeckLexer(Lexer):
     """Decks of riser and pipeline analysis in keyword text."""
 
     name = "mudline deck"
-    url = "https://pypi.org/project/mudline/"
     aliases: ClassVar[list[str]] = ["mudline", "keyx"]
     filenames: ClassVar[list[str]] = ["*.keyx", "*.keyxm", "*.keyxi"]
     alias_filenames: ClassVar[list[str]] = ["*.das"]

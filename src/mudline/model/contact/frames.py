@@ -11,6 +11,7 @@ import numpy as np
 
 from mudline.basics.arguments import expect_word
 from mudline.basics.html_repr import html_page, html_table
+from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
 from mudline.basics.short_repr import counted
@@ -204,5 +205,5 @@ def _library(name: str) -> ModuleType:
     try:
         return import_module(name)
     except ImportError as error:
-        message = f"this needs {name}, which is not installed: pip install 'mudline[frames]'"
+        message = f"this needs {name}, which is not installed: {install_hint('frames')}"
         raise ImportError(message, name=name) from error

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.arguments import ArgumentRangeError, expect, several
+from mudline.basics.installed import install_hint
 from mudline.basics.short_repr import counted, outline, short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
 from mudline.model.contact.input import ContactInput, ElementError, PositionError
@@ -191,7 +192,7 @@ class ContactResult:
         try:
             plots = _module("mudline.model.results.plots")
         except ImportError as error:
-            raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
+            raise ImportError(f"a plot needs matplotlib: {install_hint('plot')}") from error
         found: Figure = plots.plot_result(self, path, elements=elements)
         return found
 

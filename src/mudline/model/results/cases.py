@@ -104,7 +104,7 @@ def write_parquet(rows: Sequence[CaseSummary], stream: BinaryIO) -> None:
 
     What UTF-8 cannot hold, as file names may, is escaped.
     """
-    import pyarrow as pa  # noqa: PLC0415 - the extra `parquet`
+    import pyarrow as pa  # noqa: PLC0415 - the extra `frames`
     import pyarrow.parquet as pq  # noqa: PLC0415 - as above
 
     types = {"str": pa.string(), "int": pa.int64(), "float": pa.float64()}

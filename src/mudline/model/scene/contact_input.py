@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from mudline.basics.installed import install_hint
 from mudline.basics.short_repr import counted
 from mudline.language.codes import RUN001
 from mudline.language.diagnostics import DeckError, Problem
@@ -155,7 +156,7 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
     if seabed.missing:
         raise scene.refusal(f"the seabed is not known: {seabed.missing}{_REFUSED}", seabed.where)
     if seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None:
-        message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[surface]'"
+        message = f"a 3D surface needs scipy, which is not installed: {install_hint('bathymetry')}"
         raise scene.refusal(message, seabed.where)
     try:
         return made_seabed(seabed)

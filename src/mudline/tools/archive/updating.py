@@ -9,7 +9,6 @@ import os
 import shutil
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -20,6 +19,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
 from mudline.basics.files import replacement, write_atomically
+from mudline.basics.paths import relative_path
 from mudline.tools.archive.rows import Rows
 from mudline.tools.archive.tables import TABLES, columns_of
 from mudline.tools.running.remembered import Memory
@@ -65,10 +65,7 @@ class Archive:
 
     def place(self, path: str) -> str:
         """Return a path from the folder that holds the archive, so that both may be moved."""
-        path = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
-        with suppress(ValueError):  # on another drive
-            path = os.path.relpath(path, self._root)
-        return _escaped(path.replace(os.sep, "/"))
+        return _escaped(relative_path(path, self._root))
 
     def is_new(self, place: str, key: str) -> bool:
         """Return True if a deck is to be read: its rows are not those of this key. It is counted."""
@@ -86,7 +83,7 @@ class Archive:
         """Remove the decks not seen below folders, and, `everywhere`, those whose files are gone; raises OSError."""
         starts = tuple(os.path.join(one, "") for one in folders)  # noqa: PTH118 - texts
         for place in self._known.keys() - seen:
-            path = os.path.normpath(f"{self._root}/{place}")
+            path = os.path.normpath(os.path.join(self._root, place))  # noqa: PTH118 - a place may be on another drive
             if path.startswith(starts) or (everywhere and not os.path.lexists(path)):
                 self._gone.append(place)
         self.counts["gone"] = len(self._gone)

@@ -6,11 +6,12 @@ import io
 import logging
 import re
 import sys
+from copy import copy
 from typing import BinaryIO, Protocol
 
 from lsprotocol import types
 
-from mudline.tools.lsp import completion, findings, structure
+from mudline.tools.lsp import colours, completion, findings, structure
 from mudline.tools.lsp.help import hints, hover
 from mudline.tools.lsp.navigation import Navigator
 from mudline.tools.lsp.server import DeckServer
@@ -151,6 +152,11 @@ def _layout(server: DeckServer) -> None:
     async def inlay_hints(params: types.InlayHintParams) -> list[types.InlayHint]:
         found = await server.analysis(params.text_document.uri)
         return hints(found, params.range) if found else []
+
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, colours.LEGEND)
+    async def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        document = copy(server.decks.documents.get(params.text_document.uri))  # as it is now
+        return await server.aside(lambda: colours.tokens(document)) if document else types.SemanticTokens([])
 
 
 # ---------------------------------------------------------------------------------------------------------- the process

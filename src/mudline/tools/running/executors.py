@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
 from mudline import __version__
+from mudline.basics.installed import install_hint
 from mudline.basics.outside import refusing_outside
 from mudline.basics.overwriting import Outputs, OverwriteError, continue_run, outputs
 from mudline.language.diagnostics import PluginError
@@ -349,7 +350,7 @@ def check_address(address: str) -> None:
     if found is None or not 0 < int(found["port"]) < 1 << 16:
         raise RunError(f"--scheduler {address}: expected tcp://HOST:PORT or tls://HOST:PORT")
     if find_spec("distributed") is None:
-        raise RunError("--scheduler needs dask.distributed: pip install 'mudline[cluster]'")
+        raise RunError(f"--scheduler needs dask.distributed: {install_hint('cluster')}")
     if found["protocol"] == "tls" or _is_loopback(found["host"].strip("[]")):
         return
 

@@ -16,6 +16,7 @@ from typing import Any, BinaryIO, NamedTuple, Protocol
 
 import numpy as np
 
+from mudline.basics.installed import install_hint
 from mudline.basics.quantities import RESULT_FORMAT, time_unit
 from mudline.model.contact import Plan
 from mudline.model.contact.columns import Column, Table
@@ -50,14 +51,14 @@ FORMS = {
     ),
     "parquet": Form(
         "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
-        "`pip install 'mudline[parquet]'`",
+        f"`{install_hint('frames')}`",
         ("nodes", "summary"),
         "pyarrow",
-        "parquet",
+        "frames",
     ),
     "xlsx": Form(
         "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
-        "`pip install 'mudline[excel]'`",
+        f"`{install_hint('excel')}`",
         (),
         "xlsxwriter",
         "excel",

@@ -1,4 +1,4 @@
-"""Results as tables in Parquet, a group of rows at a time; needs the extra `parquet`."""
+"""Results as tables in Parquet, a group of rows at a time; needs the extra `frames`."""
 
 from __future__ import annotations
 

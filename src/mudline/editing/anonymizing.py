@@ -1,0 +1,187 @@
+"""A deck without what tells whose it is: what the contact needs, with other names, from another origin.
+
+Names become `Set1`, `Curve2` and so on, equations their values; comments, titles, lines that are not read and keywords
+that the contact does not need are left out. Numbers of nodes and elements, elevations, soil and sections stay.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+from mudline.language.codes import RUN001
+from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.deck.model import Deck, Opaque, Section
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import DeckError, Problem, Where
+from mudline.language.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Names
+from mudline.model.contact.result import ContactResult
+from mudline.model.scene.model import Scene, resolve
+from mudline.model.scene.numbering import Floats
+from mudline.model.scene.seabed import SeabedKind
+
+TOLERANCE = 1e-9
+"""Of the largest force: how near the forces of both decks are."""
+
+_NEEDED = {
+    "MODEL": {
+        *("NODE", "ELEMENT", "ELEMENT SETS", "GEOMETRIC SETS", "HYDRODYNAMIC SETS", "OCEAN"),
+        *("FORCE-STRAIN", "MOMENT-CURVATURE", "TORQUE-TWIST"),
+    },
+    "LOAD CASE": {"INTERNAL FLUID"},
+    "ANALYSIS": {"UNITS"},
+}
+_ALL = "all"
+_AnyPart = TypeVar("_AnyPart", bound=Part)
+
+
+class Anonymous(NamedTuple):
+    """The new deck; the keywords left out, in their order; what was taken from Y and Z of the old one."""
+
+    deck: Deck
+    left_out: tuple[str, ...]
+    shift: tuple[float, float]
+
+
+def anonymous(deck: Deck) -> Anonymous:
+    """Return the deck with names replaced and Y and Z from another origin, once its forces are found to be the same.
+
+    Both decks are evaluated at their own coordinates, pressed down and moved sideways. A seabed that slopes through the
+    origin keeps the coordinate up the slope, and both where it slopes neither along Y nor along Z.
+
+    Raises DeckError: the deck cannot be evaluated, it needs other files, or the forces differ by more than `TOLERANCE`.
+    """
+    before = resolve(deck).require_evaluable()
+    shift = _shift(before)
+    hiding = _Hiding(shift)
+    sections = [
+        Section(section.name, [*hiding.blocks(index, section)]) for index, section in enumerate(before.deck.sections)
+    ]
+    if hiding.file is not None:
+        raise _refused(deck, "it names a file, which would have to be made anonymous too", hiding.file)
+    made = Deck("anonymous", units=deck.units, sections=[section for section in sections if section.blocks])
+    read = load_bytes(dump(made, "keyword").encode(), "anonymous.keyx", units=deck.units)
+    left_out = tuple(dict.fromkeys(hiding.left_out))
+    try:
+        same = _same(before, resolve(read).require_evaluable())
+    except DeckError:
+        same = False
+    if not same:
+        lost = ", ".join(f"*{keyword}" for keyword in left_out)
+        raise _refused(deck, f"the forces would change without {lost}" if lost else "the forces would change", None)
+    return Anonymous(read, left_out, shift)
+
+
+def _refused(deck: Deck, why: str, where: Where | None) -> DeckError:
+    return DeckError(deck.diagnose([Problem(RUN001, f"the deck is not made anonymous: {why}", where=where)]))
+
+
+def _shift(scene: Scene) -> tuple[float, float]:
+    """Whole numbers near Y and Z of the first node, 0 where the seabed must not be moved."""
+    y, z = (float(round(value)) for value in scene.coordinates[0, 1:]) if len(scene.coordinates) else (0.0, 0.0)
+    if scene.seabed.kind is not SeabedKind.SLOPING:
+        return y, z
+    direction = scene.seabed.direction % 180.0
+    return (0.0 if direction != 90.0 else y), (0.0 if direction != 0.0 else z)
+
+
+@dataclass
+class _Hiding:
+    """Makes the parts of the new deck: `names` by the folded old one; `file` is the place of the first file."""
+
+    shift: tuple[float, float]
+    names: dict[str, str] = field(default_factory=dict)
+    left_out: list[str] = field(default_factory=list)
+    file: Where | None = None
+
+    def blocks(self, index: int, section: Section) -> Iterator[Block]:
+        """Those that the contact needs."""
+        for number, block in enumerate(section.blocks):
+            if isinstance(block, Opaque) or not _is_needed(section.name, block):
+                self.left_out.append(block.keyword)
+            else:
+                yield self._part(block, Where(index, number))
+
+    def _part(self, part: _AnyPart, where: Where) -> _AnyPart:
+        changed: dict[str, object] = {name: [] for name in ("comments", "unread") if name in type(part).model_fields}
+        for slot in record_schema(type(part)).slots:
+            value = getattr(part, slot.name)
+            if slot.about.names is Names.FILE and value is not None:
+                self.file = self.file or where.inside(slot.json)
+            changed[slot.name] = self._value(value, slot, where)
+        return _moved(part.model_copy(update=changed), self.shift)
+
+    def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
+        if isinstance(value, Part):
+            return self._part(value, where)
+        if isinstance(value, list):
+            return [self._value(item, slot, where) for item in value]
+        if isinstance(value, Table):  # a label that *LABEL gives is a number by now
+            return Table(value.values, value.lengths, dict.fromkeys(value.words))
+        return self._name(value, slot) if isinstance(value, str) and value not in slot.choices else value
+
+    def _name(self, name: str, slot: FieldSpec) -> str:
+        if folded(name) == _ALL:
+            return name
+        thing = slot.about.names or slot.about.defines
+        word = "Name" if thing is None else thing.name.capitalize()
+        return self.names.setdefault(folded(name), f"{word}{len(self.names) + 1}")
+
+
+def _is_needed(section: str, block: Block) -> bool:
+    return block.keyword in _NEEDED.get(section, ()) or (section == "MODEL" and block.subject == "seabed")
+
+
+def _moved(part: _AnyPart, shift: tuple[float, float]) -> _AnyPart:
+    """A part with its horizontal coordinates taken from the new origin."""
+    for name, columns in (("nodes", {2: shift[0], 3: shift[1]}), ("profile", {0: shift[0]})):
+        if isinstance(table := getattr(part, name, None), Table):
+            return part.model_copy(update={name: _columns_moved(table, columns)})
+    axes = {"y": shift[0], "z": shift[1], "y_min": shift[0], "y_max": shift[0], "z_min": shift[1], "z_max": shift[1]}
+    given = {name: getattr(part, name) - by for name, by in axes.items() if getattr(part, name, None) is not None}
+    return part.model_copy(update=given) if given else part
+
+
+def _columns_moved(table: Table, by: dict[int, float]) -> Table:
+    """A table with numbers taken from columns; a Z that is left out is 0."""
+    values, words = table.values.copy(), dict(table.words)
+    lengths = table.lengths.copy()
+    for column, amount in by.items():
+        if amount:
+            values[:, column] = np.nan_to_num(values[:, column]) - amount
+            lengths = np.maximum(lengths, column + 1)
+            words = {place: word for place, word in words.items() if place[1] != column}
+    return Table(values, lengths, words)
+
+
+# ---------------------------------------------------------------------------------------------------------- the proof
+
+
+def _same(before: Scene, after: Scene) -> bool:
+    """Whether both decks have the same elements and, in a few positions, the same forces."""
+    if not (np.array_equal(before.node_ids, after.node_ids) and np.array_equal(before.element_ids, after.element_ids)):
+        return False
+    one, other = _evaluated(before), _evaluated(after)
+    pairs = [(getattr(one, name), getattr(other, name)) for name in ("force", "stiffness", "reaction", "friction")]
+    return all(_near(a, b) for a, b in pairs)
+
+
+def _near(one: Floats | None, other: Floats | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    largest = float(np.nanmax(np.abs(one), initial=0.0))
+    return bool(np.allclose(one, other, rtol=0.0, atol=TOLERANCE * largest, equal_nan=True))
+
+
+def _evaluated(scene: Scene) -> ContactResult:
+    """At its own coordinates, then a third of a diameter lower, as far aside, and back."""
+    diameters = scene.diameter[np.isfinite(scene.diameter)]
+    step = float(diameters.max(initial=0.0)) / 3.0 or math.ulp(1.0)
+    moves = np.array([(0.0, 0.0, 0.0), (-step, 0.0, 0.0), (-step, step, step), (0.0, 0.0, 0.0)])
+    return scene.contact(backend="numpy").evaluate(scene.coordinates + moves[:, None], times=np.arange(4.0))
