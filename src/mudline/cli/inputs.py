@@ -23,6 +23,7 @@ from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.diagnostics import DeckError
+from mudline.language.syntax.source import KEY_FILE
 
 if TYPE_CHECKING:
     from mudline.language.deck.model import Deck
@@ -158,16 +159,18 @@ def collect(
     gitignore: bool = True,
     may_be_empty: bool = False,
     skipped: list[str] | None = None,
+    left_out: Wanted | None = None,
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
     What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen.
     `gitignore` leaves out of a search what `.gitignore` files hide. A directory without a deck is a fault unless it
     `may_be_empty`. `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
+    `left_out` tells which of the files given are not taken either.
     """
 
     def taken(path: str) -> bool:
-        found = wanted(path) and _may_be_file(path)
+        found = wanted(path) and _may_be_file(path) and not is_key_file(path)
         if not found and skipped is not None:
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found
@@ -176,7 +179,7 @@ def collect(
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
             _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
-        else:
+        elif given == STDIN or left_out is None or not left_out(given):
             found.files.append(_single(given, stdin_name))
     found.files = list(dict.fromkeys(found.files))
     for file in found.files:
@@ -185,7 +188,20 @@ def collect(
     return found
 
 
+def is_key_file(path: str) -> bool:
+    """Whether a `.keyx` file is a key of a password manager: these have the same suffix."""
+    if not path.lower().endswith(".keyx"):
+        return False
+    try:
+        with Path(path).open("rb") as stream:
+            return KEY_FILE.match(stream.read(_HEAD).decode("latin-1").removeprefix("\xef\xbb\xbf")) is not None
+    except OSError:
+        return False
+
+
 def _why_skipped(path: str) -> str:
+    if is_key_file(path):
+        return "it is a key file of a password manager"
     if form_of(path) != "keyword":
         return f"it does not begin as a deck in JSON or YAML does, with the format {MARK}..."
     if is_deck(path):
@@ -358,9 +374,21 @@ class GivenDecks(NamedTuple):
     stdin_name: str
     units: str | None
 
-    def collect(self, wanted: Wanted = is_deck, skipped: list[str] | None = None) -> Inputs:
-        """Find the files, as `collect` does."""
-        return collect(self.paths, self.stdin_name, wanted, gitignore=not self.every_file, skipped=skipped)
+    def collect(self, wanted: Wanted = is_deck, *, force_exclude: bool = False) -> Inputs:
+        """Find the files, as `collect` does, without those of directories that the nearest configuration excludes.
+
+        With `force_exclude` no file that it excludes is taken, not even by its name.
+        """
+        from mudline.cli.config_command import Configured  # noqa: PLC0415 - it asks this module what decks are
+
+        excludes = Configured().excludes
+        return collect(
+            self.paths,
+            self.stdin_name,
+            lambda path: wanted(path) and not excludes(path),
+            gitignore=not self.every_file,
+            left_out=excludes if force_exclude else None,
+        )
 
 
 def takes_decks(

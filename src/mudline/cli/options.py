@@ -142,6 +142,10 @@ config = input_option(
 
 isolated = input_option("--isolated", is_flag=True, help="Use no configuration file.")
 
+force_exclude = input_option(
+    "--force-exclude", is_flag=True, help="Leave out what the configuration excludes, also files given by name."
+)
+
 
 def output_format(*formats: str) -> Callable[[Command], Command]:
     """`--output-format` with the formats that a command has."""
