@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import tracemalloc
-from pathlib import Path
 from hashlib import sha256
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings

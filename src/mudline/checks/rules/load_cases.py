@@ -38,8 +38,8 @@ def _analysis(context: LintContext) -> set[str]:
 def no_section(context: LintContext) -> Iterator[Problem]:
     """The file has no section, and so nothing of a deck.
 
-    A file of no bytes is what a copy leaves that was broken off, or a disk that was full; one of comments or words alone
-    is a title whose deck is missing. Fetch the file again, or take it out of the folder of decks.
+    A file of no bytes is what a copy leaves that was broken off, or a disk that was full; one of comments or words
+    alone is a title whose deck is missing. Fetch the file again, or take it out of the folder of decks.
 
     Example:
          C Export riser, rev C
