@@ -349,3 +349,40 @@ def test_the_name_of_standard_input_finds_its_configuration(place: Place) -> Non
     arguments = ("lint", "-", *CONCISE)
     assert "SYN002" in run(*arguments, stdin=BAD_NUMBER.encode()).out
     assert "SYN002" not in run(*arguments, "--stdin-filename", "sub/deck.keyxm", stdin=BAD_NUMBER.encode()).out
+
+
+RUSSIAN = CLEAN.replace("Clay", "Глина")
+
+
+def test_a_deck_in_another_encoding_is_read_and_written_in_it(place: Place, folder: Path) -> None:
+    place(RUSSIAN.replace(" 1, ", "  1,").encode("cp866"))
+    assert "Глина" in run("show", "deck.keyxm", "--encoding", "cp866").out
+    assert "REF" not in run("lint", "deck.keyxm", "--encoding", "cp866", *CONCISE).out
+    assert run("format", "--encoding", "cp866", "deck.keyxm").code == 0
+    assert "Глина" in (folder / "deck.keyxm").read_bytes().decode("cp866")
+    assert run("set", "OCEAN.depth=55", "--encoding", "cp866", "deck.keyxm").code == 0
+    assert "55" in (folder / "deck.keyxm").read_bytes().decode("cp866")
+
+
+def test_the_configuration_gives_the_encoding(place: Place) -> None:
+    place('encoding = "cp866"\n', "mudline.toml")
+    place(RUSSIAN.encode("cp866"))
+    assert "Глина" in run("show", "deck.keyxm").out
+    assert "Глина" in run("curves", "deck.keyxm").out
+
+
+@pytest.mark.parametrize("name", ["nonsense", "hex"])
+def test_an_unknown_encoding(place: Place, name: str) -> None:
+    place(CLEAN)
+    outcome = run("lint", "deck.keyxm", "--encoding", name)
+    assert (outcome.code, f"'{name}' is not known" in outcome.err) == (2, True)
+    place(f'encoding = "{name}"\n', "mudline.toml")
+    assert "encoding must be that of the decks" in run("lint", "deck.keyxm").err
+
+
+def test_a_deck_that_is_not_in_the_encoding(place: Place) -> None:
+    place(RUSSIAN)
+    for command in ("show", "lint"):
+        outcome = run(command, "deck.keyxm", "--encoding", "ascii")
+        assert outcome.code == 2
+        assert "deck.keyxm: it is not in ascii" in outcome.err

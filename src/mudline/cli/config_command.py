@@ -13,6 +13,7 @@ import click
 
 from mudline.basics.patterns import matches
 from mudline.checks.configuration import (
+    ENCODING,
     EXTEND,
     KEYS,
     NO_OUTSIDE,
@@ -30,7 +31,7 @@ from mudline.cli.streams import emit, reason
 
 T = TypeVar("T")
 
-_DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE: False}
+_DEFAULTS = {EXTEND: "", ENCODING: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE: False}
 
 
 @options.command("config")
@@ -111,6 +112,10 @@ class Configured:
         relative = found.relative(path)
         taken = is_deck(path) or matches(relative, include) or is_document(path)
         return taken and not matches(relative, exclude)
+
+    def encoding(self, path: str) -> str:
+        """Return the encoding that the file's configuration gives, "" where it gives none."""
+        return str(self.of(path).values.get(ENCODING, ""))
 
     def excludes(self, path: str) -> bool:
         """Return whether `exclude` of the file's configuration leaves it out."""

@@ -17,7 +17,7 @@ from mudline.checks.configuration import Given
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.config_command import Configured
-from mudline.cli.inputs import STDIN, GivenDecks, collect, is_deck, takes_decks
+from mudline.cli.inputs import STDIN, GivenDecks, is_deck, takes_decks
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.streams import notify
@@ -116,14 +116,7 @@ def command(
     def once() -> int:
         configured = Configured(config, isolated)
         skipped: list[str] | None = [] if view.verbose else None
-        inputs = collect(
-            decks.paths,
-            decks.stdin_name,
-            configured.wanted,
-            gitignore=not decks.every_file,
-            skipped=skipped,
-            left_out=configured.excludes if force_exclude else None,
-        )
+        inputs = decks.collect(configured.wanted, configured=configured, skipped=skipped, force_exclude=force_exclude)
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))

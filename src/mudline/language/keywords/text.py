@@ -96,7 +96,7 @@ def shown(text: str) -> str:
 
 
 def hint(near: str, word: str = "") -> str:
-    """` (did you mean X?)`, or nothing where no word is near; what differs from a `word` that looks the same is told."""
+    """` (did you mean X?)`, or nothing where no word is near; how a `word` that looks the same differs is told."""
     if near and not (word.isascii() and near.isascii()) and _as_seen(word) == _as_seen(near):
         here, there = (text.encode("ascii", "backslashreplace").decode() for text in (word, near))
         return f" (it looks like {near}, but is written with other characters: {here} here, {there} there)"

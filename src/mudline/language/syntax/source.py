@@ -230,6 +230,8 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
             continue
         message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
         severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
+        if severity is None:
+            message += ", or give --encoding; a name that is not defined may be one read wrongly"
         return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
     raise AssertionError("Latin-1 decodes every byte")
 
