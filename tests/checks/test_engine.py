@@ -85,7 +85,8 @@ def test_no_fault_hides_another() -> None:
     expected = [(number, code) for number, (_, _, codes) in enumerate(lines, 1) for code in codes.split()]
     found = lint_bytes(deck.encode(), "deck.keyxm", SYNTAX)
     assert len(expected) == 21
-    assert {code for _, code in expected} == {rule.code.code for rule in SYNTAX}
+    alone = {"SYN018", "SYN019"}  # of files that are no decks
+    assert {code for _, code in expected} == {rule.code.code for rule in SYNTAX} - alone
     assert [(one.line, one.code) for one in found] == expected
 
 
@@ -277,8 +278,6 @@ def test_nothing_deck_like_raises(content: bytes) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "",
-        "C nothing but a comment\n",
         RESTART + "*TIME\n 0, 100\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n",
         "$LOAD CASE\n*WAVE-REGULAR\n 2, 10\n",
         "$MODEL\n*LINES\n LINE=SCR, SECTION=TDZ\n*GEOMETRIC SETS\n SET=scr\n ,,,, 100, 1, 0.2, 0.3, 0.3\n"

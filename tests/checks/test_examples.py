@@ -110,7 +110,7 @@ def test_a_fault_of_meaning_is_found_in_json_and_yaml_too(given: Rule) -> None:
             continue
         found = lint_bytes(text.encode(), name, [given], folder=NOWHERE, dialect=given.page.dialect)
         assert [one.code for one in found] == [given.code.code]
-        assert found[0].line > 1
+        assert found[0].line > 1 or given.code.code == "SYN019"  # of the whole file
 
 
 def test_every_code_and_every_slug_is_there_once() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tracemalloc
 from hashlib import sha256
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -61,6 +62,13 @@ BAD = {
     "no diameter": (NO_DIAMETER.encode(), "SBD009"),
     "NUL": (CLEAN.replace("Clay", "Cl\0ay").encode(), "SYN012"),
     "no section": (b"*NODE\n 1, 0, 0\n", "SYN007"),
+    "nothing": (b"", "SYN019"),
+    "a title": (b"C Export riser, rev C\n", "SYN019"),
+    "merge": (CLEAN.replace("*NODE", "<<<<<<< HEAD\n*NODE").encode(), "SYN018"),
+    "merged in part": (CLEAN.encode() + b"=======\n>>>>>>> survey\n", "SYN018"),
+    "pointer": (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 3\n", "SYN018"),
+    "web page": (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "SYN018"),
+    "xml": (b'<?xml version="1.0"?>\n<Deck/>\n', "SYN018"),
 }
 
 
@@ -75,12 +83,20 @@ def test_every_command_takes_every_fault(place: Place, data: bytes, command: tup
     assert_quiet(run(command[0], place(data), *command[1:]))
 
 
-@pytest.mark.parametrize("name", ["binary", "utf-16"])
-@pytest.mark.parametrize("command", [("curves",), ("evaluate",), ("convert", "--to", "json")], ids=str)
-def test_content_that_is_no_text_is_refused(place: Place, name: str, command: tuple[str, ...]) -> None:
-    outcome = run(command[0], place(BAD[name][0]), *command[1:])
+@pytest.mark.parametrize("name", ["binary", "utf-16", "merge", "web page"])
+@pytest.mark.parametrize("command", [("curves",), ("evaluate",), ("convert", "--to", "json"), ("format",)], ids=str)
+def test_content_that_is_no_deck_is_refused(place: Place, name: str, command: tuple[str, ...]) -> None:
+    data, code = BAD[name]
+    outcome = run(command[0], place(data), *command[1:])
     assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err.startswith("deck.keyxm:1:1: error: SYN012 ")
+    line = data[: data.find(b"<<<")].count(b"\n") + 1 if name == "merge" else 1
+    assert outcome.err.startswith(f"deck.keyxm:{line}:1: error: {code} ")
+    assert Path("deck.keyxm").read_bytes() == data
+
+
+def test_nothing_follows_from_a_merge_conflict(place: Place) -> None:
+    assert codes(place, BAD["merge"][0]) == {"SYN018"}
+    assert codes(place, BAD["merged in part"][0]) == {"SYN018"}
 
 
 def test_binary_content_is_not_shown(place: Place) -> None:
@@ -136,7 +152,7 @@ def test_long_names_do_not_fill_the_screen(place: Place) -> None:
 
 @pytest.mark.parametrize("text", ["", "\n", "\r\n\r\n", "C only a comment", "C only\nC comments\n", "\ufeff", "$MODEL"])
 def test_nearly_nothing(place: Place, text: str) -> None:
-    assert run("lint", place(text)).code == 0
+    assert run("lint", place(text)).code == (text != "$MODEL")
     for command in EVERY:
         assert_quiet(run(command[0], place(text), *command[1:]))
 

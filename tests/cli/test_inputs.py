@@ -307,3 +307,82 @@ def test_no_output_replaces_an_input_or_an_output(place: Place, words: tuple[str
     outcome = run(*words)
     assert (outcome.code, said in outcome.err) == (2, True), outcome.err
     assert {path: path.read_bytes() for path in Path().iterdir() if path.is_file()} == held
+
+
+@pytest.fixture
+def with_excluded(place: Place, folder: Path) -> Path:
+    """A folder whose configuration excludes a deck with an error."""
+    place('exclude = ["old/"]\n', "mudline.toml")
+    place(CLEAN, "own.keyxm")
+    place(BAD_NUMBER, "old/bad.keyxm")
+    return folder
+
+
+@pytest.mark.usefixtures("with_excluded")
+@pytest.mark.parametrize(
+    "arguments",
+    [("lint",), ("validate",), ("format", "--check"), ("set", "OCEAN.depth=55", "--check"), ("report", "-o", "r.html")],
+    ids=lambda arguments: arguments[0],
+)
+def test_a_search_leaves_out_what_the_configuration_excludes(arguments: tuple[str, ...]) -> None:
+    outcome = run(*arguments, ".")
+    assert "bad.keyxm" not in outcome.out + outcome.err
+
+
+@pytest.mark.usefixtures("with_excluded")
+@pytest.mark.parametrize("command", ["lint", "format"])
+def test_force_exclude_leaves_out_a_file_given_by_name(command: str) -> None:
+    assert run(command, "old/bad.keyxm").code == 1
+    assert run(command, "--force-exclude", "old/bad.keyxm", "own.keyxm").code == 0
+
+
+def test_a_key_file_of_a_password_manager_is_no_deck(place: Place) -> None:
+    place(CLEAN, "own.keyxm")
+    place('<?xml version="1.0"?>\n<KeyFile>\n</KeyFile>\n', "vault.keyx")
+    assert names(".") == ["own.keyxm"]
+    assert "vault.keyx: skipped, it is a key file of a password manager" in run("lint", "-v", ".").err
+    assert "SYN018" in run("lint", "vault.keyx").out
+
+
+def test_the_name_of_standard_input_finds_its_configuration(place: Place) -> None:
+    place('ignore = ["SYN002"]\n', "sub/mudline.toml")
+    arguments = ("lint", "-", *CONCISE)
+    assert "SYN002" in run(*arguments, stdin=BAD_NUMBER.encode()).out
+    assert "SYN002" not in run(*arguments, "--stdin-filename", "sub/deck.keyxm", stdin=BAD_NUMBER.encode()).out
+
+
+RUSSIAN = CLEAN.replace("Clay", "Глина")
+
+
+def test_a_deck_in_another_encoding_is_read_and_written_in_it(place: Place, folder: Path) -> None:
+    place(RUSSIAN.replace(" 1, ", "  1,").encode("cp866"))
+    assert "Глина" in run("show", "deck.keyxm", "--encoding", "cp866").out
+    assert "REF" not in run("lint", "deck.keyxm", "--encoding", "cp866", *CONCISE).out
+    assert run("format", "--encoding", "cp866", "deck.keyxm").code == 0
+    assert "Глина" in (folder / "deck.keyxm").read_bytes().decode("cp866")
+    assert run("set", "OCEAN.depth=55", "--encoding", "cp866", "deck.keyxm").code == 0
+    assert "55" in (folder / "deck.keyxm").read_bytes().decode("cp866")
+
+
+def test_the_configuration_gives_the_encoding(place: Place) -> None:
+    place('encoding = "cp866"\n', "mudline.toml")
+    place(RUSSIAN.encode("cp866"))
+    assert "Глина" in run("show", "deck.keyxm").out
+    assert "Глина" in run("curves", "deck.keyxm").out
+
+
+@pytest.mark.parametrize("name", ["nonsense", "hex"])
+def test_an_unknown_encoding(place: Place, name: str) -> None:
+    place(CLEAN)
+    outcome = run("lint", "deck.keyxm", "--encoding", name)
+    assert (outcome.code, f"'{name}' is not known" in outcome.err) == (2, True)
+    place(f'encoding = "{name}"\n', "mudline.toml")
+    assert "encoding must be that of the decks" in run("lint", "deck.keyxm").err
+
+
+def test_a_deck_that_is_not_in_the_encoding(place: Place) -> None:
+    place(RUSSIAN)
+    for command in ("show", "lint"):
+        outcome = run(command, "deck.keyxm", "--encoding", "ascii")
+        assert outcome.code == 2
+        assert "deck.keyxm: it is not in ascii" in outcome.err

@@ -17,7 +17,7 @@ from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL
 
-TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 2 warnings, 1 file unreadable"
+TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 4 errors, 2 warnings, 1 file unreadable"
 
 
 @pytest.fixture
@@ -85,7 +85,7 @@ def test_total_counts_all(decks: str) -> None:
         "legal": 3,
         "illegal": 2,
         "empty": 2,
-        "errors": 2,
+        "errors": 4,
         "warnings": 2,
         "unreadable": 1,
     }

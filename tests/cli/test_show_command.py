@@ -153,7 +153,7 @@ def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
 
 def test_empty_deck(place: Place) -> None:
     outcome = run("show", place(""))
-    assert outcome.code == 0
+    assert outcome.code == 1
     assert outcome.out.startswith("deck.keyxm: metric units, 0 nodes, 0 elements, no seabed\n")
 
 

@@ -53,7 +53,7 @@ SPELLING_EFFORT = 250_000
 
 # --------------------------------------------------------------------------------------------------- what decks ask for
 
-MOST_GENERATED = 10_000_000
+MOST_GENERATED = 1_000_000
 """Nodes or elements that the `GEN=` lines of a deck make together: a slip of a digit must not fill the memory."""
 LARGEST_COORDINATE = 1e150
 """Magnitude of a coordinate of a seabed: differences and squares stay finite."""

@@ -21,10 +21,20 @@ WORDS = {"fail-on": ("error", "warning", "info"), "dialect": ("mudline", "flexco
 TABLES = ("per-file-ignores", "severity")
 EXTEND = "extend"
 NO_OUTSIDE = "no-outside"
-KEYS = (EXTEND, *LISTS, *WORDS, NO_OUTSIDE, *TABLES)
+ENCODING = "encoding"
+KEYS = (EXTEND, *LISTS, *WORDS, NO_OUTSIDE, ENCODING, *TABLES)
 _ADDED = "extend-select"
 OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
 SEVERITIES = ("error", "warning", "info", "off")
+
+
+def is_encoding(name: str) -> bool:
+    """Return whether a name is that of an encoding of text."""
+    try:
+        "".encode(name).decode(name)
+    except (LookupError, ValueError):
+        return False
+    return True
 
 
 CodeFault = Callable[[str], str]
@@ -167,7 +177,7 @@ class _Reading:
     def check(self, key: str, value: object) -> None:
         if key not in KEYS:
             raise self.error(key, f"unknown key {key!r}{_hint(key, KEYS)}")
-        if key in (EXTEND, NO_OUTSIDE):
+        if key in (EXTEND, NO_OUTSIDE, ENCODING):
             self.single(key, value)
         elif key in WORDS:
             self.one_of(key, value, WORDS[key])
@@ -186,6 +196,8 @@ class _Reading:
     def single(self, key: str, value: object) -> None:
         if key == NO_OUTSIDE and not isinstance(value, bool):
             raise self.error(key, f"{key} is true or false, not {value!r}")
+        if key == ENCODING and not (isinstance(value, str) and is_encoding(value)):
+            raise self.error(key, f'{key} must be that of the decks, such as "cp1251", not {value!r}')
         if key == EXTEND and (not isinstance(value, str) or not value.strip()):
             raise self.error(key, f'{key} must be the path of a file, such as "../base.toml", not {value!r}')
 

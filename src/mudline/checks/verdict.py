@@ -10,6 +10,7 @@ from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
 from mudline.checks.engine import joined_problems, unsuppressed
 from mudline.checks.registry import rules, select
+from mudline.checks.rules.load_cases import SYN019
 from mudline.language.codes.contact import SBD006
 from mudline.language.deck.loading import coverage_of
 from mudline.language.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
@@ -75,7 +76,8 @@ def judge(context: LintContext) -> Judgement:
     known = {(one.code, one.line) for one in errors}
     warnings = [one for one in _warnings(context, problems, legal=not errors) if (one.code, one.line) not in known]
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
-    verdict = "illegal" if errors else _legal(len(warnings), keywords) if deck.sections else "empty"
+    empty = [one.code for one in errors] == [SYN019.code]
+    verdict = "empty" if empty else "illegal" if errors else _legal(len(warnings), keywords)
     counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
     return Judgement(Verdict(deck.file, *counts, verdict), errors, warnings)
 

@@ -13,6 +13,7 @@ import click
 
 from mudline.basics.patterns import matches
 from mudline.checks.configuration import (
+    ENCODING,
     EXTEND,
     KEYS,
     NO_OUTSIDE,
@@ -30,7 +31,7 @@ from mudline.cli.streams import emit, reason
 
 T = TypeVar("T")
 
-_DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE: False}
+_DEFAULTS = {EXTEND: "", ENCODING: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE: False}
 
 
 @options.command("config")
@@ -93,7 +94,7 @@ class Configured:
             self._fixed = _read(lambda: read_configuration(path, code_fault=self.code_fault)) or Configuration()
 
     def of(self, path: str | None) -> Configuration:
-        """The configuration of a file; that of standard input is the working folder's."""
+        """The configuration of a file, by its path or the name that standard input is given."""
         if self._fixed is not None:
             return self._fixed
         folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
@@ -111,6 +112,16 @@ class Configured:
         relative = found.relative(path)
         taken = is_deck(path) or matches(relative, include) or is_document(path)
         return taken and not matches(relative, exclude)
+
+    def encoding(self, path: str) -> str:
+        """Return the encoding that the file's configuration gives, "" where it gives none."""
+        return str(self.of(path).values.get(ENCODING, ""))
+
+    def excludes(self, path: str) -> bool:
+        """Return whether `exclude` of the file's configuration leaves it out."""
+        found = self.of(path)
+        exclude = found.words("exclude")
+        return bool(exclude) and matches(found.relative(path), exclude)
 
 
 def _read(read: Callable[[], T]) -> T:

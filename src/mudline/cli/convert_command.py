@@ -149,9 +149,14 @@ def _bed(
         )
     write_text(path, [bed.points])
     write_text(Path(output), [bed.deck])
+    if bed.above:
+        notify(f"{bed.above} of {bed.given} points are above the sea: are they depths, not elevations?")
     if not view.quiet:
         notify(f"{bed.kept} of {bed.given} points, largest difference {bed.error:.3g} m")
         notify(f"{deck.path} -> {output}, {path.as_posix()}")
+    if bed.error > within:
+        notify(f"--within {within:g} m is not held: write the points with more digits, or nearer to X = 0")
+        return FOUND
     return DONE
 
 

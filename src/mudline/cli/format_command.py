@@ -21,14 +21,15 @@ _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 @options.command("format")
 @options.check
 @options.diff
+@options.force_exclude
 @takes_decks(units=False)
-def command(*, decks: GivenDecks, check: bool, diff: bool, view: View) -> int:
+def command(*, decks: GivenDecks, check: bool, diff: bool, force_exclude: bool, view: View) -> int:
     """Rewrite decks in canonical layout, in place: the same deck, line by line, comments included.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input, whose deck
     is printed. A deck with an error is reported and left unchanged.
     """
-    inputs = decks.collect()
+    inputs = decks.collect(force_exclude=force_exclude)
     outcomes = Counter(_outcome(inputs, *each, view, check=check, diff=diff) for each in inputs.contents())
     would = "would be " if check or diff else ""
     words = {_CHANGED: f"{would}{_CHANGED}", _SAME: f"{would}{_SAME}", _FAILED: _FAILED}

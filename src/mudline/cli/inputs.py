@@ -23,8 +23,10 @@ from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.diagnostics import DeckError
+from mudline.language.syntax.source import KEY_FILE
 
 if TYPE_CHECKING:
+    from mudline.cli.config_command import Configured
     from mudline.language.deck.model import Deck
 
 STDIN = "-"
@@ -37,10 +39,14 @@ _HEAD = 4096
 
 
 class Input(NamedTuple):
-    """A file by the name that it is reported under; `path` None is standard input."""
+    """A file by the name that it is reported under; `path` None is standard input.
+
+    A keyword text in an `encoding` is read as if it were in UTF-8, and written back in its own.
+    """
 
     name: str
     path: str | None
+    encoding: str = ""
 
     @property
     def folder(self) -> Path | None:
@@ -54,11 +60,28 @@ class Input(NamedTuple):
         if self.path is not None:
             reading(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
-                return stream.readall()
+                return self._in_utf8(stream.readall())
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
         reading(None)
-        return sys.stdin.buffer.read()
+        return self._in_utf8(sys.stdin.buffer.read())
+
+    def _in_utf8(self, data: bytes) -> bytes:
+        if not self.encoding or form_of(self.name) != "keyword":
+            return data
+        try:
+            return data.decode(self.encoding).encode()
+        except UnicodeError as error:
+            raise OSError(errno.EILSEQ, f"it is not in {self.encoding}: {error}") from error
+
+    def own_bytes(self, content: bytes) -> bytes:
+        """Return a content in the encoding of the file; raises OSError for a letter that this lacks."""
+        if not self.encoding or form_of(self.name) != "keyword":
+            return content
+        try:
+            return content.decode().encode(self.encoding)
+        except UnicodeError as error:
+            raise OSError(errno.EILSEQ, f"{self.encoding} lacks a letter of it: {error}") from error
 
 
 @lru_cache(maxsize=64)
@@ -107,7 +130,7 @@ class Inputs:
             with alone_at(path):
                 found = file.read()
                 if found == read:
-                    write_atomically(path, content)
+                    write_atomically(path, file.own_bytes(content))
                 elif found != content:
                     self.fail(f"{file.name}: {CHANGED}")
                     return False
@@ -158,16 +181,19 @@ def collect(
     gitignore: bool = True,
     may_be_empty: bool = False,
     skipped: list[str] | None = None,
+    left_out: Wanted | None = None,
+    encoding_of: Callable[[str], str] = lambda _: "",
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
     What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen.
     `gitignore` leaves out of a search what `.gitignore` files hide. A directory without a deck is a fault unless it
     `may_be_empty`. `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
+    `left_out` tells which of the files given are not taken either, `encoding_of` the encoding of a path.
     """
 
     def taken(path: str) -> bool:
-        found = wanted(path) and _may_be_file(path)
+        found = wanted(path) and _may_be_file(path) and not is_key_file(path)
         if not found and skipped is not None:
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found
@@ -176,16 +202,29 @@ def collect(
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
             _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
-        else:
+        elif given == STDIN or left_out is None or not left_out(given):
             found.files.append(_single(given, stdin_name))
-    found.files = list(dict.fromkeys(found.files))
+    found.files = [file._replace(encoding=encoding_of(file.path or file.name)) for file in dict.fromkeys(found.files)]
     for file in found.files:
         if file.path is not None:
             reading(file.path)
     return found
 
 
+def is_key_file(path: str) -> bool:
+    """Whether a `.keyx` file is a key of a password manager: these have the same suffix."""
+    if not path.lower().endswith(".keyx"):
+        return False
+    try:
+        with Path(path).open("rb") as stream:
+            return KEY_FILE.match(stream.read(_HEAD).decode("latin-1").removeprefix("\xef\xbb\xbf")) is not None
+    except OSError:
+        return False
+
+
 def _why_skipped(path: str) -> str:
+    if is_key_file(path):
+        return "it is a key file of a password manager"
     if form_of(path) != "keyword":
         return f"it does not begin as a deck in JSON or YAML does, with the format {MARK}..."
     if is_deck(path):
@@ -318,12 +357,16 @@ class GivenDeck(NamedTuple):
     path: str
     stdin_name: str
     units: str | None
+    encoding: str = ""
 
     def content(self) -> tuple[bytes, str]:
         """The content of the file and its name in messages; ends the command when the path cannot be read."""
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
+        from mudline.cli.config_command import Configured  # noqa: PLC0415 - it asks this module what decks are
+
         file = _single(self.path, self.stdin_name)
+        file = file._replace(encoding=self.encoding or Configured().encoding(file.path or file.name))
         try:
             return file.read(), file.name
         except OSError as error:
@@ -357,10 +400,32 @@ class GivenDecks(NamedTuple):
     every_file: bool
     stdin_name: str
     units: str | None
+    encoding: str = ""
 
-    def collect(self, wanted: Wanted = is_deck, skipped: list[str] | None = None) -> Inputs:
-        """Find the files, as `collect` does."""
-        return collect(self.paths, self.stdin_name, wanted, gitignore=not self.every_file, skipped=skipped)
+    def collect(
+        self,
+        wanted: Wanted = is_deck,
+        *,
+        configured: Configured | None = None,
+        skipped: list[str] | None = None,
+        force_exclude: bool = False,
+    ) -> Inputs:
+        """Find the files, as `collect` does, without those of directories that their configuration excludes.
+
+        With `force_exclude` no file that it excludes is taken, not even by its name.
+        """
+        from mudline.cli.config_command import Configured  # noqa: PLC0415 - it asks this module what decks are
+
+        own = configured or Configured()
+        return collect(
+            self.paths,
+            self.stdin_name,
+            lambda path: wanted(path) and not own.excludes(path),
+            gitignore=not self.every_file,
+            skipped=skipped,
+            left_out=own.excludes if force_exclude else None,
+            encoding_of=lambda path: self.encoding or own.encoding(path),
+        )
 
 
 def takes_decks(
@@ -376,12 +441,18 @@ def takes_decks(
             every_file: bool,
             stdin_name: str = "",
             units: str | None = None,
+            encoding: str = "",
             **others: object,
         ) -> int:
-            return command(decks=GivenDecks(paths, every_file, stdin_name, units), **others)
+            return command(decks=GivenDecks(paths, every_file, stdin_name, units, encoding), **others)
 
         found = options.common(given)
-        for option, wanted in ((options.units, units), (options.stdin_name, stdin), (options.every_file, True)):
+        for option, wanted in (
+            (options.encoding, True),
+            (options.units, units),
+            (options.stdin_name, stdin),
+            (options.every_file, True),
+        ):
             found = option(found) if wanted else found
         return options.decks(metavar)(found)
 
@@ -392,10 +463,10 @@ def takes_deck(command: options.Command) -> options.Command:
     """Add DECK, the options about it and those of all commands; the deck arrives as `deck`, a GivenDeck."""
 
     @wraps(command)
-    def given(*, deck: str, stdin_name: str, units: str | None, **others: object) -> int:
-        return command(deck=GivenDeck(deck, stdin_name, units), **others)
+    def given(*, deck: str, stdin_name: str, units: str | None, encoding: str, **others: object) -> int:
+        return command(deck=GivenDeck(deck, stdin_name, units, encoding), **others)
 
-    return options.deck(options.stdin_name(options.units(options.common(refuses_bad_decks(given)))))
+    return options.deck(options.stdin_name(options.units(options.encoding(options.common(refuses_bad_decks(given))))))
 
 
 def refuses_bad_decks(command: options.Command) -> options.Command:

@@ -67,6 +67,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @options.no_outside
 @options.config
 @options.isolated
+@options.force_exclude
 @options.output_option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
 @options.output_option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
 @options.jobs
@@ -92,6 +93,7 @@ def command(
     no_outside: bool,
     config: str | None,
     isolated: bool,
+    force_exclude: bool,
     statistics: bool,
     exit_zero: bool,
     jobs: int,
@@ -114,7 +116,7 @@ def command(
     def once() -> int:
         configured = Configured(config, isolated)
         skipped: list[str] | None = [] if view.verbose else None
-        inputs = decks.collect(configured.wanted, skipped)
+        inputs = decks.collect(configured.wanted, configured=configured, skipped=skipped, force_exclude=force_exclude)
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))

@@ -44,10 +44,10 @@ class Settings:
 
     def of(self, file: Input) -> LintSettings:
         """The settings of a file."""
-        folder = os.path.dirname(file.path or "-")  # noqa: PTH120 - asked for each of many files
+        folder = os.path.dirname(file.path or file.name)  # noqa: PTH120 - asked for each of many files
         if folder in self._of_folder:
             return self._of_folder[folder]
-        found = self.configured.of(file.path)
+        found = self.configured.of(file.path or file.name)
         hidden = hidden_codes(found, file.path or file.name)
         key = (found.path, hidden)
         if key not in self._made:

@@ -94,6 +94,26 @@ units = input_option(
     help="Read the deck in this unit system, not in that of its suffix, *UNITS or gravity.",
 )
 
+
+def _encoding(_context: click.Context, _parameter: click.Parameter, value: str) -> str:
+    """Return the encoding; raises click.BadParameter for a name that Python does not know."""
+    from mudline.checks.configuration import is_encoding  # noqa: PLC0415 - few decks need it
+
+    if value and not is_encoding(value):
+        raise click.BadParameter(
+            f"{value!r} is not known: give one as Python names it, such as cp437, cp1251, shift_jis"
+        )
+    return value
+
+
+encoding = input_option(
+    "--encoding",
+    default="",
+    metavar="NAME",
+    callback=_encoding,
+    help="Read keyword decks in this encoding, such as cp437, and write them in it.",
+)
+
 complete_files = click.Path().shell_complete
 """What a shell completes; paths are not checked here, so that every fault of one is worded the same way."""
 
@@ -141,6 +161,10 @@ config = input_option(
 )
 
 isolated = input_option("--isolated", is_flag=True, help="Use no configuration file.")
+
+force_exclude = input_option(
+    "--force-exclude", is_flag=True, help="Leave out what the configuration excludes, also files given by name."
+)
 
 
 def output_format(*formats: str) -> Callable[[Command], Command]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from mudline.checks.configuration import EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
+from mudline.checks.configuration import ENCODING, EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
 from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN
 from mudline.cli.streams import emit_json, write_text
@@ -46,6 +46,7 @@ MEANINGS = {
     "fail-on": "The least severity that fails a run; warning unless set.",
     "dialect": "The program that the decks are for.",
     "no-outside": "Whether a deck that names a file outside of its project is refused.",
+    "encoding": "The encoding of keyword decks that are not in UTF-8, as Python names it.",
     "per-file-ignores": "Rules that are left out in the files that fit a pattern.",
     "severity": "Severities that hold instead of the rules' own; off leaves a rule out.",
 }
@@ -70,6 +71,8 @@ def _values(key: str) -> dict[str, Any]:
         return {"type": "boolean"}
     if key == EXTEND:
         return _path()
+    if key == ENCODING:
+        return {"type": "string", "minLength": 1}
     if key in WORDS:
         return {"enum": list(WORDS[key])}
     if key in LISTS:

@@ -212,3 +212,15 @@ def test_a_form_is_one_module(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "mudline: a.keyxm -> b.upper\n")
     assert done.stdout == "$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\nC DEEP\n"
+
+
+@pytest.mark.parametrize("letter", ["\x85", "\u2028", "\u2029"])
+def test_other_line_ends_of_unicode_are_letters_in_yaml(letter: str) -> None:
+    text = f"C one{letter}two\n$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n"
+    written = dump(load_bytes(text.encode(), "deck.keyxm"), "yaml")
+    assert letter not in written
+    assert load_bytes(written.encode(), "deck.yaml").preamble == [f"C one{letter}two"]
+    plain = written.replace({"\x85": "\\N", "\u2028": "\\L", "\u2029": "\\P"}[letter], letter)
+    with pytest.raises(DeckError) as caught:
+        load_bytes(plain.replace("depth: 100.0", "depth: [1]").encode(), "deck.yaml").require()
+    assert caught.value.diagnostics[0].line == 1 + plain[: plain.index("depth")].count("\n")

@@ -132,6 +132,68 @@ def test_degrees_are_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("content", "line", "message"),
+    [
+        (
+            ASC.replace("-5", "-5,5").replace("-4", "-4,5"),
+            8,
+            "'-4,5' is not a number: write a point for the decimal comma",
+        ),
+        (ASC.replace("-1 -2 -3", "-1 -2"), 7, "2 elevations, expected 3 as ncols says"),
+        (ASC.replace("-4 -9999 -6\n", ""), 7, "1 row of elevations, expected 2 as nrows says"),
+        (ASC.replace("cellsize 10.0\n", ""), 6, "cellsize missing in the header above this line"),
+        (ASC.replace("nrows 2", "nrows two"), 2, "'two' is not a number"),
+    ],
+    ids=["comma", "columns", "rows", "header", "word"],
+)
+def test_a_fault_of_a_text_grid_has_its_line(content: str, line: int, message: str, tmp_path: Path) -> None:
+    (tmp_path / "bed.asc").write_text(content)
+    with pytest.raises(DeckError) as caught:
+        read_bed(tmp_path / "bed.asc", "esri-asc")
+    found = caught.value.diagnostics[0]
+    assert (found.line, found.message) == (line, f"not a seabed in the form esri-asc: {message}")
+
+
+@pytest.mark.parametrize("fill", ["-32768", "1e38", "-99999"])
+def test_a_fill_value_that_nobody_declared_is_refused_with_its_cell(fill: str, tmp_path: Path) -> None:
+    (tmp_path / "bed.asc").write_text(ASC.replace("-6", fill))
+    with pytest.raises(DeckError, match=r"of 1 cell, first at easting 125, northing 205, seems to stand for no value"):
+        read_bed(tmp_path / "bed.asc", "esri-asc")
+
+
+def test_points_above_the_sea_are_told(tmp_path: Path) -> None:
+    (tmp_path / "bed.asc").write_text(ASC.replace("-", ""))
+    outcome = run("convert", str(tmp_path / "bed.asc"), "-o", str(tmp_path / "bed.keyxm"), "--within", "0.1")
+    assert outcome.code == 0
+    assert "5 of 5 points are above the sea: are they depths, not elevations?" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("scale", "offset", "unit", "first"),
+    [(0.1, 0.0, "", -10.0), (0.01, -5.0, "metre", -6.0), (1.0, 0.0, "ft", -30.48), (1.0, 0.0, "cm", -1.0)],
+)
+def test_scale_offset_and_unit_of_a_band(scale: float, offset: float, unit: str, first: float, tmp_path: Path) -> None:
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "int16", "crs": "EPSG:32631"}
+    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
+    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
+        target.write(np.full((3, 4), -100, dtype=np.int16), 1)
+        target.scales, target.offsets, target.units = (scale,), (offset,), (unit,)
+    assert read_bed(tmp_path / "bed.tif", "geotiff")[:, 0] == pytest.approx([first] * 12, rel=1e-12)
+
+
+def test_an_unknown_unit_of_a_band_is_refused(tmp_path: Path) -> None:
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:32631"}
+    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
+    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
+        target.write(np.ones((3, 4), dtype=np.float32), 1)
+        target.units = ("furlong",)
+    with pytest.raises(DeckError, match="its elevations are in 'furlong': convert them to metres"):
+        read_bed(tmp_path / "bed.tif", "geotiff")
+
+
+@pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (("bed.asc", "-o", "bed.keyxm"), "give its largest error"),

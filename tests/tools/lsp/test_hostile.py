@@ -50,8 +50,19 @@ def test_nothing_is_done_behind_the_shutdown() -> None:
         client.ask("shutdown")
         client.open(URI, "$MODLE\n")
         client.send(id="late", method="textDocument/hover", params=AT)
+        assert client.answer("late")["code"] == -32600
         client.notify("exit")
         assert client.process.wait(30) == 0
+
+
+@pytest.mark.parametrize("params", [{"bad": 1}, [1], 7, {**AT, "position": {"line": "x", "character": 0}}])
+def test_wrong_parameters_are_answered(client: RawClient, params: object) -> None:
+    assert client.ask("textDocument/hover", params)["code"] == -32602
+
+
+def test_an_unreadable_length_is_survived(client: RawClient) -> None:
+    client.write(b"Content-Length: many\r\n\r\n")
+    client.write(b"Content-Length: -5\r\n\r\n")
 
 
 def test_a_document_is_opened_and_closed_twice(client: RawClient) -> None:

@@ -91,10 +91,14 @@ def _goes_on(unified: str, at: int, number: str) -> bool:
 
 def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Rows with blanks or semicolons between their numbers: commas there."""
+    tried: Span | None = None
     for problem in problems:
         if problem.span is None or problem.weight is not Severity.ERROR:
             continue
         line = line_at(blocks.text, problem.span.start)
+        if line == tried:  # a line of 10^5 faults would be searched as often
+            continue
+        tried = line
         written = blocks.text.source.unified[slice(*line)]
         if (other := _GAP.sub(", ", written)) != written:
             yield Correction(problem, (TextEdit(line, other),), line)

@@ -1,4 +1,4 @@
-"""Keywords of a load case that lack what a run needs, or that have no effect in it."""
+"""Sections that are missing, and keywords of a load case that lack what a run needs, or that have no effect in it."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import AnalysisType
     from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
 
+SYN019 = Code("SYN019", "no-section", Severity.ERROR)
 VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
 TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
 
@@ -31,6 +32,28 @@ def _analysis(context: LintContext) -> set[str]:
     """The kinds of run that the deck names."""
     blocks = context.blocks("ANALYSIS TYPE", "LOAD CASE")
     return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
+
+
+@rule(SYN019)
+def no_section(context: LintContext) -> Iterator[Problem]:
+    """The file has no section, and so nothing of a deck.
+
+    A file of no bytes is what a copy leaves that was broken off, or a disk that was full; one of comments or words
+    alone is a title whose deck is missing. Fetch the file again, or take it out of the folder of decks.
+
+    Example:
+         C Export riser, rev C
+        +$MODEL
+        +*OCEAN
+        + 500.0, 1025.0, 9.81
+
+    Finds: 1:1
+    """
+    deck = context.deck
+    if deck.sections or any(problem.weight is Severity.ERROR for problem in deck.problems):
+        return
+    has = "has no $SECTION" if deck.comments or any(map(str.strip, deck.preamble)) else "is empty"
+    yield Problem(SYN019, f"the file {has}: choose the file of a deck, or fetch it again")
 
 
 @rule(VES002)

@@ -229,3 +229,27 @@ SYN014 = Code(
     Finds: 3:23
     """,
 )
+
+SYN018 = Code(
+    "SYN018",
+    "not-a-deck",
+    Severity.ERROR,
+    """
+    The file is no deck, or two versions of one that were not merged.
+
+    A merge that stopped at a conflict leaves both versions in the file, between marks of `<`, `=` and `>`: nobody knows
+    which lines hold, so none is read. A pointer of Git LFS stands where `git lfs pull` was forgotten, a web page where
+    a download asked for a password, and password managers name their key files `.keyx`, too. The file is neither read
+    nor rewritten. Solve the conflict, or fetch the deck.
+
+    Example on ocean:
+         *OCEAN
+        -<<<<<<< HEAD
+          500.0, 1025.0, 9.81
+        -=======
+        - 510.0, 1025.0, 9.81
+        ->>>>>>> survey-2026
+
+    Finds: 3:1
+    """,
+)

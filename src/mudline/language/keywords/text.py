@@ -95,9 +95,20 @@ def shown(text: str) -> str:
     return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
-def hint(near: str) -> str:
-    """` (did you mean X?)`, or nothing where no word is near."""
+def hint(near: str, word: str = "") -> str:
+    """` (did you mean X?)`, or nothing where no word is near; how a `word` that looks the same differs is told."""
+    if near and not (word.isascii() and near.isascii()) and _as_seen(word) == _as_seen(near):
+        here, there = (text.encode("ascii", "backslashreplace").decode() for text in (word, near))
+        return f" (it looks like {near}, but is written with other characters: {here} here, {there} there)"
     return f" (did you mean {near}?)" if near else ""
+
+
+def _as_seen(text: str) -> str:
+    """A text in which accents are parts of their letters, without characters that nobody sees."""
+    import unicodedata  # noqa: PLC0415 - few decks have such letters
+
+    seen = (letter for letter in unicodedata.normalize("NFKC", text) if unicodedata.category(letter) != "Cf")
+    return "".join(seen).casefold()
 
 
 def suggestion(word: str, known: Iterable[str], effort: Effort | None = None) -> str:

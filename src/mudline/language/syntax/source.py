@@ -10,7 +10,7 @@ from functools import cached_property
 
 from mudline.basics.limits import LARGEST_DECK, LONGEST_LINE, MOST_LINES, MOST_WORDED
 from mudline.basics.short_repr import short_repr
-from mudline.language.codes.lines import SYN012
+from mudline.language.codes.lines import SYN012, SYN018
 from mudline.language.diagnostics import Problem, Severity, Span
 
 _BOM = b"\xef\xbb\xbf"
@@ -47,7 +47,8 @@ _FEW = 8
 class Source:
     """A file's text without byte-order mark; `to_bytes` gives back the bytes that were read.
 
-    `readable` is False for content that is not the text of a deck (UTF-16, binary data): it is kept, but not parsed.
+    `readable` is False for content that is not the text of a deck (UTF-16, binary data, a web page, two versions with
+    the marks of a merge): it is kept, but not parsed.
     `clean` says that the text holds none of the control characters that are read over; where it does not, it may.
     """
 
@@ -71,6 +72,8 @@ class Source:
             problem = Problem(SYN012, refusal, Span(0, 0), Severity.ERROR)
             return cls(name, body.decode("latin-1"), "latin-1", bom, readable=False, problems=(problem,))
         text, encoding, problems = _decode(body)
+        if foreign := _not_a_deck(text):
+            return cls(name, text, encoding, bom, readable=False, problems=(foreign,))
         clean = not body.translate(None, _NO_CONTROLS) and (body.isascii() or _BOM not in body)
         found = [] if clean else _control_characters(text)
         return cls(name, text, encoding, bom, problems=(*problems, *found), clean=clean)
@@ -143,6 +146,34 @@ def _heads_found(text: str) -> str:
     return "".join((*pieces, text[done:])) if pieces else text
 
 
+_MERGE_MARK = re.compile(r"^(?:<{7}|>{7})(?= |\r?$)", re.MULTILINE)
+KEY_FILE = re.compile(r"\s*<\?xml[^>]*>\s*<KeyFile\b")
+"""How a key file of a password manager begins, whose suffix is that of decks."""
+_NO_DECK = re.compile(
+    rf"(?P<key>{KEY_FILE.pattern})|\s*(?:(?P<lfs>version https://git-lfs\.)|(?P<page><(?:!DOCTYPE|html)\b)"
+    r"|(?P<xml><\?xml\b))",
+    re.IGNORECASE,
+)
+"""How files begin that stand where a deck should."""
+_INSTEAD = {
+    "lfs": "this is a pointer of Git LFS, not a deck: fetch the deck with git lfs pull",
+    "key": "this is a key file of a password manager, not a deck",
+    "page": "this is a web page, not a deck: fetch the file again, where you are logged in",
+    "xml": "this is an XML file, not a deck: choose the keyword file",
+}
+
+
+def _not_a_deck(text: str) -> Problem | None:
+    """What a text is that is no deck; None for one that may be."""
+    if found := _NO_DECK.match(text):
+        return Problem(SYN018, _INSTEAD[str(found.lastgroup)], Span(*found.span()))
+    marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern takes long in a large file
+    if marks and (found := _MERGE_MARK.search(text)):
+        message = "a merge conflict is not solved: keep one of its versions, and remove its marks"
+        return Problem(SYN018, message, Span(*found.span()))
+    return None
+
+
 _OF_NUMBERS = b"+-.,0123456789eEdD \t"
 _STRANGE = bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})
 """Control characters that no text has many of."""
@@ -199,6 +230,8 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
             continue
         message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
         severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
+        if severity is None:
+            message += ", or give --encoding; a name that is not defined may be one read wrongly"
         return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
     raise AssertionError("Latin-1 decodes every byte")
 

@@ -258,7 +258,7 @@ class Context:
         Names that are equally near are all among them.
         """
         near = equally_near(folded(word), names, self._effort)
-        return hint(" or ".join(names[each] for each in near[:MOST_NAMED]))
+        return hint(" or ".join(names[each] for each in near[:MOST_NAMED]), word)
 
     def near(self, word: str, known: Collection[str]) -> str:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""

@@ -111,16 +111,21 @@ def _node_line(context: Context, gathered: Definitions, given: NodeRange, where:
     start, end, step = numbers
     count = -1 if step < 1 or end <= start or (end - start) % step else (end - start) // step - 1
     fault = f"GEN={start}, {end}, {step} does not lead from node {start} to node {end}: correct it" if count < 0 else ""
+    if gathered.generated > MOST_GENERATED:  # said at the line that went beyond it
+        return None
     if count > MOST_GENERATED - gathered.generated:
-        fault = (
-            f"GEN={start}, {end}, {step} would make {count} nodes: a deck must not generate more than {MOST_GENERATED}"
-        )
+        gathered.generated += count
+        fault = f"GEN={start}, {end}, {step} would make {count} nodes: {_most('nodes')}"
     if fault:
         context.report(REF010, fault, place, Severity.ERROR)
         context.doubtful.setdefault("NODE", []).append((min(start, end), max(start, end)))
         return None
     ids = np.arange(start + step, end, step, dtype=np.int64)
     return _NodeLine(Batch(ids, np.full((count, 3), np.nan), place), (start, end))
+
+
+def _most(made: str) -> str:
+    return f"the GEN= lines of a deck must not make more than {MOST_GENERATED} {made}, overlaps counted"
 
 
 def _between(gathered: Definitions, line: _NodeLine) -> bool:
@@ -213,6 +218,8 @@ def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern,
         context.unread.add("ELEMENT")
         return
     master, count, step = numbers
+    if gathered.generated > MOST_GENERATED:  # said at the line that went beyond it
+        return
     if fault := _pattern_fault(gathered, master, count, step):
         context.report(REF010, fault, place, Severity.ERROR)
         context.doubtful.setdefault("ELEMENT", []).append((master, LARGEST_WHOLE))
@@ -232,7 +239,8 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
     if count < 1 or step < 1:
         return f"GEN={master}, {count}, {step}: the number of elements and the increment must be at least 1"
     if count - 1 > MOST_GENERATED - gathered.generated:
-        return f"GEN={master}, {count}, {step}: a deck must not generate more than {MOST_GENERATED} elements"
+        gathered.generated += count - 1
+        return f"GEN={master}, {count}, {step} would make {count - 1} elements: {_most('elements')}"
     if abs(master) + (count - 1) * step > LARGEST_WHOLE:
         return (
             f"GEN={master}, {count}, {step}: no element may have the number {master + (count - 1) * step}: correct it"

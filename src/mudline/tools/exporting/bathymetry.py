@@ -10,6 +10,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from mudline.basics.limits import LARGEST_FILE, MOST_CELLS
 from mudline.basics.quantities import shown
+from mudline.basics.short_repr import counted
 from mudline.model.contact.seabed.scattered import ScatteredSeabed
 from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.numbering import Floats, Indices
@@ -17,16 +18,34 @@ from mudline.model.scene.seabed import parse_profile
 from mudline.tools.exporting.report import one_line
 
 _METRE = ("metre", "meter", "m")
+_UNITS = {
+    **dict.fromkeys(("", "metre", "meter", "metres", "meters", "m"), 1.0),
+    **dict.fromkeys(("centimetre", "centimeter", "centimetres", "centimeters", "cm"), 0.01),
+    **dict.fromkeys(("millimetre", "millimeter", "millimetres", "millimeters", "mm"), 0.001),
+    **dict.fromkeys(("kilometre", "kilometer", "kilometres", "kilometers", "km"), 1000.0),
+    **dict.fromkeys(("foot", "feet", "ft", "international foot"), 0.3048),
+    **dict.fromkeys(("us survey foot", "us survey feet", "ftus"), 1200.0 / 3937.0),
+    **dict.fromkeys(("fathom", "fathoms"), 1.8288),
+}
+"""Metres in a unit of a band."""
+_EARTH = (-11_100.0, 9_000.0)
+"""Elevations of the ground anywhere, in metres: the deepest trench and the highest mountain, rounded outwards."""
+_ISOLATED = 10.0
+"""How often the spread of all other elevations lies between them and a value that stands for a missing one."""
 
 
 class Bed(NamedTuple):
-    """The deck of a seabed, the text of its file of points, how many points of how many, and the largest difference."""
+    """The deck of a seabed, the text of its file of points, how many points of how many, and the largest difference.
+
+    `above` is how many points are above the sea, X = 0 of the grid itself.
+    """
 
     deck: str
     points: str
     kept: int
     given: int
     error: float
+    above: int
 
 
 def read_bed(path: Path, form: str) -> Floats:
@@ -37,12 +56,38 @@ def read_bed(path: Path, form: str) -> Floats:
     file = path.as_posix()
     try:
         found = _geotiff(path) if form == "geotiff" else _text_grid(path, form)
-    except (ValueError, IndexError, KeyError) as error:
+    except _GridError as error:
+        raise data_error(file, f"not a seabed in the form {form}: {error}", error.line) from error
+    except (ValueError, IndexError, OverflowError) as error:
         raise data_error(file, f"not a seabed in the form {form}: {error}") from error
     found = found[np.isfinite(found).all(axis=1)]
     if len(found) < 3:
         raise data_error(file, f"the grid has {len(found)} points with a value; expected three or more")
+    if filled := _fill(found):
+        raise data_error(file, filled)
     return found
+
+
+def _fill(points: Floats) -> str:
+    """Return what is wrong with an elevation that must be a fill value nobody declared; "" where none is.
+
+    No ground on earth is so high or so deep; or it is a round fill value, alone and far from all others.
+    """
+    level = points[:, 0]
+    low, high = float(level.min()), float(level.max())
+    for value in (low, high):
+        others = level[level != value]
+        least, most = (float(others.min()), float(others.max())) if others.size else (value, value)
+        gap = least - value if value == low else value - most
+        round_ = value in (-9999.0, -99999.0, -32768.0, 9999.0, 99999.0, 32767.0)
+        if not _EARTH[0] <= value <= _EARTH[1] or (round_ and gap > _ISOLATED * (most - least)):
+            _, east, north = points[int(np.flatnonzero(level == value)[0])].tolist()
+            return (
+                f"the elevation {shown(value)} of {counted(int((level == value).sum()), 'cell')}, first at easting "
+                f"{shown(east, 9)}, northing {shown(north, 9)}, seems to stand for no value, as the others are between "
+                f"{shown(least)} and {shown(most)}: declare it in the grid (NODATA_value, or nodata of the band)"
+            )
+    return ""
 
 
 def _geotiff(path: Path) -> Floats:
@@ -56,7 +101,11 @@ def _geotiff(path: Path) -> Floats:
                 raise ValueError("its coordinates are not in metres: project it, as to UTM")
             if source.width * source.height > MOST_CELLS:
                 raise ValueError(f"more than {MOST_CELLS // 10**6} million cells: cut out what lies around the line")
+            unit = (source.units[0] or "").strip()
+            if unit.lower() not in _UNITS:
+                raise ValueError(f"its elevations are in {unit!r}: convert them to metres")
             level = source.read(1, masked=True).astype(np.float64).filled(np.nan)
+            level = (level * source.scales[0] + source.offsets[0]) * _UNITS[unit.lower()]
             rows, columns = np.indices(level.shape)
             a, b, c, d, e, f = source.transform[:6]
     except RasterioError as error:
@@ -77,11 +126,20 @@ def _text_grid(path: Path, form: str) -> Floats:
 def _esri(lines: list[str]) -> Floats:
     """Cells row by row from the north; the corner or the middle of the lowest on the left is given."""
     head: dict[str, float] = {}
-    while lines[len(head)].strip()[:1].isalpha():
-        key, value = lines[len(head)].split()
-        head[key.lower()] = float(value)
+    while len(head) < len(lines) and lines[len(head)].strip()[:1].isalpha():
+        key, _, value = lines[len(head)].strip().partition(" ")
+        head[key.lower()] = _floats([value.strip()], len(head) + 1)[0]
+    given = {name.replace("center", "corner") for name in head}
+    if lacking := [one for one in ("ncols", "nrows", "xllcorner", "yllcorner", "cellsize") if one not in given]:
+        raise _GridError(len(head) + 1, f"{' and '.join(lacking)} missing in the header above this line")
     columns, rows, size = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
-    level = np.array(" ".join(lines[len(head) :]).split(), dtype=np.float64).reshape(rows, columns)
+    table = [(number, words) for number, line in enumerate(lines, 1) if number > len(head) and (words := line.split())]
+    if sum(len(words) for _, words in table) != columns * rows:
+        for number, words in table:
+            if len(words) != columns:
+                raise _GridError(number, f"{len(words)} elevations, expected {columns} as ncols says")
+        raise _GridError(len(head) + 1, f"{counted(len(table), 'row')} of elevations, expected {rows} as nrows says")
+    level = np.concatenate([_floats(words, number) for number, words in table]).reshape(rows, columns)
     level[level == head.get("nodata_value", -9999.0)] = np.nan
     west, south = (
         head[f"{axis}llcenter"] if f"{axis}llcenter" in head else head[f"{axis}llcorner"] + 0.5 * size for axis in "xy"
@@ -92,21 +150,48 @@ def _esri(lines: list[str]) -> Floats:
 
 def _moordyn_c(lines: list[str]) -> Floats:
     """Numbers of columns and rows, their x and y, then x, y and elevation of each point."""
-    columns, rows = (int(word) for word in lines[0].split())
-    points = np.array([[float(word) for word in line.split()] for line in lines[3:] if line.strip()])
-    if points.shape != (columns * rows, 3):
-        raise ValueError(f"expected {columns} x {rows} lines of x, y and elevation")
-    return points[:, [2, 0, 1]]
+    columns, rows = (int(one) for one in _floats(lines[0].split(), 1))
+    points = [_floats(line.split(), number) for number, line in enumerate(lines[3:], 4) if line.strip()]
+    if len(points) != columns * rows or any(len(point) != 3 for point in points):
+        raise _GridError(4, f"expected {columns} x {rows} lines of x, y and elevation")
+    return np.array(points)[:, [2, 0, 1]]
 
 
 def _moordyn_f(lines: list[str]) -> Floats:
     """`nGridX n`, `nGridY m`, the x of the columns, then y and the depths of each row."""
-    columns, rows = (int(line.split()[1]) for line in lines[1:3])
-    east = np.array(lines[3].split(), dtype=np.float64)
-    table = np.array([[float(word) for word in line.split()] for line in lines[4 : 4 + rows]])
-    if table.shape != (rows, columns + 1) or len(east) != columns:
-        raise ValueError(f"expected {rows} lines of y and {columns} depths")
-    return np.column_stack([-table[:, 1:].ravel(), np.tile(east, rows), np.repeat(table[:, 0], columns)])
+    columns, rows = (int(_floats(lines[at].split()[1:2], at + 1)[0]) for at in (1, 2))
+    east = _floats(lines[3].split(), 4)
+    table = [_floats(line.split(), number) for number, line in enumerate(lines[4 : 4 + rows], 5)]
+    if len(table) != rows or any(len(row) != columns + 1 for row in table) or len(east) != columns:
+        raise _GridError(5, f"expected {rows} lines of y and {columns} depths")
+    values = np.array(table)
+    return np.column_stack([-values[:, 1:].ravel(), np.tile(east, rows), np.repeat(values[:, 0], columns)])
+
+
+class _GridError(ValueError):
+    """A fault of a grid in text, with its line."""
+
+    def __init__(self, line: int, message: str) -> None:
+        super().__init__(message)
+        self.line = line
+
+
+def _floats(words: list[str], line: int) -> Floats:
+    """Return the numbers of a line; raises _GridError for a word that is none."""
+    try:
+        return np.array(words, dtype=np.float64)
+    except ValueError:
+        word = next(word for word in words if not _is_number(word))
+        comma = ": write a point for the decimal comma" if "," in word else ""
+        raise _GridError(line, f"{word!r} is not a number{comma}") from None
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def thinned(points: Floats, within: float) -> Indices:
@@ -139,7 +224,8 @@ def bed_deck(path: Path, form: str, output: str, within: float, origin: tuple[fl
 
     Raises OSError, or DeckError for what is not a grid or has its points on a line.
     """
-    given = read_bed(path, form) - np.array(origin)
+    grid = read_bed(path, form)
+    given = grid - np.array(origin)
     try:
         kept = given[thinned(given, within)]
     except (QhullError, ValueError) as error:
@@ -155,4 +241,4 @@ def bed_deck(path: Path, form: str, output: str, within: float, origin: tuple[fl
         f"X = 0 is at elevation {elevation}; Y is easting - {east}, Z northing - {north}. Metres",
     ]
     deck = [*(f"C {line}" for line in head), "$MODEL", "*SEABED PROFILE", " TYPE=3D", f" FILE={output}"]
-    return Bed("".join(f"{line}\n" for line in deck), rows, len(kept), len(given), worst)
+    return Bed("".join(f"{line}\n" for line in deck), rows, len(kept), len(given), worst, int((grid[:, 0] > 0.0).sum()))

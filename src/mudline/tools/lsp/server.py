@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcException
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams, JsonRpcInvalidRequest
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
@@ -30,6 +30,22 @@ class DeckProtocol(LanguageServerProtocol):
     def documents(self) -> DeckServer:
         """The server, which has the open documents."""
         return cast("DeckServer", self._server)
+
+    def structure_message(self, data: dict[str, Any]) -> Any:  # noqa: ANN401 - as pygls
+        """Return the message of what was read; a request with wrong parameters is answered, which pygls leaves out."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException:
+            if "id" in data and "method" in data:
+                self._send_response(data["id"], None, JsonRpcInvalidParams().to_response_error())
+            raise
+
+    def handle_message(self, message: Any) -> None:  # noqa: ANN401 - as pygls
+        """Answer a message; a request after the shutdown is refused, which pygls leaves without an answer."""
+        if self._shutdown and hasattr(message, "method") and hasattr(message, "id"):
+            self._send_response(message.id, None, JsonRpcInvalidRequest().to_response_error())
+            return
+        super().handle_message(message)
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:

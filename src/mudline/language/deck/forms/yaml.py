@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from bisect import bisect_right
 from typing import Any, Protocol, cast
 
 import yaml
@@ -43,6 +44,10 @@ def _resolvers() -> dict[str, list[tuple[str, re.Pattern[str]]]]:
         for first in firsts:
             table.setdefault(first, []).append((_TAG + name, re.compile(pattern)))
     return table
+
+
+_OTHER_BREAK = re.compile("[\x85\u2028\u2029]")
+"""Ends of lines for YAML 1.1, but not for YAML 1.2 nor for an editor; between double quotes they are escaped."""
 
 
 def _quoted() -> dict[str, list[tuple[str, re.Pattern[str]]]]:
@@ -118,6 +123,12 @@ _Dumper.add_representer(
 )
 _Dumper.add_representer(
     float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", _with_point(repr(value)))
+)
+_Dumper.add_representer(
+    str,
+    lambda dumper, text: dumper.represent_scalar(
+        "tag:yaml.org,2002:str", text, style='"' if _OTHER_BREAK.search(text) else None
+    ),
 )
 _Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", "null"))
 
@@ -215,28 +226,37 @@ class _Reader:
 
 
 class Mark(Protocol):
-    """A place that the parser tells, whether its C library or its Python one; both count from 0."""
+    """A place that the parser tells, whether its C library or its Python one; counted from 0."""
 
-    line: int
-    column: int
+    index: int
+
+
+_LINE_END = re.compile(r"\r\n|\r|\n")
+
+
+class _Lines:
+    """The lines of a text, which end with LF, CRLF or CR alone: the parser counts by other ends, too."""
+
+    def __init__(self, text: str) -> None:
+        self.starts = [0, *(found.end() for found in _LINE_END.finditer(text))]
+
+    def place(self, mark: Mark) -> tuple[int, int]:
+        """Return line and column of a mark, from 1."""
+        line = bisect_right(self.starts, mark.index)
+        return line, mark.index - self.starts[line - 1] + 1
 
 
 def mark_range(text: str, mark: Mark | None) -> Range:
-    """Line and column of a mark; one behind the last line stands at its end, none at the start of the text."""
+    """Line and column of a mark; none is at the start of the text."""
     if mark is None:
         return START
-    lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
-    return _between(mark, mark, lines, width)
-
-
-def _between(start: Mark, end: Mark, lines: int, width: int) -> Range:
-    places = [(mark.line + 1, mark.column + 1) if mark.line < lines else (lines, width) for mark in (start, end)]
-    return Range(*places[0], *places[1])
+    place = _Lines(text).place(mark)
+    return Range(*place, *place)
 
 
 def locator(text: str, root: yaml.Node | None) -> Locate:
     """A function that finds the place of a path, or of the nearest thing around it."""
-    lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
+    lines = _Lines(text)
     known: dict[int, dict[str, yaml.Node]] = {}
     rows: dict[int, list[int]] = {}
 
@@ -257,17 +277,17 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
             below = inner(node, part)
             if below is None:
                 if isinstance(node, yaml.ScalarNode) and node.style == "|" and isinstance(part, int):
-                    rows[id(node)] = rows.get(id(node)) or _row_lines(node)
-                    number = next(iter(rows[id(node)][part : part + 1]), node.start_mark.line + 2)
+                    first = lines.place(node.start_mark)[0] + 1
+                    rows[id(node)] = rows.get(id(node)) or _row_lines(node, first)
+                    number = next(iter(rows[id(node)][part : part + 1]), first)
                     return Range(number, 1, number, 1)
                 break
             node = below
-        return _between(node.start_mark, node.end_mark, lines, width)
+        return Range(*lines.place(node.start_mark), *lines.place(node.end_mark))
 
     return locate
 
 
-def _row_lines(block: yaml.ScalarNode) -> list[int]:
-    """The lines of the rows of a table that is a block of text; blank lines are not rows."""
-    first = block.start_mark.line + 2
+def _row_lines(block: yaml.ScalarNode, first: int) -> list[int]:
+    """The lines of the rows of a table that is a block of text, from its first; blank lines are not rows."""
     return [first + number for number, line in enumerate(block.value.split("\n")) if line.strip()]
