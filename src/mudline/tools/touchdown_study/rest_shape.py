@@ -410,7 +410,7 @@ def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | No
             state = at_rest(moved, soil_of(stretch)).state
         except NotConvergedError:
             return None
-        missing = vertical - float((moved.stiffness.times(state) - moved.load)[-2])
+        missing = vertical - float((moved.stiffness @ state - moved.load)[-2])
         trials.append((height, missing, state))
         if abs(missing) <= _ROUNDED * abs(vertical):
             break
