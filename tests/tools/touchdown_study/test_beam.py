@@ -9,9 +9,9 @@ import pytest
 
 from mudline.model.contact import ContactInput
 from mudline.model.contact.input import LawAssignment
-from mudline.tools.touchdown_study.beam import Beam, Scheme, at_rest, march
+from mudline.model.scene.time_stepping import Scheme, generalised_alpha, hilber_hughes
+from mudline.tools.touchdown_study.beam import Beam, at_rest, march
 from mudline.tools.touchdown_study.soil import ElasticSoil, SteppedSoil
-from mudline.tools.touchdown_study.zone import generalised_alpha, hilber_hughes
 
 EI, TENSION, WEIGHT, SOIL = 3.0e7, 250.0e3, 900.0, 20.0e3
 LEFT, RIGHT, SIZE = 120.0, 60.0, 0.5

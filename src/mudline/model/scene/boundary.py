@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.rows import read_number
+from mudline.model.contact.lines import lines_of
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
@@ -100,3 +102,32 @@ def vessel_offset(scene: Scene, vessel: str) -> Floats:
             if vessel and folded(str(each.vessel)) == folded(vessel):
                 found = np.array([number(each.offset, axis, 0.0) for axis in "xyz"])
     return found
+
+
+class HeldLine(NamedTuple):
+    """A line between two ends: indices of its elements (m,) and nodes (m + 1,), freedoms held and vessel of each end.
+
+    number: in the deck, from 1. A vessel without a name is "".
+    """
+
+    number: int
+    elements: Indices
+    nodes: Indices
+    held: tuple[frozenset[int], frozenset[int]]
+    vessels: tuple[str, str]
+
+
+def lines_between(scene: Scene) -> Iterator[HeldLine]:
+    """Yield the lines of a scene, cut at inner nodes that are held in all directions."""
+    held, vessels = held_nodes(scene)
+    lines = lines_of(scene.element_nodes, np.nan_to_num(scene.length), len(scene.node_ids))
+    nothing: frozenset[int] = frozenset()
+    number = 0
+    for elements, nodes in zip(lines.elements, lines.nodes, strict=True):
+        inner = [at for at in range(1, len(nodes) - 1) if held.get(int(nodes[at]), nothing) >= TRANSLATIONS]
+        for first, last in pairwise([0, *inner, len(nodes) - 1]):
+            number += 1
+            ends = int(nodes[first]), int(nodes[last])
+            freedoms = (held.get(ends[0], nothing), held.get(ends[1], nothing))
+            names = (vessels.get(ends[0], ""), vessels.get(ends[1], ""))
+            yield HeldLine(number, elements[first:last], nodes[first : last + 1], freedoms, names)

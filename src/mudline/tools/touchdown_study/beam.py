@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
+from mudline.model.scene.time_stepping import Scheme
 from mudline.tools.touchdown_study.soil import Reaction, Soil
 
 _ITERATIONS, _CUTS, _STATIC_ITERATIONS = 25, 6, 200
@@ -25,35 +26,6 @@ _ENOUGH, _A_STEP = 500, 40
 """Evaluations of the equations that a run may take before it is given up: to begin with, and for each step."""
 _TOLERANCE = 1e-6
 """Residual of a node over the weight of the shortest element."""
-
-
-class Scheme(NamedTuple):
-    """A time integration scheme: M [(1 - am) a1 + am a0] + (1 - af) R1 + af R0 = 0 with Newmark's gamma and beta.
-
-    name: "generalised-alpha" or "hilber-hughes". rho, alpha: the parameter of each, None for the other.
-    """
-
-    name: str
-    alpha_m: float
-    alpha_f: float
-    rho: float | None = None
-    alpha: float | None = None
-
-    @property
-    def radius(self) -> float:
-        """Spectral radius at infinite frequency."""
-        share = self.alpha_f if self.alpha is None else 0.5 * (1.0 + self.alpha)
-        return share / (1.0 - share)
-
-    @property
-    def gamma(self) -> float:
-        """Newmark's gamma of second order."""
-        return 0.5 - self.alpha_m + self.alpha_f
-
-    @property
-    def beta(self) -> float:
-        """Newmark's beta of the least dissipation at low frequencies."""
-        return 0.25 * (1.0 - self.alpha_m + self.alpha_f) ** 2
 
 
 class NotConvergedError(Exception):
@@ -122,12 +94,12 @@ class Beam:
     @cached_property
     def load(self) -> FloatArray:
         """Load (2 n,) of the weight, with the moment at the right end."""
-        each = np.column_stack(
-            [0.5 * self.lengths, self.lengths**2 / 12.0, 0.5 * self.lengths, -(self.lengths**2) / 12.0]
-        )
-        found = _scattered(-self.weight * each)
-        found[-1] += self.end_moment
-        return found
+        force, moment = -0.5 * self.weight * self.lengths, -self.weight * self.lengths**2 / 12.0
+        found = np.zeros((len(self.lengths) + 1, 2))
+        found[:-1] += np.column_stack([force, moment])
+        found[1:] += np.column_stack([force, -moment])
+        found[-1, 1] += self.end_moment
+        return found.ravel()
 
     @cached_property
     def drag_at_nodes(self) -> FloatArray:
@@ -163,14 +135,6 @@ class Beam:
         high = np.take_along_axis(heights, last[..., None] + 1, -1)[..., 0]
         found = self.places[last] + self.lengths[last] * low / np.where(low < high, low - high, -1.0)
         return np.where(above.all(axis=-1), np.nan, found)
-
-
-def _scattered(parts: FloatArray) -> FloatArray:
-    """Values (2 n,) at the nodes from those (m, 4) of the elements."""
-    found = np.zeros((len(parts) + 1, 2))
-    found[:-1] += parts[:, :2]
-    found[1:] += parts[:, 2:]
-    return found.ravel()
 
 
 def _assembled(matrices: FloatArray) -> FloatArray:
@@ -242,8 +206,8 @@ class _Equations(NamedTuple):
     reaction: Reaction
 
 
-class _Solved(NamedTuple):
-    """A solution (2 n,) with its reaction, how many systems were solved, and how often a correction was halved."""
+class Solved(NamedTuple):
+    """State (2 n,) of a beam, w and theta of its nodes; its reaction; systems solved; halvings of corrections."""
 
     state: FloatArray
     reaction: Reaction
@@ -257,14 +221,14 @@ def _solved(
     state: FloatArray,
     equations: Callable[[FloatArray], _Equations],
     most: int,
-) -> _Solved:
+) -> Solved:
     """Newton's method with halving of a correction while the residual does not fall. Raises NotConvergedError."""
     tolerance = _TOLERANCE * beam.weight * beam.shortest
     now = equations(state)
     size, searches = beam.largest(now.residual), 0
     for iteration in range(most + 1):
         if size <= tolerance:
-            return _Solved(state, now.reaction, iteration, searches)
+            return Solved(state, now.reaction, iteration, searches)
         if iteration == most or not np.isfinite(size):
             break
         try:
@@ -287,14 +251,7 @@ def _solved(
     raise NotConvergedError("no equilibrium was found")
 
 
-class Rest(NamedTuple):
-    """A beam at rest: w and theta (2 n,) of its nodes, and the reaction."""
-
-    state: FloatArray
-    reaction: Reaction
-
-
-def at_rest(beam: Beam, soil: Soil) -> Rest:
+def at_rest(beam: Beam, soil: Soil) -> Solved:
     """Return the beam at rest, by Newton's method from the parabola that hangs behind its touchdown.
 
     Raises NotConvergedError.
@@ -315,7 +272,7 @@ def at_rest(beam: Beam, soil: Soil) -> Rest:
 
     found = _solved(beam, _Condensed(beam.stiffness), state, equations, _STATIC_ITERATIONS)
     soil.keep()
-    return Rest(found.state, found.reaction)
+    return found
 
 
 class Run(NamedTuple):
@@ -339,7 +296,7 @@ class Run(NamedTuple):
 class _Marching:
     """The state of a run, and one step of it."""
 
-    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Rest) -> None:
+    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Solved) -> None:
         self.beam, self.soil, self.scheme = beam, soil, scheme
         self.state, self.velocity = begin.state, np.zeros_like(begin.state)
         self.acceleration = np.zeros_like(begin.state)
@@ -415,7 +372,7 @@ class _Marching:
         self.soil.keep()
 
 
-def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Rest, steps: int, periods: int = 3) -> Run:
+def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Solved, steps: int, periods: int = 3) -> Run:
     """Return a run of so many equal steps over some periods, from rest. Raises NotConvergedError."""
     moving, step = _Marching(beam, soil, scheme, begin), periods * beam.period / steps
     first = steps - round(steps / periods)
