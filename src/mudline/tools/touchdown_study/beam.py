@@ -225,7 +225,7 @@ def _solved(
     """Newton's method with halving of a correction while the residual does not fall. Raises NotConvergedError."""
     tolerance = _TOLERANCE * beam.weight * beam.shortest
     now = equations(state)
-    size, searches = beam.largest(now.residual), 0
+    size, searches, stalls = beam.largest(now.residual), 0, 0
     for iteration in range(most + 1):
         if size <= tolerance:
             return Solved(state, now.reaction, iteration, searches)
@@ -242,8 +242,10 @@ def _solved(
             whole = whole or (trial, reached)
             if reached < size:
                 break
-            if share < _LEAST_SHARE:  # no share lowers the residual: whole ones find what touches and what lets go
-                share, (trial, reached) = 1.0, whole
+            if share < _LEAST_SHARE:  # no share lowers the residual: every other time the whole correction is taken,
+                stalls += 1  # as it may find at once what touches and what lets go; small ones alone take long
+                if stalls % 2 == 0:
+                    share, (trial, reached) = 1.0, whole
                 break
             share *= 0.5
             searches += 1
@@ -353,7 +355,7 @@ class _Marching:
             v, a = rates(trial)
             self.evaluations += 1
             if self.evaluations > self.most:
-                raise NotConvergedError("too many iterations")
+                raise NotConvergedError("does not converge")
             reaction = self.soil.react(trial[::2], v[::2], step)
             self._behind = self._resistance(trial, v, reaction)
             residual = beam.inertia @ ((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held

@@ -94,8 +94,7 @@ class RestShape:
 
     def sentences(self, units: str) -> list[str]:
         """Return what holds of each line: tension and length on the seabed, or why it has no shape."""
-        names = unit_names(units)
-        found = []
+        names, found = unit_names(units), []
         for line in self.lines:
             if line.catenary is None:
                 words = "lies on the seabed from end to end"

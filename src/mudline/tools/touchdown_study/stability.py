@@ -226,9 +226,8 @@ def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> li
     for one in oscillations(scene, given).found:
         if one.kind == "friction" and one.omega > 0.0:
             period = 2.0 * math.pi / one.omega
-            name = one.name.removeprefix("friction on ")
             steps = None if own is None else period / own.largest
-            rows.append(FrictionRow(name, line_of(scene, one.where), period, steps))
+            rows.append(FrictionRow(one.name.removeprefix("friction on "), line_of(scene, one.where), period, steps))
     return rows
 
 
