@@ -188,9 +188,9 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: HeldLine) -> Line
 
 
 def _require_held(scene: Scene, nodes: Indices, held: tuple[frozenset[int], ...], heights: Floats, size: float) -> None:
-    """Raise NoRestShapeError for an end that `*BOUNDARY` does not hold in any degree of freedom."""
+    """Raise NoRestShapeError for a line that hangs from an end which `*BOUNDARY` does not hold in any way."""
     for at, name in ((0, "lower"), (1, "upper")):
-        if not held[at]:
+        if not held[at] and heights[1] > size:  # what lies from end to end is held by the seabed
             node = int(scene.node_ids[nodes[-at]])
             place = "at the top" if heights[at] > size else "at the seabed"
             raise NoRestShapeError(f"no held end {place}: nothing in *BOUNDARY holds node {node}, the {name} end")
