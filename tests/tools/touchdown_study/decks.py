@@ -42,7 +42,7 @@ class Riser:
 
     def text(self) -> str:
         """The deck."""
-        points = self._points()
+        points = self.points()
         last = len(points)
         points = points[::-1] if self.top_first else points
         rows = (f" {i}, {x!r}, {y * self.along[0]!r}, {y * self.along[1]!r}\n" for i, (x, y) in enumerate(points, 1))
@@ -55,7 +55,7 @@ class Riser:
             f"$LOAD CASE\n{ends}{self.loads}"
         )
 
-    def _points(self) -> list[tuple[float, float]]:
+    def points(self) -> list[tuple[float, float]]:
         """Heights and distances: their polygon has the length of the line."""
         lying = round(self.elements * self.laid / self.length)
         sine, cosine = math.sin(math.radians(self.slope)), math.cos(math.radians(self.slope))
@@ -75,3 +75,11 @@ class Riser:
             low, high = (middle, high) if short else (low, middle)
         step = self.laid / lying
         return [(j * step * sine, j * step * cosine) for j in range(lying)] + hanging(low)
+
+
+IMPERIAL = Riser(
+    1640.0, 2428.0, 3280.0, 984.0,
+    section=" OPTION=RIGID\n SET=ALL\n 4.323E9, 1.66E9, 1.0627, 0.9275, 15.23\n",
+    ocean=" 1640.0, 1.9888, 32.185\n",
+    soil="*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.05, 48.0\n 0.1, 68.5\n 0.5, 130.2\n",
+)  # fmt: skip

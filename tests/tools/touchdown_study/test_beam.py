@@ -9,9 +9,9 @@ import pytest
 
 from mudline.model.contact import ContactInput
 from mudline.model.contact.input import LawAssignment
-from mudline.tools.touchdown_study.beam import Beam, Scheme, at_rest, march
+from mudline.model.scene.time_stepping import Scheme, generalised_alpha, hilber_hughes
+from mudline.tools.touchdown_study.beam import Beam, at_rest, march
 from mudline.tools.touchdown_study.soil import ElasticSoil, SteppedSoil
-from mudline.tools.touchdown_study.zone import generalised_alpha, hilber_hughes
 
 EI, TENSION, WEIGHT, SOIL = 3.0e7, 250.0e3, 900.0, 20.0e3
 LEFT, RIGHT, SIZE = 120.0, 60.0, 0.5
@@ -103,7 +103,7 @@ def test_at_rest_the_beam_is_the_closed_form() -> None:
 def test_forces_on_the_beam_balance() -> None:
     given = beam()
     found = at_rest(given, ElasticSoil(soil(given)))
-    held = given.stiffness.times(found.state) - given.load
+    held = given.stiffness @ found.state - given.load
     held[::2] -= found.reaction.nodal
     weight = WEIGHT * (LEFT + RIGHT)
     assert found.reaction.nodal.sum() + held[0] + held[-2] == pytest.approx(weight, rel=1e-9)
@@ -139,7 +139,7 @@ def test_schemes_have_the_published_parameters() -> None:
 def by_runge_kutta(given: Beam, begin: np.ndarray, steps: int) -> np.ndarray:
     """The state after a period on a linear soil that never lets go: RK4 on the free heights and rotations."""
     reaction = ElasticSoil(soil(given)).react(begin[::2], begin[::2], 0.0)
-    stiffness, inertia = given.stiffness.dense.copy(), given.inertia.dense
+    stiffness, inertia = given.stiffness.copy(), given.inertia
     w = np.arange(0, len(begin), 2)
     stiffness[w, w] -= reaction.diagonal
     stiffness[w[:-1], w[1:]] -= reaction.beside

@@ -14,7 +14,7 @@ from mudline.model.results.plot_data import PlotData
 from mudline.model.scene.model import Scene
 from mudline.tools.touchdown_study.rest_shape import RestShape, rest_shape
 from tests.helpers.samples import SAMPLES
-from tests.tools.touchdown_study.decks import BUOYS, CHAIN, FLEXIBLE, Riser
+from tests.tools.touchdown_study.decks import BUOYS, CHAIN, FLEXIBLE, IMPERIAL, Riser
 
 OFFSET = "*OFFSET\n VESSEL=Semi\n OFFSET=0.0, -10.0, 2.0\n"
 FLUID = "*INTERNAL FLUID\n SET=ALL\n 600.0, 900.0\n"
@@ -23,12 +23,6 @@ PLANES = (
     " PLANE=B\n POINT=0.0, 200.0, 0.0\n SLOPE=3.0\n BOUNDS=200.0, 900.0, -50.0, 50.0\n"
 )
 SLOPE = "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={}\n DIRECTION=0.0\n"
-IMPERIAL = Riser(
-    1640.0, 2428.0, 3280.0, 984.0,
-    section=" OPTION=RIGID\n SET=ALL\n 4.323E9, 1.66E9, 1.0627, 0.9275, 15.23\n",
-    ocean=" 1640.0, 1.9888, 32.185\n",
-    soil="*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.05, 48.0\n 0.1, 68.5\n 0.5, 130.2\n",
-)  # fmt: skip
 
 
 def scene_of(text: str, units: str = "metric") -> Scene:
@@ -122,6 +116,13 @@ def test_a_line_that_lies_from_end_to_end() -> None:
     scene = mudline.read(SAMPLES / "flowline-gen.keyxm").scene()
     positions = scene.rest_shape()
     assert line_summaries(scene.contact().evaluate(positions.whole[0]))[0].ratio == pytest.approx(1.0)
+
+
+def test_a_line_that_lies_needs_no_held_end() -> None:
+    deck = mudline.read(SAMPLES / "full-cycle.keyxm")
+    scene = deck.scene()
+    result = scene.contact().evaluate(scene.rest_shape().whole[0])
+    assert line_summaries(result)[0].ratio == pytest.approx(1.0, abs=0.01)
 
 
 @pytest.mark.parametrize(

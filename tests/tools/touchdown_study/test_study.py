@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.tools.touchdown_study import accuracy
+from mudline.tools.touchdown_study import accuracy, stability
+from mudline.tools.touchdown_study.screen import extremes_table
 from mudline.tools.touchdown_study.study import Study, study
+from mudline.tools.touchdown_study.zone import Variant, Zone, touchdown_zone
 from tests.helpers.samples import SAMPLES
 from tests.tools.touchdown_study.decks import BUOYS, CHAIN, CURVE, FALL, FLEXIBLE, JUMP, SNAP, STEEL, WAVES, Riser
 
@@ -195,6 +197,11 @@ def test_along_a_slope_what_is_left_out_is_said() -> None:
     assert any("which slopes: the weight along it is left out" in note for note in found.zone.notes)
 
 
+def touchdown_zone_of(text: str) -> Zone:
+    scene = mudline.from_keyword(text, units="metric").scene()._resolved
+    return touchdown_zone(scene, scene.contact_input(), None, None)
+
+
 HISTORIES = {
     "unloading": {"model": "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000.0\n"},
     "suction": {"model": "*SEABED SUCTION\n SET=ALL\n COHESION=3000.0\n"},
@@ -209,12 +216,13 @@ HISTORIES = {
 
 @pytest.mark.covered
 @pytest.mark.parametrize("law", HISTORIES)
-def test_laws_with_a_history_are_stepped_through(law: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(accuracy, "PERIODS", 3)
+def test_laws_with_a_history_are_stepped_through(law: str) -> None:
     found = studied(replace(Riser(elements=100), **HISTORIES[law]).text())  # type: ignore[arg-type]
     assert found.zone is not None
-    assert found.zone.stepped
-    assert any(row.errors is not None and row.worst < 0.1 for row in found.steps)
+    assert found.zone.periods == 2
+    assert all(row.worst < 0.1 for row in found.steps if row.step <= 0.2)
+    assert found.advice.verdict != "not studied"
+    assert found.notes["accuracy"][0].startswith("Laws that remember take long: two periods are run")
     assert found.mesh is None
 
 
@@ -266,16 +274,51 @@ def test_a_falling_curve_is_named_with_its_stiffness() -> None:
     stiffness = 200.0 / (0.05 * 0.3239)
     (note,) = (each for each in found.notes["stability"] if "falls" in each)
     assert note.startswith(f"Line {line_of(text, ' 0.05, 1700.0')}: curve Clay falls from 1700 to 1500 N/m")
-    assert f"-{stiffness:.4g} N/m2 that the line has to carry" in note
+    assert f"-{float(f'{stiffness:.4g}'):,.0f} N/m2 that the line has to carry" in note
 
 
 def test_stiff_and_extreme_cases() -> None:
     found = studied(Riser().text(), "stability")
     names = [row.case for row in found.extremes]
-    assert names == ["soil x 1e3", "soil x 1e6, to 1e+09 N/m2", "period x 0.5", "soil x 0.01"]
-    assert all(row.converged for row in found.extremes if "1e6" not in row.case)
+    assert names == ["soil x 1e3", "soil x 1e6, to 1e9 N/m2", "period x 0.5", "soil x 0.01"]
+    assert all(row.converged for row in found.extremes)
     assert found.evaluator is not None
     assert 0.0 <= found.evaluator.error < 1e-15
+
+
+LINEAR = " TYPE=ELASTIC\n SET=ALL\n STIFFNESS={}\n"
+
+
+def test_a_soil_that_is_as_stiff_as_rock_is_made_no_stiffer() -> None:
+    found = studied(Riser(law=LINEAR.format("1.0E9"), soil="").text(), "stability")
+    assert [row.case for row in found.extremes] == ["period x 0.5", "soil x 0.01"]
+
+
+def test_the_stiffest_soils_converge() -> None:
+    zone = touchdown_zone_of(Riser(law=LINEAR.format("1.0E11"), soil="", elements=500).text())
+    found, run = zone.run(60)
+    softer, _ = zone.run(60, 3, Variant(factor=0.01))
+    assert run.most_iterations <= 25
+    assert found.largest_moment == pytest.approx(softer.largest_moment, rel=0.01)
+
+
+def test_a_soil_that_no_longer_carries_the_pipe_is_called_so() -> None:
+    """A curve that falls behind its last point, at a hundredth of its forces."""
+    falling = CURVE.replace(" 0.05, 700.0\n 0.1, 1000.0\n 0.5, 1900.0\n", " 0.05, 1700.0\n 0.5, 900.0\n")
+    found = studied(Riser(soil=falling).text(), "stability")
+    (row,) = (each for each in found.extremes if each.case == "soil x 0.01")
+    assert (row.converged, row.message) == (False, "the soil does not carry the pipe")
+
+
+def test_extremes_of_a_short_step_are_run_with_a_longer_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stability, "MOST_STEPS", 1500)
+    found = studied(Riser(loads=WAVES.replace("0.2, 20.0", "0.02, 20.0")).text(), "stability")
+    assert [row.case for row in found.extremes] == ["soil x 1e3", "soil x 1e6, to 1e9 N/m2", "period x 0.5"]
+    assert {row.step for row in found.extremes} == {0.16}
+    assert found.notes["stability"] == ["Left out, as the deck's step is short: soil x 0.01."]
+    table = extremes_table(found)
+    assert table is not None
+    assert table.title == "Stiff and extreme: 160 ms, as 20 ms would take long, and what half of it changes"
 
 
 def test_friction_stands_against_the_step() -> None:
@@ -289,12 +332,13 @@ def test_friction_stands_against_the_step() -> None:
     assert row.stick_period == pytest.approx(2.0 * np.pi * np.sqrt(mass * area * 0.0027 / (0.35 * submerged)), rel=0.4)
 
 
-def test_an_unstable_run_is_called_so() -> None:
-    """A curve under compression without numerical damping."""
+@pytest.mark.parametrize("what", ["largest_moment", "moment_range", "largest_force"])
+def test_an_unstable_run_is_called_so(what: str) -> None:
+    """A run whose moment, its range or force is four times that of the reference."""
     calm = studied(Riser(soil=CURVE).text())
     (own,) = (row for row in calm.steps if row.own)
     assert own.measures is not None
     assert calm.reference is not None
-    wild = replace(own, errors=None, measures=own.measures._replace(largest_moment=4.0 * own.measures.largest_moment))
+    wild = replace(own, errors=None, measures=own.measures._replace(**{what: 4.0 * getattr(own.measures, what)}))
     judged = accuracy._against(wild, calm.reference)
     assert (judged.state, judged.errors) == ("is unstable", None)

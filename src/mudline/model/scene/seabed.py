@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 _NO_POINTS = np.zeros((0, 2))
 COMPILED = ".fcsbd"
+_SAMPLES, _PLANE = 65, 1e-6
+"""Places below a line at which a seabed is looked at, and how far off one plane they may be, of its length."""
 _PARTS = re.compile(r"[\s,]+")
 
 
@@ -212,6 +214,35 @@ def made_seabed(seabed: SeabedShape) -> Seabed:
     from mudline.model.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
 
     return ScatteredSeabed(seabed.points, cast("Literal['LINEAR', 'CUBIC']", seabed.interpolation))
+
+
+class SeabedLine(NamedTuple):
+    """The seabed below a line: its height at the first end, its slope along the line, and the normal's upward part."""
+
+    height: float
+    slope: float
+    upright: float
+
+
+def elevations(seabed: SeabedShape, places: Floats) -> Floats:
+    """Return elevations (n,) of a seabed at Y and Z (n, 2); NaN where there is none."""
+    return np.zeros(len(places)) if seabed.kind is SeabedKind.FLAT else made_seabed(seabed).elevation(*places.T.copy())
+
+
+def plane_below(seabed: SeabedShape, start: Floats, direction: Floats, distance: float) -> SeabedLine | None:
+    """Return the plane seabed below a line from Y and Z (2,) along a unit vector (2,); None if it is not one plane."""
+    if seabed.kind is SeabedKind.FLAT:
+        return SeabedLine(0.0, 0.0, 1.0)
+    along = np.linspace(0.0, max(distance, 1e-300), _SAMPLES)
+    places = start + along[:, None] * direction
+    levels = elevations(seabed, places)
+    slope = float(levels[-1] - levels[0]) / along[-1]
+    if not np.abs(levels - levels[0] - slope * along).max() <= _PLANE * max(distance, 1.0):
+        return None
+    normal = np.empty((1, 3))
+    middle = np.append(0.0, places[_SAMPLES // 2])[np.newaxis]
+    made_seabed(seabed).locate(middle, np.empty(1), normal)
+    return SeabedLine(float(levels[0]), slope, float(normal[0, 0]))
 
 
 def on_land(seabed: SeabedShape, level: float, places: Floats, ends: Indices) -> Floats | None:

@@ -18,12 +18,13 @@ from mudline.basics.quantities import shown
 from mudline.language.codes import RUN001
 from mudline.language.diagnostics import Problem, Where
 from mudline.model.contact.lines import lines_of
+from mudline.model.scene.boundary import TRANSLATIONS
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses, surroundings
-from mudline.tools.exporting.held import TRANSLATIONS, End, read_held, report_inside
+from mudline.tools.exporting.held import End, read_held, report_inside
 from mudline.tools.exporting.report import Report, Status
 from mudline.tools.exporting.soil import Soil, Units, soils_of
 

@@ -10,17 +10,18 @@ import numpy as np
 
 from mudline.model.results.stage_times import Timer
 from mudline.model.scene.load_case import OwnSteps
-from mudline.tools.touchdown_study.beam import NotConvergedError
-from mudline.tools.touchdown_study.stability import STEPPED_SHARE, change
-from mudline.tools.touchdown_study.zone import Measures, Variant, Zone, generalised_alpha
+from mudline.model.scene.time_stepping import generalised_alpha
+from mudline.tools.touchdown_study.beam import NotConvergedError, Run
+from mudline.tools.touchdown_study.stability import change, unstable
+from mudline.tools.touchdown_study.zone import Measures, Variant, Zone
 
 SHORT, COARSE, ADVISED = 0.02, 0.05, 0.01
 """Errors up to which a step is short enough, and coarse; those of a step that is advised."""
-PERIODS, MOST_STEPS = 3, 20_000
+MOST_STEPS = 20_000
 _FEW = 96.0
 """Steps of a run below which none is tried that is twice as long."""
-_RESONANT, _BOUNCING = 3.0, 5.0
-"""Of the moment and the landings of the reference: a run with more is unstable."""
+_BOUNCING = 5.0
+"""Of the landings of the reference: a run with more is unstable."""
 _LEAST_LANDINGS = 20
 _UNDAMPED, _REFERENCE = 0.8, 0.4
 """Spectral radius from which on a scheme is no reference, and that of the scheme that takes its place."""
@@ -49,6 +50,7 @@ class StepRow:
     own: bool
     run_time: float | None = None
     measures: Measures | None = field(default=None, repr=False)
+    run: Run | None = field(default=None, repr=False)
     errors: Errors | None = None
     rms: float | None = None
     state: str = ""
@@ -60,7 +62,7 @@ class StepRow:
 
     def json(self) -> dict[str, Any]:
         """Return the row as JSON has it."""
-        found, run = self.measures, self.measures and self.measures.run
+        found, run = self.measures, self.run
         errors = self.errors or (None, None, None)
         return {
             "step": self.step,
@@ -109,10 +111,10 @@ def _steps_of(zone: Zone, own: OwnSteps | None) -> tuple[list[tuple[float, bool]
     """The steps of the rows, the largest first, each with whether it is the deck's, and that of the reference."""
     period = zone.motion.period
     base, given = (period / _NO_STEP, False) if own is None else (own.largest, True)
-    budget = MOST_STEPS // (STEPPED_SHARE if zone.stepped else 1)
+    budget = MOST_STEPS // zone.cost
     fit: list[tuple[tuple[float, ...], float]] = []
     while True:
-        whole = PERIODS * period / base
+        whole = zone.periods * period / base
         fit = [each for each in _LADDERS if whole * (sum(1.0 / part for part in each[0]) + 1.0 / each[1]) <= budget]
         if fit:
             break
@@ -128,26 +130,24 @@ def _steps_of(zone: Zone, own: OwnSteps | None) -> tuple[list[tuple[float, bool]
 
 def _measured(zone: Zone, step: float, timer: Timer, variant: Variant = Variant(), *, own: bool = False) -> StepRow:  # noqa: B008 - a constant
     """A row without errors."""
-    span, began = PERIODS * zone.motion.period, timer()
+    span, began = zone.periods * zone.motion.period, timer()
     try:
-        found = zone.run(max(round(span / step), 4 * PERIODS), variant)
+        found, run = zone.run(max(round(span / step), 4 * zone.periods), zone.periods, variant)
     except NotConvergedError:
         return StepRow(step, own, state="does not converge")
     if not np.isfinite(found.touchdown).all():
         return StepRow(step, own, state="has no touchdown in its zone")
-    return StepRow(step, own, (timer() - began) / span, found)
+    return StepRow(step, own, (timer() - began) / span, found, run)
 
 
 def _against(row: StepRow, reference: StepRow) -> StepRow:
     """A row with its errors against a reference; an unstable run has none."""
-    one, other = row.measures, reference.measures
-    if one is None or other is None:
+    one, other, run, fine = row.measures, reference.measures, row.run, reference.run
+    if one is None or other is None or run is None or fine is None:
         return row
-    landed = max(other.landings, _LEAST_LANDINGS)
-    if one.largest_moment > _RESONANT * other.largest_moment or one.landings > _BOUNCING * landed:
+    if unstable(one, other) or run.landings > _BOUNCING * max(fine.landings, _LEAST_LANDINGS):
         return replace(row, state="is unstable")
-    coarse, fine = (one, other) if len(one.times) <= len(other.times) else (other, one)
-    missed = coarse.touchdown - np.interp(coarse.times, fine.times, fine.touchdown)
+    missed = one.touchdown - np.interp(run.times, fine.times, other.touchdown)
     rms, travel = float(np.sqrt(np.mean(missed * missed))), float(np.ptp(other.touchdown))
     errors = Errors(
         rms / travel if travel > 0.0 else 0.0,
@@ -157,13 +157,8 @@ def _against(row: StepRow, reference: StepRow) -> StepRow:
     return replace(row, errors=errors, rms=rms)
 
 
-class Accuracy(NamedTuple):
-    """The rows, the largest step first; the reference, None where its run did not end; the mesh; notes."""
-
-    steps: list[StepRow]
-    reference: StepRow | None
-    mesh: Mesh | None
-    notes: list[str]
+Accuracy = tuple[list[StepRow], StepRow | None, Mesh | None, list[str]]
+"""The rows, the largest step first; the reference, None where its run did not end; the mesh; notes."""
 
 
 def measured_accuracy(zone: Zone, own: OwnSteps | None, timer: Timer) -> Accuracy:
@@ -173,14 +168,16 @@ def measured_accuracy(zone: Zone, own: OwnSteps | None, timer: Timer) -> Accurac
     if zone.scheme.radius >= _UNDAMPED:
         held = replace(zone, scheme=generalised_alpha(_REFERENCE))
         notes.append(f"The reference is run with generalised-alpha ({_REFERENCE}), which damps.")
+    if zone.cost > 1:
+        notes.append("Laws that remember take long: two periods are run, the first of which brings the motion up.")
     reference = _measured(held, last, timer)
     rows = [_against(_measured(zone, step, timer, own=is_own), reference) for step, is_own in steps]
     if reference.measures is None:
-        return Accuracy(rows, None, None, [*notes, f"The reference, a step of {last:.4g}, {reference.state}."])
+        return rows, None, None, [*notes, f"The reference, a step of {last:.4g}, {reference.state}."]
     mesh = None
-    if not zone.stepped and rows[-1].measures is not None:
+    if zone.cost == 1 and rows[-1].measures is not None:
         mesh = _mesh(zone, rows[-1], next((row for row in rows if row.own), rows[-1]), timer)
-    return Accuracy(rows, reference, mesh, notes)
+    return rows, reference, mesh, notes
 
 
 def _mesh(zone: Zone, finest: StepRow, own: StepRow, timer: Timer) -> Mesh:

@@ -14,46 +14,18 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
+from mudline.model.scene.time_stepping import Scheme
 from mudline.tools.touchdown_study.soil import Reaction, Soil
 
-_ITERATIONS, _SEARCHES, _CUTS, _STATIC_ITERATIONS = 25, 10, 6, 200
+_ITERATIONS, _CUTS, _STATIC_ITERATIONS = 25, 6, 200
+_LEAST_SHARE = 0.001
+"""Of a correction that is tried where the residual does not fall."""
 _REFINED, _REFINEMENTS = 1e-7, 6
 """Share of a force that may be left when a linear system counts as solved; more steps than that are eliminations."""
-_REACH = 3
-"""Neighbours of w and theta to which a node is tied by its elements."""
 _ENOUGH, _A_STEP = 500, 40
 """Evaluations of the equations that a run may take before it is given up: to begin with, and for each step."""
 _TOLERANCE = 1e-6
 """Residual of a node over the weight of the shortest element."""
-
-
-class Scheme(NamedTuple):
-    """A time integration scheme: M [(1 - am) a1 + am a0] + (1 - af) R1 + af R0 = 0 with Newmark's gamma and beta.
-
-    name: "generalised-alpha" or "hilber-hughes". rho, alpha: the parameter of each, None for the other.
-    """
-
-    name: str
-    alpha_m: float
-    alpha_f: float
-    rho: float | None = None
-    alpha: float | None = None
-
-    @property
-    def radius(self) -> float:
-        """Spectral radius at infinite frequency."""
-        share = self.alpha_f if self.alpha is None else 0.5 * (1.0 + self.alpha)
-        return share / (1.0 - share)
-
-    @property
-    def gamma(self) -> float:
-        """Newmark's gamma of second order."""
-        return 0.5 - self.alpha_m + self.alpha_f
-
-    @property
-    def beta(self) -> float:
-        """Newmark's beta of the least dissipation at low frequencies."""
-        return 0.25 * (1.0 - self.alpha_m + self.alpha_f) ** 2
 
 
 class NotConvergedError(Exception):
@@ -99,18 +71,18 @@ class Beam:
         return float(max(np.abs(residual[2:-2:2]).max(), np.abs(residual[3::2]).max() / self.shortest))
 
     @cached_property
-    def stiffness(self) -> Banded:
+    def stiffness(self) -> FloatArray:
         """Matrix of bending and tension."""
         size = self.lengths[:, None, None]
         bend = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]]) * self.bending / size**3
         pull = np.array([[36.0, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]])
-        return Banded(self._turned(bend + pull * self.tension / (30.0 * size)))
+        return _assembled(self._turned(bend + pull * self.tension / (30.0 * size)))
 
     @cached_property
-    def inertia(self) -> Banded:
+    def inertia(self) -> FloatArray:
         """Consistent mass matrix."""
         rows = [[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
-        return Banded(self._turned(np.array(rows) * self.mass * self.lengths[:, None, None] / 420.0))
+        return _assembled(self._turned(np.array(rows) * self.mass * self.lengths[:, None, None] / 420.0))
 
     def _turned(self, matrices: FloatArray) -> FloatArray:
         """Matrices for w and theta from those for w and l theta."""
@@ -122,12 +94,12 @@ class Beam:
     @cached_property
     def load(self) -> FloatArray:
         """Load (2 n,) of the weight, with the moment at the right end."""
-        each = np.column_stack(
-            [0.5 * self.lengths, self.lengths**2 / 12.0, 0.5 * self.lengths, -(self.lengths**2) / 12.0]
-        )
-        found = _scattered(-self.weight * each)
-        found[-1] += self.end_moment
-        return found
+        force, moment = -0.5 * self.weight * self.lengths, -self.weight * self.lengths**2 / 12.0
+        found = np.zeros((len(self.lengths) + 1, 2))
+        found[:-1] += np.column_stack([force, moment])
+        found[1:] += np.column_stack([force, -moment])
+        found[-1, 1] += self.end_moment
+        return found.ravel()
 
     @cached_property
     def drag_at_nodes(self) -> FloatArray:
@@ -165,32 +137,13 @@ class Beam:
         return np.where(above.all(axis=-1), np.nan, found)
 
 
-def _scattered(parts: FloatArray) -> FloatArray:
-    """Values (2 n,) at the nodes from those (m, 4) of the elements."""
-    found = np.zeros((len(parts) + 1, 2))
-    found[:-1] += parts[:, :2]
-    found[1:] += parts[:, 2:]
-    return found.ravel()
-
-
-class Banded:
-    """Matrix (2 n, 2 n) that element matrices (m, 4, 4) make, for products."""
-
-    def __init__(self, matrices: FloatArray) -> None:
-        size = 2 * len(matrices) + 2
-        self.dense = np.zeros((size, size))
-        for at, each in enumerate(matrices):
-            self.dense[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
-        self._padded = np.zeros(size + 2 * _REACH)
-        self._windows = np.lib.stride_tricks.sliding_window_view(self._padded, 2 * _REACH + 1)
-        wide = np.pad(self.dense, ((0, 0), (_REACH, _REACH)))
-        self._band = np.array([row[at : at + 2 * _REACH + 1] for at, row in enumerate(wide)])
-
-    def times(self, values: FloatArray) -> FloatArray:
-        """Return the product (2 n,) with values (2 n,)."""
-        self._padded[_REACH:-_REACH] = values
-        found: FloatArray = np.einsum("ij,ij->i", self._band, self._windows)
-        return found
+def _assembled(matrices: FloatArray) -> FloatArray:
+    """Matrix (2 n, 2 n) that element matrices (m, 4, 4) make."""
+    size = 2 * len(matrices) + 2
+    found = np.zeros((size, size))
+    for at, each in enumerate(matrices):
+        found[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
+    return found
 
 
 class _Condensed:
@@ -253,8 +206,8 @@ class _Equations(NamedTuple):
     reaction: Reaction
 
 
-class _Solved(NamedTuple):
-    """A solution (2 n,) with its reaction, how many systems were solved, and how often a correction was halved."""
+class Solved(NamedTuple):
+    """State (2 n,) of a beam, w and theta of its nodes; its reaction; systems solved; halvings of corrections."""
 
     state: FloatArray
     reaction: Reaction
@@ -268,39 +221,39 @@ def _solved(
     state: FloatArray,
     equations: Callable[[FloatArray], _Equations],
     most: int,
-) -> _Solved:
+) -> Solved:
     """Newton's method with halving of a correction while the residual does not fall. Raises NotConvergedError."""
     tolerance = _TOLERANCE * beam.weight * beam.shortest
     now = equations(state)
-    size, searches = beam.largest(now.residual), 0
+    size, searches, stalls = beam.largest(now.residual), 0, 0
     for iteration in range(most + 1):
         if size <= tolerance:
-            return _Solved(state, now.reaction, iteration, searches)
+            return Solved(state, now.reaction, iteration, searches)
         if iteration == most or not np.isfinite(size):
             break
         try:
             change = system.solve(now.residual, now.diagonal, now.beside)
         except np.linalg.LinAlgError as error:
             raise NotConvergedError("a tangent is singular") from error
-        for _ in range(_SEARCHES + 1):
-            trial = equations(state + change)
+        share, whole = 1.0, None
+        while True:
+            trial = equations(state + share * change)
             reached = beam.largest(trial.residual)
-            if reached < size or reached <= tolerance:
+            whole = whole or (trial, reached)
+            if reached < size:
                 break
-            change *= 0.5
+            if share < _LEAST_SHARE:  # no share lowers the residual: every other time the whole correction is taken,
+                stalls += 1  # as it may find at once what touches and what lets go; small ones alone take long
+                if stalls % 2 == 0:
+                    share, (trial, reached) = 1.0, whole
+                break
+            share *= 0.5
             searches += 1
-        state, now, size = state + change, trial, reached
+        state, now, size = state + share * change, trial, reached
     raise NotConvergedError("no equilibrium was found")
 
 
-class Rest(NamedTuple):
-    """A beam at rest: w and theta (2 n,) of its nodes, and the reaction."""
-
-    state: FloatArray
-    reaction: Reaction
-
-
-def at_rest(beam: Beam, soil: Soil) -> Rest:
+def at_rest(beam: Beam, soil: Soil) -> Solved:
     """Return the beam at rest, by Newton's method from the parabola that hangs behind its touchdown.
 
     Raises NotConvergedError.
@@ -315,13 +268,13 @@ def at_rest(beam: Beam, soil: Soil) -> Rest:
 
     def equations(trial: FloatArray) -> _Equations:
         reaction = soil.react(trial[::2], still, 0.0)
-        residual = beam.stiffness.times(trial) - beam.load
+        residual = beam.stiffness @ trial - beam.load
         residual[::2] -= reaction.nodal
         return _Equations(residual, -reaction.diagonal, -reaction.beside, reaction)
 
-    found = _solved(beam, _Condensed(beam.stiffness.dense), state, equations, _STATIC_ITERATIONS)
+    found = _solved(beam, _Condensed(beam.stiffness), state, equations, _STATIC_ITERATIONS)
     soil.keep()
-    return Rest(found.state, found.reaction)
+    return found
 
 
 class Run(NamedTuple):
@@ -345,7 +298,7 @@ class Run(NamedTuple):
 class _Marching:
     """The state of a run, and one step of it."""
 
-    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Rest) -> None:
+    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Solved) -> None:
         self.beam, self.soil, self.scheme = beam, soil, scheme
         self.state, self.velocity = begin.state, np.zeros_like(begin.state)
         self.acceleration = np.zeros_like(begin.state)
@@ -360,13 +313,13 @@ class _Marching:
         """The linear part of the equations of a step."""
         if step not in self._systems:
             scheme, beam = self.scheme, self.beam
-            matrix = (1.0 - scheme.alpha_m) / (scheme.beta * step * step) * beam.inertia.dense
-            self._systems[step] = _Condensed(matrix + (1.0 - scheme.alpha_f) * beam.stiffness.dense)
+            matrix = (1.0 - scheme.alpha_m) / (scheme.beta * step * step) * beam.inertia
+            self._systems[step] = _Condensed(matrix + (1.0 - scheme.alpha_f) * beam.stiffness)
         return self._systems[step]
 
     def _resistance(self, state: FloatArray, velocity: FloatArray, reaction: Reaction) -> FloatArray:
         """R (2 n,): stiffness and drag less load and reaction."""
-        found = self.beam.stiffness.times(state) - self.beam.load
+        found = self.beam.stiffness @ state - self.beam.load
         v = velocity[::2]
         found[::2] += self.beam.drag_at_nodes * np.abs(v) * v - reaction.nodal
         return found
@@ -402,10 +355,10 @@ class _Marching:
             v, a = rates(trial)
             self.evaluations += 1
             if self.evaluations > self.most:
-                raise NotConvergedError("too many iterations")
+                raise NotConvergedError("does not converge")
             reaction = self.soil.react(trial[::2], v[::2], step)
             self._behind = self._resistance(trial, v, reaction)
-            residual = beam.inertia.times((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held
+            residual = beam.inertia @ ((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held
             diagonal = 2.0 * drag * np.abs(v[::2]) * by_velocity - reaction.diagonal
             beside = -reaction.beside
             if reaction.damping is not None:
@@ -421,7 +374,7 @@ class _Marching:
         self.soil.keep()
 
 
-def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Rest, steps: int, periods: int = 3) -> Run:
+def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Solved, steps: int, periods: int = 3) -> Run:
     """Return a run of so many equal steps over some periods, from rest. Raises NotConvergedError."""
     moving, step = _Marching(beam, soil, scheme, begin), periods * beam.period / steps
     first = steps - round(steps / periods)

@@ -247,11 +247,8 @@ def _assembled(line: Line, tension: float, shape: _Spans) -> Catenary:
         start = float(np.interp(first, line.arcs, distance))
         moved = start + np.interp(at, arcs, along)
         distance[line.arcs > last] += start + along[-1] - float(np.interp(last, line.arcs, distance))
-        distance[inside], height[inside], vertical[inside] = (
-            moved,
-            np.interp(at, arcs, above),
-            np.interp(at, arcs, force),
-        )
+        distance[inside] = moved
+        height[inside], vertical[inside] = (np.interp(at, arcs, each) for each in (above, force))
     ends = [0.0, *(arc for span in shape for arc in span), line.length]
     lying = tuple((ends[i], ends[i + 1]) for i in range(0, len(ends), 2) if ends[i + 1] > ends[i])
     return Catenary(tension, lying, distance, height, vertical)

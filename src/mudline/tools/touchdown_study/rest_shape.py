@@ -8,9 +8,7 @@ straight, at static embedment.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -19,15 +17,14 @@ from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact import ContactInput
 from mudline.model.contact.embedment import static_depth
-from mudline.model.contact.lines import lines_of
 from mudline.model.contact.stretch import cut_out
 from mudline.model.results.evaluation import require_elements
+from mudline.model.scene.boundary import HeldLine, lines_between, vessel_offset
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.positions import Positions
-from mudline.model.scene.seabed import SeabedKind, made_seabed
-from mudline.tools.exporting.held import TRANSLATIONS, held_nodes, vessel_offset
+from mudline.model.scene.seabed import SeabedLine, elevations, plane_below
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
 from mudline.tools.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
 from mudline.tools.touchdown_study.soil import soil_of
@@ -36,8 +33,7 @@ LEFT, RIGHT = 10.0, 6.0
 """Lengths sqrt(EI/T) of the beam on either side of a touchdown."""
 MOST_LEFT, MOST_RIGHT = 60, 40
 """Elements of it."""
-_SAMPLES = 65
-_ROUNDED = 1e-6
+_ROUNDED, _LEAST = 1e-6, 1e-300
 _CORRECTIONS, _BALANCES = 3, 8
 _STEEP = 0.3
 """Largest sqrt(EI/T) q/T, the slope of the line at that length behind its touchdown."""
@@ -45,14 +41,6 @@ _LIFTED = 5.0
 """EI q / T^2 and diameters by which a beam may lift what hangs: half of the first is what it does on a rigid seabed."""
 _SUNK = 3.0
 """Diameters below the seabed at which an end is still one that lies on it."""
-
-
-class SeabedLine(NamedTuple):
-    """The seabed below a line: its height at the first end, its slope along the line, and the normal's upward part."""
-
-    height: float
-    slope: float
-    upright: float
 
 
 @dataclass(frozen=True)
@@ -106,8 +94,7 @@ class RestShape:
 
     def sentences(self, units: str) -> list[str]:
         """Return what holds of each line: tension and length on the seabed, or why it has no shape."""
-        names = unit_names(units)
-        found = []
+        names, found = unit_names(units), []
         for line in self.lines:
             if line.catenary is None:
                 words = "lies on the seabed from end to end"
@@ -145,7 +132,7 @@ def lines_at_rest(scene: Scene, given: ContactInput, pipe: Pipe) -> tuple[list[L
     """Return the lines that have a resting shape, and number of each other line with the reason why it has none."""
     found: list[LineAtRest] = []
     refused: list[tuple[int, str]] = []
-    for each in _between_ends(scene):
+    for each in lines_between(scene):
         try:
             found.append(_line(scene, given, pipe, each))
         except NoRestShapeError as error:
@@ -153,46 +140,18 @@ def lines_at_rest(scene: Scene, given: ContactInput, pipe: Pipe) -> tuple[list[L
     return found, refused
 
 
-# ----------------------------------------------------------------------------------------------------------------- ends
-
-
-class _Between(NamedTuple):
-    """Elements and nodes of a line between two ends, with what holds them: freedoms and vessel of each end."""
-
-    number: int
-    elements: Indices
-    nodes: Indices
-    held: tuple[frozenset[int], frozenset[int]]
-    vessels: tuple[str, str]
-
-
-def _between_ends(scene: Scene) -> Iterator[_Between]:
-    """The lines of a scene, cut at inner nodes that are held in all directions."""
-    held, vessels = held_nodes(scene)
-    lines = lines_of(scene.element_nodes, np.nan_to_num(scene.length), len(scene.node_ids))
-    nothing: frozenset[int] = frozenset()
-    number = 0
-    for elements, nodes in zip(lines.elements, lines.nodes, strict=True):
-        inner = [at for at in range(1, len(nodes) - 1) if held.get(int(nodes[at]), nothing) >= TRANSLATIONS]
-        for first, last in pairwise([0, *inner, len(nodes) - 1]):
-            number += 1
-            ends = int(nodes[first]), int(nodes[last])
-            freedoms = (held.get(ends[0], nothing), held.get(ends[1], nothing))
-            names = (vessels.get(ends[0], ""), vessels.get(ends[1], ""))
-            yield _Between(number, elements[first:last], nodes[first : last + 1], freedoms, names)
-
-
 # ----------------------------------------------------------------------------------------------------------------- line
 
 
-def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: _Between) -> LineAtRest:
+def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: HeldLine) -> LineAtRest:
     """The line with its catenary. Raises NoRestShapeError."""
     places = scene.coordinates[each.nodes[[0, -1]]] + [vessel_offset(scene, vessel) for vessel in each.vessels]
     if not np.isfinite(places).all() or not np.isfinite(scene.length[each.elements]).all():
         raise NoRestShapeError("its ends have no coordinates, or an element no length")
     size = float(np.nanmax(scene.diameter[each.elements], initial=0.0))
-    levels = _elevation(scene, places[:, 1:])
-    heights = places[:, 0] - levels
+    heights = places[:, 0] - elevations(scene.seabed, places[:, 1:])
+    if not np.isfinite(heights).all():
+        raise NoRestShapeError("there is no seabed below an end of the line")
     elements, nodes, held, vessel = each.elements, each.nodes, each.held, each.vessels[1]
     if heights[0] > heights[1]:
         elements, nodes, held, vessel = elements[::-1], nodes[::-1], held[::-1], each.vessels[0]
@@ -207,7 +166,9 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: _Between) -> Line
     across = places[1, 1:] - places[0, 1:]
     distance = float(np.hypot(*across))
     direction = across / distance if distance > 0.0 else np.array([1.0, 0.0])
-    seabed = _seabed_below(scene, places[0, 1:], direction, distance)
+    seabed = plane_below(scene.seabed, places[0, 1:], direction, distance)
+    if seabed is None:
+        raise NoRestShapeError("the seabed below the line is not one plane")
     model = Line(length, weight, seabed.slope)
     ends = (float(heights[0]) if heights[0] > size else 0.0, float(heights[1]))
     lies = heights[1] <= size
@@ -227,9 +188,9 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: _Between) -> Line
 
 
 def _require_held(scene: Scene, nodes: Indices, held: tuple[frozenset[int], ...], heights: Floats, size: float) -> None:
-    """Raise NoRestShapeError for an end that `*BOUNDARY` does not hold in any degree of freedom."""
+    """Raise NoRestShapeError for a line that hangs from an end which `*BOUNDARY` does not hold in any way."""
     for at, name in ((0, "lower"), (1, "upper")):
-        if not held[at]:
+        if not held[at] and heights[1] > size:  # what lies from end to end is held by the seabed
             node = int(scene.node_ids[nodes[-at]])
             place = "at the top" if heights[at] > size else "at the seabed"
             raise NoRestShapeError(f"no held end {place}: nothing in *BOUNDARY holds node {node}, the {name} end")
@@ -237,57 +198,20 @@ def _require_held(scene: Scene, nodes: Indices, held: tuple[frozenset[int], ...]
         raise NoRestShapeError("the line is closed")
 
 
-def _elevation(scene: Scene, places: Floats) -> Floats:
-    """Elevations (n,) of the seabed at Y and Z (n, 2). Raises NoRestShapeError where there is none."""
-    if scene.seabed.kind is SeabedKind.FLAT:
-        return np.zeros(len(places))
-    found = made_seabed(scene.seabed).elevation(places[:, 0], places[:, 1])
-    if not np.isfinite(found).all():
-        raise NoRestShapeError("there is no seabed below an end of the line")
-    return found
-
-
-def _seabed_below(scene: Scene, start: Floats, direction: Floats, distance: float) -> SeabedLine:
-    """The plane seabed below a line. Raises NoRestShapeError for one that is not plane."""
-    if scene.seabed.kind is SeabedKind.FLAT:
-        return SeabedLine(0.0, 0.0, 1.0)
-    along = np.linspace(0.0, max(distance, 1e-300), _SAMPLES)
-    places = start + along[:, None] * direction
-    levels = _elevation(scene, places)
-    slope = float(levels[-1] - levels[0]) / along[-1]
-    if np.abs(levels - levels[0] - slope * along).max() > _ROUNDED * max(distance, 1.0):
-        raise NoRestShapeError("the seabed below the line is not one plane")
-    normal = np.empty((1, 3))
-    middle = np.append(0.0, places[_SAMPLES // 2])[np.newaxis]
-    made_seabed(scene.seabed).locate(middle, np.empty(1), normal)
-    return SeabedLine(float(levels[0]), slope, float(normal[0, 0]))
-
-
 # ---------------------------------------------------------------------------------------------------------------- shape
 
 
 def _places(given: ContactInput, pipe: Pipe, line: LineAtRest) -> Floats:
     """Positions (m + 1, 3) of the nodes of a line, from its lower end."""
-    lying = _lying_heights(line)
-    if line.catenary is None:
-        along, height = _spread(line), lying
+    depth, arcs = np.nan_to_num(line.depth) / line.seabed.upright, line.model.arcs
+    lying = -0.5 * (np.append(depth[:1], depth) + np.append(depth, depth[-1:]))
+    if line.catenary is None:  # it lies from end to end, between its ends as they stand
+        along, height = arcs * (line.distance / max(float(arcs[-1]), _LEAST)), lying
     else:
         along, height = _hung(given, pipe, line, lying)
     at = line.start + along[:, None] * line.direction
     level = line.seabed.height + line.seabed.slope * along
     return np.column_stack([level + height, at])
-
-
-def _lying_heights(line: LineAtRest) -> Floats:
-    """Heights (m + 1,) of the nodes above the seabed, if all of the line lay at static embedment."""
-    depth = np.nan_to_num(line.depth) / line.seabed.upright
-    return -0.5 * (np.append(depth[:1], depth) + np.append(depth, depth[-1:]))
-
-
-def _spread(line: LineAtRest) -> Floats:
-    """Distances (m + 1,) of the nodes of a line that lies, between its ends as they stand."""
-    arcs = line.model.arcs
-    return arcs * (line.distance / arcs[-1]) if arcs[-1] > 0.0 else arcs
 
 
 class _Touchdown(NamedTuple):
@@ -410,7 +334,7 @@ def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | No
             state = at_rest(moved, soil_of(stretch)).state
         except NotConvergedError:
             return None
-        missing = vertical - float((moved.stiffness.times(state) - moved.load)[-2])
+        missing = vertical - float((moved.stiffness @ state - moved.load)[-2])
         trials.append((height, missing, state))
         if abs(missing) <= _ROUNDED * abs(vertical):
             break

@@ -9,8 +9,7 @@ from mudline.basics.quantities import headed, shown, unit_names
 from mudline.basics.short_repr import cut
 from mudline.model.scene.load_case import in_words
 from mudline.tools.touchdown_study.accuracy import StepRow
-from mudline.tools.touchdown_study.beam import Run
-from mudline.tools.touchdown_study.stability import ExtremeRow, axial_period
+from mudline.tools.touchdown_study.stability import axial_period
 from mudline.tools.touchdown_study.study import Study
 from mudline.tools.touchdown_study.zone import Zone
 
@@ -93,13 +92,11 @@ def _step_cells(found: Study, row: StepRow) -> list[str]:
     if row.errors is None:
         return [step, row.state, *[""] * 6]
     run_time = 0.0 if row.run_time is None else row.run_time * _KILO
-    counts = ["", ""] if row.measures is None else _iterations(row.measures.run)
+    counts = ["", ""]
+    if row.run is not None:
+        counts = [f"{row.run.mean_iterations:.1f}", str(row.run.most_iterations)]
     rms = "" if row.rms is None else f"{row.rms:.2g}"
     return [step, rms, *(_share(each) for each in row.errors), *counts, f"{run_time:.2g}"]
-
-
-def _iterations(run: Run) -> list[str]:
-    return [f"{run.mean_iterations:.1f}", str(run.most_iterations)]
 
 
 def _share(value: float | None) -> str:
@@ -123,15 +120,15 @@ def extremes_table(found: Study) -> ScreenTable | None:
     if not found.extremes:
         return None
     heads = ["case", "result", "iterations,\nmost", "line\nsearches", "range of\nmoment", "largest\nsoil force"]
-    rows = [_extreme_cells(row) for row in found.extremes]
-    step = found.milliseconds(found.own.largest) if found.own else "a hundredth of the period"
+    rows = []
+    for row in found.extremes:
+        result = "converges" if row.converged else row.message or "does not converge"
+        counts = ["" if each is None else str(each) for each in (row.iterations, row.searches)]
+        rows.append([cut(row.case, _NAME), result, *counts, _share(row.range_change), _share(row.force_change)])
+    step = found.milliseconds(found.extremes[0].step)
+    if found.own is not None and found.extremes[0].step > found.own.largest:
+        step += f", as {found.milliseconds(found.own.largest)} would take long"
     return ScreenTable(f"Stiff and extreme: {step}, and what half of it changes", heads, rows, heads[:2])
-
-
-def _extreme_cells(row: ExtremeRow) -> list[str]:
-    result = "converges" if row.converged else row.message or "does not converge"
-    counts = ["" if each is None else str(each) for each in (row.iterations, row.searches)]
-    return [cut(row.case, _NAME), result, *counts, _share(row.range_change), _share(row.force_change)]
 
 
 def stability_sentences(found: Study) -> list[str]:
@@ -140,7 +137,7 @@ def stability_sentences(found: Study) -> list[str]:
     own = None if found.own is None else found.own.largest
     stiff = min(found.friction, key=lambda row: row.stick_period, default=None)
     if stiff is not None:
-        period = found.milliseconds(stiff.stick_period)
+        period = found.milliseconds(float(f"{stiff.stick_period:.4g}"))
         text = f"Axial friction, not in this model: a node that sticks swings in {period} (line {stiff.deck_line})"
         if own is not None:
             tenth = "within" if own <= 0.1 * stiff.stick_period else "more than"

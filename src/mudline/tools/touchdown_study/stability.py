@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
@@ -20,24 +19,26 @@ from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.model import Scene
 from mudline.model.scene.oscillation import line_of, oscillations
 from mudline.tools.touchdown_study.beam import NotConvergedError
-from mudline.tools.touchdown_study.zone import RAMP, Variant, Zone, jump, ramp, stiffest_factor
+from mudline.tools.touchdown_study.zone import RAMP, Measures, Variant, Zone, jump, ramp
 
 PERIODS, MOST_STEPS = 2, 12_000
-STEPPED_SHARE = 16
-"""Laws with a history take so many times as long: fewer cases are tried with them."""
+_LEAST = 100.0
+"""Steps of a period to which a deck's step may be lengthened, so that its cases can be run."""
+_LARGE = 1e9
+"""N/m2: stiffness up to which a soil is made stiffer."""
 _GROWN = 3.0
-"""Of the moment at half of the step: a run with more is unstable."""
+"""Of another run's moment, its range or force: a run with more is unstable."""
 _SNAP = 0.01
 """Diameters within which a falling curve has several rest positions."""
 _FALL = 0.01
 """Of the weight of the pipe: smaller falls are none."""
-_SAMPLED = 64
 
 
 class ExtremeRow(NamedTuple):
-    """A stiff or extreme case: how it went at the deck's step, and what half of it changes."""
+    """A stiff or extreme case: how it went at a step, and what half of it changes."""
 
     case: str
+    step: float
     converged: bool
     iterations: int | None = None
     searches: int | None = None
@@ -57,7 +58,7 @@ class FrictionRow(NamedTuple):
 
 
 class Evaluator(NamedTuple):
-    """The evaluator itself: largest relative error of its curves, and seconds of a step of the deck."""
+    """The evaluator itself: bound of the error of a force, over the force, and seconds of a step of the deck."""
 
     error: float
     time: float
@@ -67,27 +68,31 @@ class Evaluator(NamedTuple):
 
 
 def extreme_rows(zone: Zone, own: OwnSteps | None) -> tuple[list[ExtremeRow], list[str]]:
-    """Return the stiff and extreme cases of a zone, and a sentence on those left out."""
-    step = zone.motion.period / 100.0 if own is None else own.largest
-    each = 3.0 * PERIODS * zone.motion.period / step
-    budget = MOST_STEPS // (STEPPED_SHARE if zone.stepped else 1)
-    cases = list(_cases(zone))
-    tried = cases[: max(int(budget / each), 0)]
-    rows = [_extreme(zone, name, variant, step) for name, variant in tried]
+    """Return the stiff and extreme cases of a zone, and a sentence on those left out.
+
+    They are run at the deck's step, and at longer ones where it is too short for that.
+    """
+    period, cases = zone.motion.period, list(_cases(zone))
+    step = period / _LEAST if own is None else own.largest
+    budget = MOST_STEPS / (3.0 * PERIODS * period * zone.cost)
+    while step <= period / _LEAST and len(cases) > budget * step:
+        step *= 2.0
+    tried = cases[: max(int(budget * step), 1)]
     left = ", ".join(name for name, _ in cases[len(tried) :])
-    return rows, [f"Left out, as the deck's step is short: {left}."] if left else []
+    notes = [f"Left out, as the deck's step is short: {left}."] if left else []
+    return [_extreme(zone, name, variant, step) for name, variant in tried], notes
 
 
 def _cases(zone: Zone) -> Iterator[tuple[str, Variant]]:
     """Names and variants, what stiffens most first."""
+    most = (_LARGE / 47.88 if zone.scene.units == "imperial" else _LARGE) / zone.stiffness
+    unit, last = unit_names(zone.scene.units).behind("stiffness"), 1.0
     for factor, name in ((1e3, "1e3"), (1e6, "1e6")):
-        held = stiffest_factor(zone, factor)
-        to = (
-            f", to {held * zone.stiffness:.1g}{unit_names(zone.scene.units).behind('stiffness')}"
-            if held < factor
-            else ""
-        )
-        yield f"soil x {name}{to}", Variant(factor=held)
+        held = min(factor, most)
+        if held > last:
+            to = f", to {held * zone.stiffness:.1g}{unit}".replace("e+0", "e") if held < factor else ""
+            yield f"soil x {name}{to}", Variant(factor=held)
+            last = held
     yield "period x 0.5", Variant(period=0.5)
     yield "soil x 0.01", Variant(factor=0.01)
     laws = _law_elements(zone)
@@ -115,23 +120,29 @@ def _extreme(zone: Zone, name: str, variant: Variant, step: float) -> ExtremeRow
     """One case."""
     steps = max(round(PERIODS * zone.motion.period * variant.period / step), 8)
     try:
-        whole = zone.run(steps, variant, PERIODS)
-        half = zone.run(2 * steps, variant, PERIODS)
-    except NotConvergedError:
-        line = jump_line(zone)
-        message, where = line or ("no equilibrium was found", None)
-        return ExtremeRow(name, converged=False, message=message, deck_line=where)
-    low, high = sorted((whole.largest_moment, half.largest_moment))
-    stable = high <= _GROWN * low
+        whole, run = zone.run(steps, PERIODS, variant)
+        half, _ = zone.run(2 * steps, PERIODS, variant)
+    except NotConvergedError as error:
+        where = next((line for line, _ in _jumps(zone.scene, zone.given)), None)
+        message = str(error) if where is None else f"{error}: see the jump at line {where}"
+        return ExtremeRow(name, step, converged=False, message=message, deck_line=where)
+    stable = not (unstable(whole, half) or unstable(half, whole))
     return ExtremeRow(
         name,
+        step,
         stable,
-        whole.run.most_iterations,
-        whole.run.searches,
+        run.most_iterations,
+        run.searches,
         change(whole.moment_range, half.moment_range),
         change(whole.largest_force, half.largest_force),
-        None if stable else "unstable: the moments of the two steps differ by over 3 times",
+        None if stable else "unstable: the two steps differ by over 3 times",
     )
+
+
+def unstable(one: Measures, other: Measures) -> bool:
+    """Return whether forces or moments of a run are so much larger than those of another that it is no error."""
+    names = ("largest_moment", "moment_range", "largest_force")
+    return any(getattr(one, name) > _GROWN * getattr(other, name) for name in names)
 
 
 def change(value: float, reference: float) -> float:
@@ -153,14 +164,11 @@ def _curves_in_use(scene: Scene, given: ContactInput) -> Iterator[tuple[SceneCur
             yield entry, entry.curve, float(given.diameter[at]), weight
 
 
-def jump_line(zone: Zone) -> tuple[str, int] | None:
-    """Return the sentence on a curve of a deck whose force jumps at the mudline, and its line; None without one."""
-    for entry, curve, _, _ in _curves_in_use(zone.scene, zone.given):
-        if force := jump(curve, zone.beam.weight):
-            line = line_of(zone.scene, entry.where)
-            unit = unit_names(zone.scene.units).behind("line_force")
-            return f"line {line}: the force jumps to {force:.4g}{unit} at the mudline", line
-    return None
+def _jumps(scene: Scene, given: ContactInput) -> Iterator[tuple[int, float]]:
+    """Lines of the curves in use whose force jumps at the mudline, and that force."""
+    for entry, curve, _, weight in _curves_in_use(scene, given):
+        if force := jump(curve, weight):
+            yield line_of(scene, entry.where), force
 
 
 def snapping(scene: Scene, given: ContactInput) -> str:
@@ -189,20 +197,21 @@ def _line_of_point(scene: Scene, entry: SceneCurve, ratio: float) -> int:
 
 def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
     """Return sentences on curves that jump at the mudline, and on those that fall, with the stiffness a line needs."""
-    found, units = [], unit_names(scene.units)
-    for entry, curve, diameter, weight in _curves_in_use(scene, given):
-        if force := jump(curve, weight):
-            line = line_of(scene, entry.where)
-            text = f"the force jumps to {force:.4g}{units.behind('line_force')} at the mudline"
-            found.append(f"Line {line}: {text}: a ramp over {RAMP} D takes its place.")
+    units = unit_names(scene.units)
+    found = [
+        f"Line {line}: the force jumps to {force:.4g}{units.behind('line_force')} at the mudline: a ramp over {RAMP} D "
+        "takes its place."
+        for line, force in _jumps(scene, given)
+    ]
+    for entry, curve, diameter, _ in _curves_in_use(scene, given):
         inside = (curve.slopes < 0.0) & (curve.ratios[1:] > 0.0)
         if inside.any():
             at = int(np.argmin(np.where(inside, curve.slopes, 0.0)))
             line = _line_of_point(scene, entry, float(curve.ratios[at]))
-            stiffness = float(curve.slopes[at]) / diameter
+            stiffness = float(f"{float(curve.slopes[at]) / diameter:.4g}")
             found.append(
                 f"Line {line}: curve {entry.name} falls from {curve.forces[at]:.4g} to {curve.forces[at + 1]:.4g}"
-                f"{units.behind('line_force')}: a stiffness of {stiffness:.4g}{units.behind('stiffness')} that "
+                f"{units.behind('line_force')}: a stiffness of {stiffness:,.15g}{units.behind('stiffness')} that "
                 "the line has to carry."
             )
     return found
@@ -217,9 +226,8 @@ def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> li
     for one in oscillations(scene, given).found:
         if one.kind == "friction" and one.omega > 0.0:
             period = 2.0 * math.pi / one.omega
-            name = one.name.removeprefix("friction on ")
             steps = None if own is None else period / own.largest
-            rows.append(FrictionRow(name, line_of(scene, one.where), period, steps))
+            rows.append(FrictionRow(one.name.removeprefix("friction on "), line_of(scene, one.where), period, steps))
     return rows
 
 
@@ -235,24 +243,6 @@ def axial_period(zone: Zone) -> float | None:
 
 
 def evaluator_row(given: ContactInput, timer: Timer) -> Evaluator | None:
-    """Return the largest error of the curves against rationals, and the seconds of a step; None if it overflows."""
+    """Return the bound of the error of a curve's force, and the seconds of a step; None if one overflows."""
     taken = seconds_per_step({"": ContactModel(given, backend="numpy")}, timer)
-    if not taken:
-        return None
-    errors = [_error(curve) for curve in given.curves]
-    return Evaluator(max(errors, default=float(np.finfo(np.float64).eps)), taken[""])
-
-
-def _error(curve: ForceCurve) -> float:
-    """The largest relative error of a curve between its points."""
-    last = float(curve.ratios[-1])
-    ratios = np.linspace(0.0, last if last > 0.0 else 1.0, _SAMPLED)
-    forces, worst = curve.evaluate(ratios)[0], 0.0
-    points = [(Fraction(float(r)), Fraction(float(f))) for r, f in zip(curve.ratios, curve.forces, strict=True)]
-    for ratio, force in zip(ratios.tolist(), forces.tolist(), strict=True):
-        at = min(max(int(np.searchsorted(curve.ratios, ratio, side="right")) - 1, 0), len(points) - 2)
-        (r0, f0), (r1, f1) = points[at : at + 2]
-        exact = f0 + (f1 - f0) / (r1 - r0) * (Fraction(ratio) - r0)
-        if exact:
-            worst = max(worst, abs(float((Fraction(force) - exact) / exact)))
-    return worst
+    return Evaluator(4.0 * float(np.finfo(np.float64).eps), taken[""]) if taken else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -38,8 +38,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from mudline.tools.touchdown_study.catenary import Catenary
+
 
 FORMAT = "mudline-study/2"
+NOT_STUDIED = "not studied"
 PARTS = ("accuracy", "stability", "pruning")
 ERRORS = ("touchdown point", "range of bending moment", "largest soil force")
 """Of which rows have errors, in the order of `Study.errors`."""
@@ -49,7 +52,7 @@ class Advice(NamedTuple):
     """The answer: in words, as a verdict, and which line of the deck asks for it; None where there is none."""
 
     text: str
-    verdict: str = "not studied"
+    verdict: str = NOT_STUDIED
     own_step: float | None = None
     step: float | None = None
     file: str | None = None
@@ -101,10 +104,8 @@ class Study:
             "stages": None if self.stages is None else [_plain(row._asdict()) for row in self.stages.rows],
         }
 
-    def milliseconds(self, seconds: float | None) -> str:
+    def milliseconds(self, seconds: float) -> str:
         """Return a step as people read it; in user units, whose times have no name, as it is."""
-        if seconds is None:
-            return "-"
         return f"{shown(1e3 * seconds, 6 if seconds >= 1.0 else 4)} ms" if time_unit(self.units) else shown(seconds, 4)
 
     @property
@@ -162,14 +163,12 @@ def _model(zone: Zone) -> dict[str, Any]:
     """The model as JSON has it."""
     ids, own, scheme = zone.scene.element_ids, zone.own, zone.scheme
     numbers = [int(ids[at]) for at in (zone.elements[0], zone.elements[-1], own)]
-    catenary = zone.line.catenary
-    lying = zone.line.model.arcs[np.flatnonzero(zone.line.nodes == zone.nodes[zone.node])[0]]
     found = {
         "first_element": numbers[0],
         "last_element": numbers[1],
         "touchdown_element": numbers[2],
         "tension": zone.beam.tension,
-        "lying_length": float(lying) if catenary is None else catenary.lying[-1][1],
+        "lying_length": cast("Catenary", zone.line.catenary).lying[-1][1],
         "weight": zone.beam.weight,
         "mass": float(zone.pipe.mass[own] + zone.pipe.contents[own]),
         "added_mass": float(zone.pipe.added_mass[own]),
@@ -238,22 +237,19 @@ def _find_zone(found: Study, scene: Scene, given: ContactInput, heave: float | N
         zone = touchdown_zone(scene, given, heave, period)
         beam, _, rest = zone.rest()
     except NotStudiedError as error:
-        text = str(error)
-        found.advice = Advice(f"Not studied: {text}." if not text.startswith("The pipe") else f"{text}.")
+        found.advice = Advice(f"Not studied: {error}.")
         return
     except NotConvergedError:
         found.advice = Advice("Not studied: the touchdown zone has no state of rest on its soil.")
         return
     found.zone = zone
-    moments = beam.moments(rest.state[1::2])[zone.landing]
-    touchdown = float(beam.touchdown(rest.state[::2])) - zone.start
-    forces = rest.reaction.per_length[zone.landing]
-    static = {
-        "largest_force": float(forces.max()),
-        "largest_moment": float(np.abs(moments).max()),
-        "touchdown": touchdown,
+    heights, turned = rest.state[np.newaxis, ::2], rest.state[np.newaxis, 1::2]
+    static = zone.measures(beam, heights, turned, rest.reaction.per_length[np.newaxis])
+    found.static = {
+        "largest_force": finite(static.largest_force),
+        "largest_moment": finite(static.largest_moment),
+        "touchdown": finite(float(static.touchdown[0])),
     }
-    found.static = {name: finite(value) for name, value in static.items()}
 
 
 # --------------------------------------------------------------------------------------------------------------- advice
@@ -261,29 +257,38 @@ def _find_zone(found: Study, scene: Scene, given: ContactInput, heave: float | N
 
 def _advice(found: Study) -> Advice:
     """The answer, from the rows."""
-    own = None if found.own is None else found.own.largest
-    file = None if found.own is None else found.deck
-    line = found.own_line or None
+    text, verdict, step = _judged(found)
+    own, file = (None, None) if found.own is None else (found.own.largest, found.deck)
+    return Advice(text, verdict, own, step, file, found.own_line or None)
+
+
+def _judged(found: Study) -> tuple[str, str, float | None]:
+    """The answer in words, the verdict, and the step that is advised."""
     if "accuracy" not in found.parts or not found.steps:
-        return Advice(_without_rows(found), own_step=own, file=file, deck_line=line)
+        return "", NOT_STUDIED, None
     if found.reference is None:
-        return Advice(f"Not studied: {found.notes['accuracy'][-1]}", own_step=own, file=file, deck_line=line)
-    row = next((each for each in found.steps if each.own), None)
-    fine = _advised(found.steps)
-    if found.own is None or row is None:
-        return _of_no_step(found, fine, own, file, line)
-    place = f"The deck's own step, {found.milliseconds(row.step)} (line {found.own_line}),"
-    if row.errors is None:
-        verdict, text = "too long", f"{place} is too long for its touchdown zone: the run {row.state}"
+        return f"Not studied: {found.notes['accuracy'][-1]}", NOT_STUDIED, None
+    row, fine = next((each for each in found.steps if each.own), None), _advised(found.steps)
+    last = found.steps[-1] if row is None else row
+    mesh = _of_mesh(found, last)
+    if found.own is None:
+        steps = f"{found.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
+        text = f"The deck has no time step in *TIME: {steps} for its touchdown zone. {mesh}"
+        return text.rstrip(), NOT_STUDIED, fine
+    place = f"The deck's own step, {found.milliseconds(found.own.largest)} (line {found.own_line}),"
+    verdict, step, tried = verdict_of(last.worst), None, found.milliseconds(last.step)
+    errors = f"the run {last.state}" if last.errors is None else _of_errors(last.errors)
+    if row is not None:
+        text = f"{place} is {verdict} for its touchdown zone: {errors}"
+        if verdict == "too long":
+            step = fine
+            text += f"; use {found.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
+    elif last.worst <= SHORT:
+        text = f"{place} is short enough for its touchdown zone: {tried} is"
     else:
-        verdict = verdict_of(row.worst)
-        words = {"short enough": "is short enough", "coarse": "is coarse", "too long": "is too long"}[verdict]
-        text = f"{place} {words} for its touchdown zone: {_of_errors(row.errors)}"
-    step = None
-    if verdict == "too long":
-        step = fine
-        text += f"; use {found.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
-    return Advice(f"{text}. {_of_mesh(found, row)}".rstrip(), verdict, own, step, file, line)
+        text = f"{place} is too short to be judged here in its time, and {tried} is {verdict}: {errors}"
+        verdict = NOT_STUDIED
+    return f"{text}. {mesh}".rstrip(), verdict, step
 
 
 def _advised(rows: Sequence[StepRow]) -> float | None:
@@ -294,20 +299,6 @@ def _advised(rows: Sequence[StepRow]) -> float | None:
             break
         found = row.step
     return found
-
-
-def _of_no_step(found: Study, fine: float | None, own: float | None, file: str | None, line: int | None) -> Advice:
-    """The answer for a deck without a step, or with one that is too short to be run."""
-    if own is not None and found.steps:
-        longer = found.steps[-1]
-        place = f"The deck's own step, {found.milliseconds(own)} (line {found.own_line}),"
-        if longer.worst <= SHORT:
-            text = f"{place} is short enough for its touchdown zone: {found.milliseconds(longer.step)} is"
-            return Advice(f"{text}. {_of_mesh(found, longer)}".rstrip(), "short enough", own, None, file, line)
-        return Advice(f"{place} is too short to be run here in its time.", "not studied", own, None, file, line)
-    steps = f"{found.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
-    text = f"The deck has no time step in *TIME: {steps} for its touchdown zone. {_of_mesh(found, found.steps[-1])}"
-    return Advice(text.rstrip(), "not studied", None, fine)
 
 
 def _of_errors(errors: Errors) -> str:
@@ -339,13 +330,3 @@ def _of_mesh(found: Study, row: StepRow) -> str:
     if mesh is not None and worst > row.worst:
         return f"Half the element length ({mesh.element_length[0]:.3g}{length}) changes more: {about(worst)}."
     return ""
-
-
-def _without_rows(found: Study) -> str:
-    """The answer where only the stages were asked for."""
-    rows = [row for row in found.stages.rows if row.share] if found.stages is not None else []
-    if not rows:
-        return ""
-    most = max(rows, key=lambda row: row.share or 0.0)
-    line = f" (line {most.deck_line})" if most.deck_line else ""
-    return f"Most of a step goes to the stage {most.stage}{line}: {100.0 * (most.share or 0.0):.0f} %."

@@ -5,35 +5,32 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
+from mudline.basics.quantities import unit_names
 from mudline.model.contact import ContactInput
 from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawAssignment
 from mudline.model.contact.stretch import cut_out
 from mudline.model.curves import ForceCurve
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.load_case import TopMotion, top_motion
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.oscillation import line_of
 from mudline.model.scene.pipe import Pipe, pipe_of
-from mudline.tools.touchdown_study.beam import Beam, Rest, Run, Scheme, at_rest, march
+from mudline.model.scene.time_stepping import Scheme, scheme_of
+from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, Run, Solved, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
-from mudline.tools.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, has_history, soil_of
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import TimeStepping
+from mudline.tools.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, cost_of, soil_of
 
 RAMP = 0.01
 """Diameters over which a force that jumps at the mudline grows instead."""
 _DELTA = 0.5
 """Lengths by which the top is moved to see how far the touchdown goes, over those of a metre."""
-_LARGE = 1e9
-"""N/m2: stiffness up to which a soil is made stiffer."""
+_STEEP = 0.35
+"""Slope at the end of a zone above which slopes are not small."""
 _SMALL = 1e-6
 """Of the weight: smaller forces at the mudline are no jump."""
 
@@ -43,19 +40,15 @@ class NotStudiedError(Exception):
 
 
 class Measures(NamedTuple):
-    """A run about the touchdown, in the deck's units.
+    """What is measured about the touchdown, in the deck's units.
 
-    touchdown: (k,) in the last period, from the node at the touchdown. largest_force: per unit length. landings: how
-    often elements came down.
+    touchdown: (k,) in the last period, or at rest, from the node at the touchdown. largest_force: per unit length.
     """
 
-    times: Floats
     touchdown: Floats
     largest_force: float
     largest_moment: float
     moment_range: float
-    landings: int
-    run: Run
 
 
 class Variant(NamedTuple):
@@ -120,15 +113,20 @@ class Zone:
         middle = 0.5 * (self.beam.places[:-1] + self.beam.places[1:]) - self.start
         return middle > -(2.0 * self.travel + 5.0 * self.length)
 
+    @property
+    def periods(self) -> int:
+        """Of the motion in a run; the first one brings it up, and the last one is measured."""
+        return 3 if self.cost == 1 else 2
+
     @cached_property
     def soil_length(self) -> float:
         """(4 EI/k)^(1/4) with the secant stiffness k of the soil under the static weight."""
         return float((4.0 * self.beam.bending * self.depth / self.beam.weight) ** 0.25)
 
     @cached_property
-    def stepped(self) -> bool:
-        """Whether the soil remembers."""
-        return has_history(self.cut(Variant()))
+    def cost(self) -> int:
+        """Time of a step over that with a soil without a history, about."""
+        return cost_of(self.cut(Variant()))
 
     @cached_property
     def stiffness(self) -> float:
@@ -140,36 +138,33 @@ class Zone:
         found = cut_out(self.given, self.elements, self.nodes, variant.parts)
         return found if variant.law_of < 0 else _with_law(self.given, found, variant.law_of)
 
-    def soil(self, variant: Variant) -> Soil:
-        """Return the soil of the zone, with nothing remembered."""
-        soil = soil_of(self.cut(variant), variant.matrix)
-        return soil if variant.factor == 1.0 else ScaledSoil(soil, variant.factor)
-
-    def rest(self, variant: Variant = Variant()) -> tuple[Beam, Soil, Rest]:  # noqa: B008 - a constant
+    def rest(self, variant: Variant = Variant()) -> tuple[Beam, Soil, Solved]:  # noqa: B008 - a constant
         """Return the beam, its soil and its state at rest. Raises NotConvergedError."""
-        lengths, period = np.repeat(self.beam.lengths / variant.parts, variant.parts), self.beam.period * variant.period
-        left = self.beam.left
+        lengths, left = np.repeat(self.beam.lengths / variant.parts, variant.parts), self.beam.left
         if variant.law_of >= 0 or variant.factor != 1.0:
             row = self.elements[:1] if variant.law_of < 0 else np.array([variant.law_of])
-            depth = float(static_depth(self.given, row, np.array([self.beam.weight / variant.factor]))[0])
-            left = -depth if math.isfinite(depth) else left
-        beam, soil = replace(self.beam, lengths=lengths, period=period, left=left), self.soil(variant)
+            left = -float(static_depth(self.given, row, np.array([self.beam.weight / variant.factor]))[0])
+            if not math.isfinite(left):
+                raise NotConvergedError("the soil does not carry the pipe")
+        beam = replace(self.beam, lengths=lengths, period=self.beam.period * variant.period, left=left)
+        soil = ScaledSoil(soil_of(self.cut(variant), variant.matrix), variant.factor)
         return beam, soil, at_rest(beam, soil)
 
-    def run(self, steps: int, variant: Variant = Variant(), periods: int = 3) -> Measures:  # noqa: B008 - as above
-        """Return what is measured in a run of so many steps. Raises NotConvergedError."""
+    def run(self, steps: int, periods: int = 3, variant: Variant = Variant()) -> tuple[Measures, Run]:  # noqa: B008 - as above
+        """Return what is measured in a run of so many steps, and the run. Raises NotConvergedError."""
         beam, soil, rest = self.rest(variant)
         run = march(beam, soil, self.scheme, rest, steps, periods)
-        wanted = np.repeat(self.landing, variant.parts)
-        moments = beam.moments(run.turned)[:, wanted]
+        return self.measures(beam, run.heights, run.turned, run.forces), run
+
+    def measures(self, beam: Beam, heights: Floats, turned: Floats, forces: Floats) -> Measures:
+        """Return what is measured of heights and rotations (k, n) of the nodes, and forces (k, m) of the elements."""
+        wanted = np.repeat(self.landing, len(beam.lengths) // len(self.landing))
+        moments = beam.moments(turned)[:, wanted]
         return Measures(
-            run.times,
-            beam.touchdown(run.heights) - self.start,
-            float(run.forces[:, wanted].max()),
+            beam.touchdown(heights) - self.start,
+            float(forces[:, wanted].max()),
             float(np.abs(moments).max()),
             float((moments.max(axis=0) - moments.min(axis=0)).max()),
-            run.landings,
-            run,
         )
 
 
@@ -211,7 +206,7 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
     first, last = window(arcs, node, 2.0 * travel + 10.0 * size, 2.0 * travel + 6.0 * size)
     first = max(first, min(int(np.searchsorted(arcs, catenary.lying[-1][0])), node - 1))
     elements, nodes = line.elements[first : last + 1], line.nodes[first : last + 2]
-    given = _ramped(given, weight)
+    given = replace(given, curves=tuple(ramp(curve) if jump(curve, weight) else curve for curve in given.curves))
     depths = static_depth(given, np.array([elements[0], own]), np.array([weight, weight]))
     if not np.isfinite(depths).all() or not depths[1] > 0.0:
         raise NotStudiedError("the soil does not carry the pipe at its touchdown")
@@ -230,7 +225,8 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
         travel * right / a,
         motion.period,
     )
-    notes = list(_limits(line, travel, size, right, a, math.sqrt(tension / mass) * motion.period))
+    unit, wave = unit_names(scene.units).behind("length"), math.sqrt(tension / mass) * motion.period
+    notes = _limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit)
     return Zone(
         scene,
         given,
@@ -253,7 +249,8 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
     """Raise NotStudiedError for a pipe or a seabed at the touchdown that the model cannot have."""
     law, element = scene.law_names[own], scene.element_ids[own]
     if not weight > 0.0:
-        raise NotStudiedError(f"The pipe floats: {weight:.4g} {_unit(scene)} at its touchdown")
+        unit = unit_names(scene.units).behind("line_force")
+        raise NotStudiedError(f"the pipe floats: {weight:.4g}{unit} at its touchdown")
     if scene.section_table.of_element[own] < 0:
         raise NotStudiedError(f"element {element} at the touchdown has no section")
     if law in {"rigid", "none"}:
@@ -263,10 +260,6 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
         raise NotStudiedError(f"the section of element {element} at the touchdown has no bending stiffness")
     if not mass > 0.0:
         raise NotStudiedError(f"the mass of element {element} at the touchdown is not known")
-
-
-def _unit(scene: Scene) -> str:
-    return {"metric": "N/m", "imperial": "lbf/ft"}.get(scene.units, "")
 
 
 def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
@@ -283,23 +276,20 @@ def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
         raise NotStudiedError(f"with the top moved by {step:.3g} the line has no resting shape: {error}") from error
 
 
-def _limits(line: LineAtRest, travel: float, size: float, right: float, a: float, wave: float) -> list[str]:
+def _limits(line: LineAtRest, shortest: float, right: float, wave: float, slope: float, unit: str) -> list[str]:
     """Where the window, or small slopes, do not hold."""
     found = []
-    if right < 2.0 * travel + 4.0 * size:
-        found.append(f"The zone is short: {right:.3g} of {2.0 * travel + 4.0 * size:.3g} right of the touchdown.")
+    if right < shortest:
+        found.append(f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown.")
     if right > wave / 4.0:
-        found.append(f"The end of the zone reflects: {right:.3g} is more than a quarter of a wave, {wave / 4.0:.3g}.")
-    if right / a > 0.35:
-        found.append(f"Slopes are not small: {right / a:.2f} at the end of the zone.")
+        found.append(
+            f"The end of the zone reflects: {right:.3g}{unit} is more than a quarter of a wave, {wave / 4.0:.3g}{unit}."
+        )
+    if slope > _STEEP:
+        found.append(f"Slopes are not small: {slope:.2f} at the end of the zone.")
     if line.seabed.slope:
         found.append("The model is along the seabed, which slopes: the weight along it is left out.")
     return found
-
-
-def _ramped(given: ContactInput, weight: float) -> ContactInput:
-    """The laws with a ramp in the place of a force that a curve has at the mudline."""
-    return replace(given, curves=tuple(ramp(curve) if jump(curve, weight) else curve for curve in given.curves))
 
 
 def jump(curve: ForceCurve, weight: float) -> float:
@@ -316,39 +306,3 @@ def ramp(curve: ForceCurve) -> ForceCurve:
     if len(points) == 2:
         points.append((2.0 * RAMP, float(curve.evaluate(2.0 * RAMP)[0])))
     return ForceCurve(points, curve.name)
-
-
-def stiffest_factor(zone: Zone, factor: float) -> float:
-    """Return a factor of the soil, less where it would be stiffer than any seabed."""
-    most = _LARGE / 47.88 if zone.scene.units == "imperial" else _LARGE
-    return min(factor, max(most / zone.stiffness, 1.0)) if factor > 1.0 else factor
-
-
-def generalised_alpha(rho: float) -> Scheme:
-    """Return generalised-alpha (Chung and Hulbert 1993) with the spectral radius `rho` at infinity."""
-    return Scheme("generalised-alpha", (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0), rho=rho)
-
-
-def hilber_hughes(alpha: float) -> Scheme:
-    """Return the scheme of Hilber, Hughes and Taylor (1977), `alpha` from -1/3 to 0."""
-    return Scheme("hilber-hughes", 0.0, -alpha, alpha=alpha)
-
-
-_DEFAULT_RHO, _DEFAULT_HUGHES = 0.4, -0.25
-
-
-def scheme_of(scene: Scene) -> tuple[Scheme, int]:
-    """Return the scheme of the last `*TIME STEPPING`, the program's default without one, and its line, 0 for none."""
-    found, line = generalised_alpha(_DEFAULT_RHO), 0
-    for where, block in scene.deck.blocks("TIME STEPPING", "LOAD CASE"):
-        given, line = cast("TimeStepping", block), line_of(scene, where)
-        if given.type_ == "HILBER-HUGHES":
-            found = hilber_hughes(max(number(given.hilber_hughes, "coefficient", _DEFAULT_HUGHES), -1.0 / 3.0))
-        elif given.alphas is not None:
-            default = generalised_alpha(_DEFAULT_RHO)
-            alpha_m = number(given.alphas, "alpha_m", default.alpha_m)
-            alpha_f = number(given.alphas, "alpha_f", default.alpha_f)
-            found = Scheme("generalised-alpha", alpha_m, alpha_f)
-        else:
-            found = generalised_alpha(number(given, "infinity", _DEFAULT_RHO))
-    return found, line
