@@ -61,12 +61,13 @@ class Numbers:
 
     `where` is the place of the part, `holder` the part around it, `columns` are its fields in the order of a line. Of a
     table, `part` is what holds it, `table` has the rows and `rows` declares them. The weights of pipes are known if it
-    `weighs` them.
+    `weighs` them, the depth of the water if it is `deep`.
     """
 
     context: LintContext
     units: Units
     weighs: bool = True
+    deep: bool = True
     part: Any = None
     holder: Any = None
     where: Where = NOWHERE
@@ -97,7 +98,7 @@ class Numbers:
     @property
     def depth(self) -> float:
         """Depth of the water; NaN where it is not known."""
-        return surroundings(self.context.scene.deck).depth * self.units.size("L")
+        return surroundings(self.context.scene.deck).depth * self.units.size("L") if self.deep else math.nan
 
     @property
     def density(self) -> float:
@@ -353,8 +354,10 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "as a stiffness": _as_stiffness,
     "times the weight of the soil above and the diameter": _times_soil,
 }
-WEIGHED = (
+WEIGHED = {
     "diameters that the pipe sinks under its weight",
     "times the weight of the pipe, or 100 N/m, at its largest force",
-)
+}
 """Measures in which the weight of the pipe has a part."""
+OF_DEPTH = {"m above the water", "times the water depth"}
+"""Measures in which the depth of the water has a part."""

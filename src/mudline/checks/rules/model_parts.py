@@ -43,8 +43,8 @@ GEO015 = Code("GEO015", "no-elements", Severity.INFO)
 
 _PARTS = ("MODEL", "LOAD CASE")
 _ROUNDED = 1e-6
-_OF_CABLE = ("node", "cable", "distance")
 """Share of a length by which it may be rounded."""
+_OF_CABLE = ("node", "cable", "distance")
 
 
 def _is_whole(context: LintContext) -> bool:
@@ -248,7 +248,8 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
     if free.size and held.any():
         what = first_of("node", scene.node_ids[free[0]], free.size)
-        message = f"{what} at the end of a line is held by nothing: add it to *BOUNDARY, or leave it if the end is free"
+        at = "the end of a line is" if free.size == 1 else "ends of lines are"
+        message = f"{what} at {at} held by nothing: add it to *BOUNDARY, or leave it if the end is free"
         yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))
 
 

@@ -13,10 +13,9 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
-from mudline.checks.rules.coordinates import UNT006
-from mudline.checks.rules.measures import CONDITIONS, MEASURES, WEIGHED, Numbers, over
+from mudline.checks.rules.coordinates import UNT006, height_over_depth
+from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
 from mudline.checks.unit_slips import is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
@@ -43,15 +42,17 @@ def unusual_values(context: LintContext) -> list[Problem]:
     """What is outside of the usual values of its field; several rules need it, and ask `context.once`.
 
     Lines in which SYN015 found decimal commas are left out. Where gravity, a density or a length is unusual, the weight
-    of a pipe counts as not known.
+    of a pipe counts as not known, and where nodes lie too high for it, the depth of the water.
     """
     deck = Numbers(context, units_of(context))
     with np.errstate(all="ignore"):  # numbers may be as large as they like
         judged = _of_deck(deck)
-        heavy = any(problem.code in (UNT001, UNT004, UNT006) for _, problem in judged)
-        if heavy and any(usual.of in WEIGHED for usual, _ in judged):
-            judged = _of_deck(replace(deck, weighs=False))
-    found = [problem for _, problem in judged]
+        measures = {one.usual.of for one in judged}
+        heavy = bool(measures & WEIGHED) and any(one.problem.code in (UNT001, UNT004, UNT006) for one in judged)
+        shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
+        if heavy or shallow:
+            judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
+    found = [one.problem for one in judged]
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and found else set()
     return [one for one in found if not commas or not text or text.place(one).line not in commas]
@@ -71,10 +72,12 @@ def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
 
 
 class Judged(NamedTuple):
-    """A finding, and the range that its value is outside of."""
+    """A finding about a field, and the range that its value is outside of; `of_row` where its row explains it."""
 
     usual: Usual
     problem: Problem
+    field: str
+    of_row: bool
 
 
 @cache
@@ -92,25 +95,15 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
     own, outer = _judged(type(part))
     if not (own or outer):
         return
+    given = [
+        (slot, math.nan if isinstance(value, Part) else float(value))
+        for slot in own
+        if isinstance(value := getattr(part, slot.name, None), float | int | Part) and not _is_plain(deck, slot, value)
+    ]
+    if not (given or outer):
+        return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    by_code: dict[Code, list[Judged]] = {}
-    for slot in own:
-        value = getattr(part, slot.name, None)
-        if isinstance(value, float | int | Part):
-            given = math.nan if isinstance(value, Part) else float(value)
-            for one in _compared(of, slot, given, where.inside(slot.json)):
-                by_code.setdefault(one.problem.code, []).append(one)
-    commas = [one for found in by_code.values() for one in found if _COMMA in one.problem.message]
-    rows = (
-        [commas + [one for found in by_code.values() for one in found if one not in commas]]
-        if commas
-        else by_code.values()
-    )
-    for first, *others in rows:
-        more = f"; and {counted(len(others), 'more field')} of it" if others else ""
-        problem = first.problem
-        following = tuple(one.problem for one in others)
-        yield Judged(first.usual, replace(problem, message=problem.message + more, following=following))
+    yield from _of_row([one for slot, value in given for one in _compared(of, slot, value, where.inside(slot.json))])
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
@@ -120,6 +113,27 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
         for index, one in enumerate(value if isinstance(value, list) else ()):
             if isinstance(one, Part):
                 yield from _inside(deck, one, part, where.inside(slot.json, index))
+
+
+def _is_plain(deck: Numbers, slot: FieldSpec, value: float | Part) -> bool:
+    """Whether a number is within all the ranges of its field, and none of them compares anything else."""
+    if isinstance(value, Part):
+        return False
+    sized = value * deck.units.size(slot.about.unit)
+    return all(not usual.of and usual.low <= sized <= usual.high for usual in slot.about.usuals)
+
+
+def _of_row(found: Sequence[Judged]) -> Iterator[Judged]:
+    """One finding of each code, with the others under it; one alone where the row explains what is unusual in it."""
+    alone = any(one.of_row for one in found)
+    rows: dict[object, list[Judged]] = {}
+    for one in sorted(found, key=lambda one: not one.of_row):
+        rows.setdefault(alone or one.problem.code, []).append(one)
+    for first, *others in rows.values():
+        more = f"; also unusual: {', '.join(one.field for one in others)}" if others else ""
+        following = tuple(one.problem for one in others)
+        problem = replace(first.problem, message=first.problem.message + more, following=following)
+        yield first._replace(problem=problem)
 
 
 def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
@@ -151,8 +165,9 @@ def _compared(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[
     for usual in slot.about.usuals if not slot.about.fault(value) else ():
         if _is_unusual(of, slot, usual, value):
             code = UNT008 if usual.remark else CODES[usual.code]
-            message = f"{_seen(of, slot, usual, value)}: {_advice(of, slot, usual, value, where)}"
-            return [Judged(usual, Problem(code, message, where=where))]
+            advice, of_row = _advice(of, slot, usual, value, where)
+            problem = Problem(code, f"{_seen(of, slot, usual, value)}: {advice}", where=where)
+            return [Judged(usual, problem, in_words(slot), of_row)]
     return []
 
 
@@ -192,7 +207,6 @@ def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, st
 
 
 _TIMES = {1e3: "smaller", 1e-3: "larger"}
-_COMMA = "a comma of thousands seems to stand in"
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3},\d{3}(?:\.\d*)?(?![\d.,]*\d)")
 
 
@@ -218,26 +232,29 @@ def _name(part: Part) -> str:
     return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
 
 
-def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> str:
-    """What to do about a value: the unit, the exchange or the comma that explains it."""
+def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> tuple[str, bool]:
+    """What to do about a value, and whether that is about its row: the unit, the exchange or the comma explains it."""
     if of.table is not None:
-        return _advice_on_curve(of, slot, usual)
+        return _advice_on_curve(of, slot, usual), False
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
-        return "correct it"
+        return "correct it", False
+    if found := _explanation(of, slot, usual, value):
+        return found, False
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
-    if found := _explanation(of, slot, usual, value) or ("" if alone else _exchange(of, slot, where)):
-        return found
+    if not alone and (found := _exchange(of, slot, where)):
+        return found, True
     unit = slot.about.unit
     words = likely_slips(usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number))
-    return f"write it in{of.units.behind(unit)} ({words}?)" if words else f"correct it{_point(of, slot, usual, value)}"
+    point = _lacks_point(of, slot, usual, value)
+    if not words:
+        return "correct it (a decimal point?)" if point else "correct it", False
+    return f"{'correct its decimal point, or ' * point}write it in{of.units.behind(unit)} ({words}?)", False
 
 
-def _point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
-    """That a decimal point may be lost or misplaced, in words, or ""."""
-    if slot.kind is Kind.WHOLE:
-        return ""
+def _lacks_point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
+    """Whether a decimal point may be lost or misplaced."""
     sized = value * of.units.size(slot.about.unit)
-    return " (a decimal point?)" if lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each)) else ""
+    return slot.kind is not Kind.WHOLE and lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each))
 
 
 def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
@@ -269,7 +286,7 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
         left = line[: comma.start()].count(",")
         joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
         if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
-            return f"{_COMMA} {comma[0]}, write {comma[0].replace(',', '')}"
+            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}"
     return ""
 
 
