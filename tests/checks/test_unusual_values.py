@@ -13,7 +13,7 @@ from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import FieldSpec, fields_of
 from mudline.language.keywords.values import Kind
-from tests.checks.usual_slips import CONDUCTOR, FLOWLINE, LAZY_WAVE, PIPELINE, Slip
+from tests.checks.usual_slips import CONDUCTOR, FLOWLINE, LAZY_WAVE, PIPELINE, STEEL_LAZY_WAVE, UNEVEN_PIPELINE, Slip
 
 DECKS = Path(__file__).parents[1] / "data" / "usual"
 NUMBERS = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME, Kind.WHOLE_OR_LABEL)
@@ -57,7 +57,9 @@ MISSED = {"100, 45.0E6": "an info: the mass of a hull may be a point mass"}
 
 
 @pytest.mark.parametrize(
-    "slip", [*LAZY_WAVE, *PIPELINE, *CONDUCTOR, *FLOWLINE], ids=lambda slip: f"{slip.deck}: {slip.typed.strip()}"
+    "slip",
+    [*LAZY_WAVE, *PIPELINE, *CONDUCTOR, *FLOWLINE, *STEEL_LAZY_WAVE, *UNEVEN_PIPELINE],
+    ids=lambda slip: f"{slip.deck}: {slip.typed.strip()}",
 )
 def test_a_slip_is_found(slip: Slip) -> None:
     text = (DECKS / slip.deck).read_text(encoding="utf-8")

@@ -16,8 +16,10 @@ from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
+from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import WALL, YOUNG
+from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats
@@ -317,6 +319,24 @@ def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:
     return over(force, apart) if force > 0.0 else math.nan
 
 
+def _skin_strain(of: Numbers, _name: str, _value: float) -> float:
+    """The largest curvature of a curve times the radius of the widest pipe that has it."""
+    points, name = _points(of), getattr(of.part, "curve", None)
+    if points is None or not isinstance(name, str):
+        return math.nan
+    width = of.context.once(_bent).get(folded(name), math.nan) * of.units.size("L")
+    return 0.5 * width * float(np.abs(points[:, 0]).max())
+
+
+def _bent(context: LintContext) -> dict[str, float]:
+    """The largest diameter of the sections with each moment-curvature curve, by its name, in the deck's units."""
+    found: dict[str, float] = {}
+    for section in context.scene.section_table.sections:
+        for _, name in names_given(section.entry, Names.MOMENT_CURVATURE):
+            found[folded(name)] = float(np.fmax(found.get(folded(name), math.nan), section.diameter))
+    return found
+
+
 def _points(of: Numbers) -> Floats | None:
     """Abscissas and ordinates of a curve, in SI; None where one is not known."""
     if of.table is None or of.rows is None or not of.rows.row or len(of.table) < FEWEST_POINTS:
@@ -352,6 +372,7 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,
     "times the diameter of the pipe": _times_pipe,
     "as a stiffness": _as_stiffness,
+    "times the inverse radius of the pipe, at its end": _skin_strain,
     "times the weight of the soil above and the diameter": _times_soil,
 }
 WEIGHED = {

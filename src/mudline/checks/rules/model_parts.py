@@ -248,8 +248,8 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
     if free.size and held.any():
         what = first_of("node", scene.node_ids[free[0]], free.size)
-        at = "the end of a line is" if free.size == 1 else "ends of lines are"
-        message = f"{what} at {at} held by nothing: add it to *BOUNDARY, or leave it if the end is free"
+        at, it = ("the end of a line is", "it") if free.size == 1 else ("ends of lines are", "them")
+        message = f"{what} at {at} held by nothing: add {it} to *BOUNDARY, or leave {it} if the end is free"
         yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))
 
 

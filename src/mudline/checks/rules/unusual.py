@@ -23,7 +23,7 @@ from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
 from mudline.language.keywords.ranges import in_words
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.usual import Usual
+from mudline.language.keywords.usual import BENT, Usual
 from mudline.language.keywords.values import Kind
 from mudline.model.scene.deck_values import number
 
@@ -261,6 +261,8 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     """What to do about a whole curve: exchange its columns, or write its ordinates in another unit."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     over, ordinate = (columns[axis] for axis in cast("Rows", slot.about).axes)
+    if usual is BENT:
+        return f"write {over.label} in{of.units.behind(over.about.unit)}"
     quantity = _quantity(of, slot, usual, math.nan)
     if usual.of == "as a stiffness" and quantity > 0.0 and usual.holds(1.0 / quantity):
         first = min(over, ordinate, key=lambda column: column.order)

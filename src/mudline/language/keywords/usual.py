@@ -105,6 +105,7 @@ CURVE_FORCE = Usual(
 ROTATION = Usual(1e-1, 1e9, remark=True)
 SECANT = "columns exchanged, or another unit"
 EI_CURVE = Usual(1.0, 1e14, SECANT, of="as a stiffness")
+BENT = Usual(high=0.5, why="no pipe bends to its own width", of="times the inverse radius of the pipe, at its end")
 EA_CURVE = Usual(1e3, 1e13, SECANT, of="as a stiffness")
 E_CURVE = Usual(1e5, 1e13, SECANT, of="as a stiffness")
 FORCE_CURVE = Usual(1.0, 1e13, SECANT, of="as a stiffness")
