@@ -146,7 +146,7 @@ STEEL_LAZY_WAVE = _all(
     (" {Hang-off}, 1500.0", " {Hangoff}, 1500.0"),
     (" 401, LABEL=Hang-off", " 410, LABEL=Hang-off"),
     (" SET=Floated\n GEN=151, 225", " SET=Floated\n GEN=151, 252", "info", " SET=Floated"),
-    (" SET=Upper Riser\n GEN=226, 399", " SET=Upper Riser\n GEN=262, 399", "warning", " 1, 1, 2"),
+    (" SET=Upper Riser\n GEN=226, 399", " SET=Upper Riser\n GEN=262, 399", "warning", " GEN=1, 400"),
     (" SET=Taper\n 400", " SET=Taper\n 4000"),
     ("0.2191, 0.1731, 7850.0\n SET=Lower Riser", " 0.1731, 0.2191, 7850.0\n SET=Lower Riser"),
     (
