@@ -15,6 +15,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
+from mudline.checks.rules.data_files import operator_files
 from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
 from mudline.checks.unit_slips import is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
@@ -60,7 +61,22 @@ def unusual_values(context: LintContext) -> list[Problem]:
 
 def _of_deck(deck: Numbers) -> list[Judged]:
     placed = deck.context.scene.context.placed.values()
-    return [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, None, where)]
+    own = [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, None, where)]
+    return [*own, *_in_files(deck)]
+
+
+def _in_files(deck: Numbers) -> Iterator[Judged]:
+    """What is unusual in the files of operators that a deck names, one finding a file."""
+    for file in deck.context.once(operator_files):
+        from mudline.language.keywords.library.vessel_motions import VesselRao  # noqa: PLC0415 - few decks have one
+
+        columns = record_schema(VesselRao).slots
+        lines = next(slot for slot in columns if slot.name == "lines")
+        of = replace(deck, where=file.where, columns=columns)
+        for judged in _in_table(of, lines, Table(np.array(file.rows).reshape(len(file.rows), -1))):
+            heading, frequency = file.rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
+            message = f"{file.name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
+            yield judged._replace(problem=replace(judged.problem, message=message, where=file.where))
 
 
 def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
@@ -72,12 +88,15 @@ def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
 
 
 class Judged(NamedTuple):
-    """A finding about a field, and the range that its value is outside of; `of_row` where its row explains it."""
+    """A finding about a field, and the range that its value is outside of.
+
+    `explains` are the fields of its row that are unusual for the same reason.
+    """
 
     usual: Usual
     problem: Problem
-    field: str
-    of_row: bool
+    slot: FieldSpec
+    explains: Sequence[FieldSpec]
 
 
 @cache
@@ -124,13 +143,14 @@ def _is_plain(deck: Numbers, slot: FieldSpec, value: float | Part) -> bool:
 
 
 def _of_row(found: Sequence[Judged]) -> Iterator[Judged]:
-    """One finding of each code, with the others under it; one alone where the row explains what is unusual in it."""
-    alone = any(one.of_row for one in found)
-    rows: dict[object, list[Judged]] = {}
-    for one in sorted(found, key=lambda one: not one.of_row):
-        rows.setdefault(alone or one.problem.code, []).append(one)
+    """One finding of each code, with the others under it; one of all that an exchange or a comma explains."""
+    cause = next((one for one in found if one.explains), None)
+    explained = cause.explains if cause else ()
+    rows: dict[Code | None, list[Judged]] = {}
+    for one in sorted(found, key=lambda one: one is not cause):
+        rows.setdefault(None if one is cause or one.slot in explained else one.problem.code, []).append(one)
     for first, *others in rows.values():
-        more = f"; also unusual: {', '.join(one.field for one in others)}" if others else ""
+        more = f"; also unusual: {', '.join(in_words(one.slot) for one in others)}" if others else ""
         following = tuple(one.problem for one in others)
         problem = replace(first.problem, message=first.problem.message + more, following=following)
         yield first._replace(problem=problem)
@@ -165,9 +185,9 @@ def _compared(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[
     for usual in slot.about.usuals if not slot.about.fault(value) else ():
         if _is_unusual(of, slot, usual, value):
             code = UNT008 if usual.remark else CODES[usual.code]
-            advice, of_row = _advice(of, slot, usual, value, where)
+            advice, explains = _advice(of, slot, usual, value, where)
             problem = Problem(code, f"{_seen(of, slot, usual, value)}: {advice}", where=where)
-            return [Judged(usual, problem, in_words(slot), of_row)]
+            return [Judged(usual, problem, slot, explains)]
     return []
 
 
@@ -232,23 +252,27 @@ def _name(part: Part) -> str:
     return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
 
 
-def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> tuple[str, bool]:
-    """What to do about a value, and whether that is about its row: the unit, the exchange or the comma explains it."""
+_Advice = tuple[str, Sequence[FieldSpec]]
+"""What to do about a value, in words, and the fields of its row that this explains."""
+
+
+def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> _Advice:
+    """What to do about a value: the unit, the exchange or the comma that explains it."""
     if of.table is not None:
-        return _advice_on_curve(of, slot, usual), False
+        return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
-        return "correct it", False
+        return "correct it", ()
     if found := _explanation(of, slot, usual, value):
-        return found, False
+        return found, ()
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
-    if not alone and (found := _exchange(of, slot, where)):
-        return found, True
+    if not alone and (exchanged := _exchange(of, slot, where)):
+        return exchanged
     unit = slot.about.unit
     words = likely_slips(usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number))
     point = _lacks_point(of, slot, usual, value)
     if not words:
-        return "correct it (a decimal point?)" if point else "correct it", False
-    return f"{'correct its decimal point, or ' * point}write it in{of.units.behind(unit)} ({words}?)", False
+        return "correct it (a decimal point?)" if point else "correct it", ()
+    return f"{'correct its decimal point, or ' * point}write it in{of.units.behind(unit)} ({words}?)", ()
 
 
 def _lacks_point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
@@ -272,8 +296,8 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     return f"write {ordinate.label} in{of.units.behind(ordinate.about.unit)}" + (f" ({words}?)" if words else "")
 
 
-def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
-    """With which number beside it a value seems to be exchanged, or which comma is one too many; "" if none."""
+def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
+    """With which number beside it a value seems to be exchanged, or which comma is one too many; None if none."""
     row = [(one, number(of.part, one.name)) for one in of.columns if not one.key and not one.row]
     row = [(one, value) for one, value in row if not math.isnan(value)]
     fields, values = [one for one, _ in row], [value for _, value in row]
@@ -281,15 +305,15 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
         exchanged = [*values[:left], values[left + 1], values[left], *values[left + 2 :]]
         real = one.kind is other.kind is Kind.REAL and 0.0 not in values[left : left + 2]
         if slot in (one, other) and real and _all_usual(of, fields, exchanged, (one, other)):
-            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first"
+            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first", (one, other)
     text = of.context.text
     line = text.source.line(text.place(Problem(UNT007, "", where=where)).line) if text else ""
     for comma in _THOUSANDS.finditer(line):
         left = line[: comma.start()].count(",")
         joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
         if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
-            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}"
-    return ""
+            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}", fields
+    return None
 
 
 def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float], asked: Sequence[FieldSpec]) -> bool:

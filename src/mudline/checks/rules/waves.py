@@ -146,7 +146,7 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
 def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
     """What only follows from a wave or a time step that is not usual itself."""
     rest = [one for code in (WAV002, TIM003, TIM004) for one in found.get(code.code, ())]
-    for cause in (*found.get(UNT007.code, ()), *found.get(WAV002.code, ())):
+    for cause in found.get(UNT007.code, ()):
         at = cause.where
         if at is None or not at.path:
             continue
@@ -155,12 +155,11 @@ def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
         others = [
             one
             for one in rest
-            if one is not cause
-            and one.where is not None
+            if one.where is not None
             and (one.where[:2] == at[:2] or (wave and one.where.section == at.section and one.code is not WAV002))
         ]
         if others and (wave or keyword == "TIME"):
-            rest = [one for one in rest if one not in (cause, *others)]
+            rest = [one for one in rest if one not in others]
             yield Joined(cause, others)
 
 

@@ -290,5 +290,5 @@ class _Looking:
         given = self.context.written.sections[where.section].name in catalogue.CERTAIN_SECTIONS
         if folder is None or not given or "%" in name or find_file(folder, name) is not None:
             return
-        message, refused = not_found(folder, name)
-        self._note(Problem(REF015, f"{message}{_UNREAD}", None, Severity.ERROR if refused else None, where))
+        message, severity = not_found(folder, name)
+        self._note(Problem(REF015, f"{message}{_UNREAD}", None, severity, where))
