@@ -49,7 +49,7 @@ def test_ranges_have_an_order_a_measure_that_exists_and_a_reason() -> None:
 @pytest.mark.parametrize("deck", sorted(DECKS.glob("*.key*")), ids=lambda deck: deck.name)
 def test_a_right_deck_has_no_finding(deck: Path) -> None:
     found = lint_bytes(deck.read_bytes(), deck.name, select(), folder=DECKS)
-    assert {one.code for one in found} <= {"LEG001"}  # an older keyword
+    assert {one.code for one in found} <= {"LEG001", "GEO016"}  # an older keyword; added masses whose order is inferred
 
 
 MISSED = {"100, 45.0E6": "an info: the mass of a hull may be a point mass"}

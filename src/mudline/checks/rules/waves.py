@@ -158,7 +158,7 @@ def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
             if one.where is not None
             and (one.where[:2] == at[:2] or (wave and one.where.section == at.section and one.code is not WAV002))
         ]
-        if others and (wave or keyword == "TIME"):
+        if others:
             rest = [one for one in rest if one not in others]
             yield Joined(cause, others)
 
