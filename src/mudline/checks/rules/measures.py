@@ -42,6 +42,8 @@ _DEEP = 5.0
 """m: nearer to the mudline soil may be of any weakness."""
 _SHALLOW = 100.0
 """m: in shallower water offsets are compared with this depth."""
+_PEAK_PERIOD = 1.25
+"""Peak over mean zero up-crossing period of a Jonswap sea, at least."""
 _SHORT = 3.2
 """m: mobilisation lengths up to the usual characteristic length of 10 ft are no slip of units."""
 _MOST_PAIRS = 10_000_000
@@ -201,10 +203,11 @@ def _long_heave(of: Numbers, name: str, value: float) -> float:
 
 
 def _steepness(of: Numbers, height: float) -> float:
-    """Height over length in deep water; NaN where gravity is not known."""
+    """Height over length in deep water, of the peak period of a sea; NaN where gravity is not known."""
     gravity = surroundings(of.context.scene.deck).gravity * of.units.size("L/T2")
     gravity = 9.81 if of.units.known and not 9.0 < gravity < 11.0 else gravity
-    return over(2.0 * math.pi * height, gravity * of("period") * of("period"))
+    period = of("period") * (_PEAK_PERIOD if getattr(of.holder, "spec", None) == "HSTZ" else 1.0)
+    return over(2.0 * math.pi * height, gravity * period * period)
 
 
 def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
