@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import NamedTuple, cast
@@ -17,7 +17,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
 from mudline.checks.rules.data_files import operator_files
 from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
-from mudline.checks.unit_slips import is_placeholder, lacks_point, likely_slips, meant_unit, units_of
+from mudline.checks.unit_slips import Units, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
@@ -116,8 +116,9 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
         return
     given = [
         (slot, math.nan if isinstance(value, Part) else float(value))
-        for slot in own
-        if isinstance(value := getattr(part, slot.name, None), float | int | Part) and not _is_plain(deck, slot, value)
+        for slot, low, high in (_ranges(type(part), deck.units) if own else ())
+        if isinstance(value := getattr(part, slot.name, None), float | int | Part)
+        and (isinstance(value, Part) or not low <= value <= high)
     ]
     if not (given or outer):
         return
@@ -134,12 +135,19 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
                 yield from _inside(deck, one, part, where.inside(slot.json, index))
 
 
-def _is_plain(deck: Numbers, slot: FieldSpec, value: float | Part) -> bool:
-    """Whether a number is within all the ranges of its field, and none of them compares anything else."""
-    if isinstance(value, Part):
-        return False
-    sized = value * deck.units.size(slot.about.unit)
-    return all(not usual.of and usual.low <= sized <= usual.high for usual in slot.about.usuals)
+@lru_cache(512)
+def _ranges(part: type[Part], units: Units) -> list[tuple[FieldSpec, float, float]]:
+    """The fields of a part that have usual values, each with the values (as the deck has them) that need no look.
+
+    Where more is compared than the number itself, all need one: NaN.
+    """
+    found = []
+    for slot in _judged(part)[0]:
+        usuals, size = slot.about.usuals, units.size(slot.about.unit)
+        low, high = max(usual.low for usual in usuals), min(usual.high for usual in usuals)
+        plain = not any(usual.of for usual in usuals)
+        found.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
+    return found
 
 
 def _of_row(found: Sequence[Judged]) -> Iterator[Judged]:
