@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import select
 from tests.checks.findings import found, messages
 
 LINE = "$MODEL\n*NODE\n 1, 50.0, 0.0\n 6, 50.0, 50.0\n GEN=1, 6\n*ELEMENT\n 1, 1, 2\n GEN=1, 5\n"
@@ -83,3 +85,24 @@ def test_a_deck_without_elements() -> None:
     assert found(nodes + "*LINES\n LINE=a\n" + HELD, "GEO015") == []
     assert found(nodes + HELD + "*RESTART\n LAST=static\n", "GEO015") == []
     assert found(LINE + HELD, "GEO015") == []
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "suffix", "words"),
+    [
+        (
+            "1.0, 0.0, 2.0, 1.0, 0.0",
+            "keyxm",
+            "read as 1 normal, 0 tangential (inferred): these are the defaults, remove both",
+        ),
+        ("1.0, 0.0, 2.0, 0.2, 1.0", "keyxm", "read as 0.2 normal, 1 tangential (inferred): keep them"),
+        ("1.0, 0.0, 2.0, 1.0, 1.0", "keyxm", ""),  # the same in either order
+        ("1.0, 0.0, 2.0, 1.0", "keyxm", ""),
+        ("1.0, 0.0, 2.0, 1.0, 0.0", "das", ""),  # whose order is public
+    ],
+)
+def test_added_masses_say_how_they_are_read(coefficients: str, suffix: str, words: str) -> None:
+    text = f"$MODEL\n*HYDRODYNAMIC SETS\n SET=ALL, TYPE=CONSTANT\n {coefficients}\n"
+    found = [one.message for one in lint_bytes(text.encode(), f"deck.{suffix}", select(["GEO016"]))]
+    assert len(found) == bool(words)
+    assert words in "".join(found)

@@ -214,7 +214,7 @@ def test_a_diameter_of_a_steel_pipe(suffix: str, row: str, column: int, words: s
             "FLEXIBLE",
             ", , , 3.5E8, 95.0, 0.9, 152.4, 262.0, 262.0",
             26,
-            "looks like mm, write it in m; and 2 more",
+            "looks like mm, write it in m; also unusual: drag diameter Dd, buoyancy diameter Db",
         ),
         ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 6.0, 10.3, 10.3", 37, "inches"),
         (
@@ -257,7 +257,7 @@ LAW = PROPERTIES + " STIFFNESS=60000.0\n FRICTION=0.4, 0.7, {}\n"
         ("10.0, 10.0", []),
         ("3.2, 3.2", []),
         ("3.3, 3.3", [21]),
-        ("30, 200", [21]),  # and one more field of it
+        ("30, 200", [21]),  # also unusual
         ("=[30*1.0], 0.2", [21]),
     ],
 )

@@ -9,7 +9,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from mudline.checks.context import LintContext
-from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.usual import Usual
 from mudline.model.scene.deck_values import FOOT, POUND, number
 
@@ -90,6 +89,8 @@ class Units(NamedTuple):
 
     def behind(self, unit: str) -> str:
         """A unit of a field as it is written behind a number, with a space; "" where there is none that is known."""
+        from mudline.language.keywords.format import unit_text  # noqa: PLC0415 - only for a finding
+
         if unit == "deg":
             return " degrees"
         return f" {unit_text(unit, self.name)}" if unit not in ("", "-") and self.known else ""

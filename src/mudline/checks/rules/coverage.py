@@ -84,7 +84,7 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
     ends = scene.element_nodes
     joins = (ends[:, 0] >= 0) & (ends[:, 1] >= 0) & (ends[:, 0] != ends[:, 1])
     pairs = ends.min(axis=1) * len(scene.node_ids) + ends.max(axis=1)
-    if np.unique(pairs[joins]).size == np.count_nonzero(joins) or _has_unread_joints(context):
+    if np.diff(np.sort(pairs[joins])).all() or _has_unread_joints(context):
         return
     usable = np.flatnonzero(joins & ~without_sections(scene))
     _, firsts, same = np.unique(pairs[usable], return_index=True, return_inverse=True)
@@ -161,7 +161,8 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
     Finds: 15:2
     """
     scene = context.scene
-    held = list(held_nodes(scene))
+    follows = any(is_of_vessels(context.deck, where) for where, _ in context.written(KEYWORD, "LOAD CASE"))
+    held = list(held_nodes(scene)) if follows else []
     for where, keyword, line in unread_lines(context.deck) if held else ():
         if keyword != KEYWORD or not is_of_vessels(context.deck, where):
             continue

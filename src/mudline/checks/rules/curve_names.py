@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
@@ -22,7 +21,6 @@ from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.tree import Kind, Leaf
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.names import CURVES, repeated, unused
 
 if TYPE_CHECKING:
@@ -31,43 +29,6 @@ if TYPE_CHECKING:
     from mudline.model.scene.force_curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
-CRV015 = Code("CRV015", "repeated-depth", Severity.WARNING)
-
-
-@rule(CRV015)
-def repeated_depth(context: LintContext) -> Iterator[Problem]:
-    """A soil spring has two curves at one depth, or a depth above the one before it.
-
-    Between the depths that are given the resistance is interpolated: at a depth that stands twice it jumps, or one of
-    its curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
-    not follow each other downwards are an info, as nothing says that they must. Correct the depth.
-
-    Example on pipe:
-          STIFFNESS=50000.0
-        |*P-Y
-        | SET=ALL
-        | DEPTH=0.0
-        | 0.0, 0.0
-        | 2000.0, 0.05
-        - DEPTH=0.0
-        + DEPTH=5.0
-        | 0.0, 0.0
-        | 20000.0, 0.05
-
-    Finds: 22:8
-    """
-    for where, block in context.scene.deck.blocks_that(lambda declared: declared.facts.soil_springs):
-        for index, entry in enumerate(block.sets):
-            before: list[float] = []
-            for at, curve in enumerate(entry.curves):
-                depth = number(curve, "depth", math.inf)  # one that is not known is deeper than all others
-                place = where.inside("sets", index, "curves", at, "depth")
-                if depth in before and depth < math.inf:
-                    yield Problem(CRV015, f"there is already a curve at depth {depth:g}: correct one", where=place)
-                elif before and depth < max(before):
-                    message = f"depth {depth:g} follows {max(before):g}: write the curves from the mudline downwards"
-                    yield Problem(CRV015, message, where=place, severity=Severity.INFO)
-                before.append(depth)
 
 
 @rule(REF003)

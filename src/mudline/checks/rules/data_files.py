@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
@@ -17,7 +18,7 @@ from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Contents
 from mudline.language.rules import rule
-from mudline.model.scene.data_files import fault_of, has_uneven_times, unequal_frequencies
+from mudline.model.scene.data_files import fault_of, has_uneven_times, operators, unequal_frequencies
 from mudline.model.scene.deck_values import file_name, find_file
 
 if TYPE_CHECKING:
@@ -70,21 +71,53 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
             if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
                 message = f"{fault}: correct the lines"
                 yield Problem(DAT002, message, where=where.inside("vessels", index, "lines"))
-    files = list(_files(context)) if context.deck.folder else []
-    parameters = Parameters(context.deck) if files else None
-    for named in files:
-        path = find_file(context.deck.folder, file_name(parameters.filled(named.name) if parameters else named.name))
-        if path is not None and (fault := _fault(named, path)):
+    for named, path in _there(context):
+        if fault := _fault(named, path):
             shown_fault = without_text(fault, path, context.deck.folder)
             yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
 
 
+class OperatorFile(NamedTuple):
+    """A file of the operators of a vessel: its name, where the deck has that, and its rows as LAYOUT=LINE has them."""
+
+    where: Where
+    name: str
+    rows: list[list[float]]
+
+
+def operator_files(context: LintContext) -> list[OperatorFile]:
+    """The files of operators that a deck names and that can be used."""
+    found = []
+    for named, path in _there(context):
+        if named.slot.about.holds is Contents.OPERATORS and _is_own(named):
+            with suppress(OSError, ValueError):  # DAT002 says why
+                found.append(OperatorFile(named.where, path.name, operators(path, _layout(named))))
+    return found
+
+
+def _there(context: LintContext) -> Iterator[tuple[_Named, Path]]:
+    """The files that a deck names and that are there."""
+    files = list(_files(context)) if context.deck.folder else []
+    parameters = Parameters(context.deck) if files else None
+    for named in files:
+        path = find_file(context.deck.folder, file_name(parameters.filled(named.name) if parameters else named.name))
+        if path is not None:
+            yield named, path
+
+
+def _is_own(named: _Named) -> bool:
+    return getattr(named.part, "format", None) in _OWN_FORMATS
+
+
+def _layout(named: _Named) -> str:
+    return getattr(named.part, "layout", "") or ""
+
+
 def _fault(named: _Named, path: Path) -> str:
     contents = cast("Contents", named.slot.about.holds)
-    layout = getattr(named.part, "layout", "") or ""
-    if contents is Contents.OPERATORS and getattr(named.part, "format", None) not in _OWN_FORMATS:
+    if contents is Contents.OPERATORS and not _is_own(named):
         return ""
-    if fault := fault_of(path, contents, layout=layout):
+    if fault := fault_of(path, contents, layout=_layout(named)):
         return fault
     if contents is Contents.ELEVATIONS and getattr(named.part, "increment", None) is None and has_uneven_times(path):
         return "its times are uneven: give a time step in the deck"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
@@ -11,6 +12,7 @@ from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown
 from mudline.language.rules import rule
+from mudline.model.scene.deck_values import number
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import StepLimits, TimeSpan
@@ -22,8 +24,8 @@ TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
 TIM002 = Code("TIM002", "step-limits-out-of-order", Severity.ERROR)
 WAV001 = Code("WAV001", "airy-period-without-amplitude", Severity.ERROR)
 VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
-
 TIM006 = Code("TIM006", "storage-given-twice", Severity.ERROR)
+TIM007 = Code("TIM007", "stored-after-the-end", Severity.WARNING)
 
 _LAST_STORED = -1.0
 
@@ -123,6 +125,34 @@ def storage_given_twice(context: LintContext) -> Iterator[Problem]:
             message = "this load case has a *DATABASE above: remove one of them"
             yield Problem(TIM006, message, where=where)
         seen.add(where.section)
+
+
+@rule(TIM007)
+def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
+    """Results are stored from a time on at which the run has ended.
+
+    The run takes its hours and leaves no results. The first time of `*DATABASE` was meant for a longer run, or start
+    and interval were exchanged. Correct it, or the end of `*TIME`.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*DATABASE
+        | TIME=SELECTED
+        - 600.0, 0.5
+        + 60.0, 0.5
+
+    Finds: 12:2
+    """
+    ends = {
+        where.section: end
+        for where, block in context.blocks("TIME", "LOAD CASE")
+        if not math.isnan(end := number(block.fixed or block.variable, "end"))
+    }
+    for where, block in context.blocks("DATABASE", "LOAD CASE"):
+        start, end = number(block, "start"), ends.get(where.section, math.inf)
+        if start >= end:
+            message = f"results are stored from {start:g} on, and the run ends at {end:g}: correct one of them"
+            yield Problem(TIM007, message, where=where.inside("start"))
 
 
 @rule(WAV001)

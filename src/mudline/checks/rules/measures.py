@@ -16,8 +16,10 @@ from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
+from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import WALL, YOUNG
+from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats
@@ -40,6 +42,8 @@ _DEEP = 5.0
 """m: nearer to the mudline soil may be of any weakness."""
 _SHALLOW = 100.0
 """m: in shallower water offsets are compared with this depth."""
+_PEAK_PERIOD = 1.25
+"""Peak over mean zero up-crossing period of a Jonswap sea, at least."""
 _SHORT = 3.2
 """m: mobilisation lengths up to the usual characteristic length of 10 ft are no slip of units."""
 _MOST_PAIRS = 10_000_000
@@ -61,12 +65,13 @@ class Numbers:
 
     `where` is the place of the part, `holder` the part around it, `columns` are its fields in the order of a line. Of a
     table, `part` is what holds it, `table` has the rows and `rows` declares them. The weights of pipes are known if it
-    `weighs` them.
+    `weighs` them, the depth of the water if it is `deep`.
     """
 
     context: LintContext
     units: Units
     weighs: bool = True
+    deep: bool = True
     part: Any = None
     holder: Any = None
     where: Where = NOWHERE
@@ -97,7 +102,7 @@ class Numbers:
     @property
     def depth(self) -> float:
         """Depth of the water; NaN where it is not known."""
-        return surroundings(self.context.scene.deck).depth * self.units.size("L")
+        return surroundings(self.context.scene.deck).depth * self.units.size("L") if self.deep else math.nan
 
     @property
     def density(self) -> float:
@@ -198,10 +203,11 @@ def _long_heave(of: Numbers, name: str, value: float) -> float:
 
 
 def _steepness(of: Numbers, height: float) -> float:
-    """Height over length in deep water; NaN where gravity is not known."""
+    """Height over length in deep water, of the peak period of a sea; NaN where gravity is not known."""
     gravity = surroundings(of.context.scene.deck).gravity * of.units.size("L/T2")
     gravity = 9.81 if of.units.known and not 9.0 < gravity < 11.0 else gravity
-    return over(2.0 * math.pi * height, gravity * of("period") * of("period"))
+    period = of("period") * (_PEAK_PERIOD if getattr(of.holder, "spec", None) == "HSTZ" else 1.0)
+    return over(2.0 * math.pi * height, gravity * period * period)
 
 
 def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
@@ -316,6 +322,24 @@ def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:
     return over(force, apart) if force > 0.0 else math.nan
 
 
+def _skin_strain(of: Numbers, _name: str, _value: float) -> float:
+    """The largest curvature of a curve times the radius of the widest pipe that has it."""
+    points, name = _points(of), getattr(of.part, "curve", None)
+    if points is None or not isinstance(name, str):
+        return math.nan
+    width = of.context.once(_bent).get(folded(name), math.nan) * of.units.size("L")
+    return 0.5 * width * float(np.abs(points[:, 0]).max())
+
+
+def _bent(context: LintContext) -> dict[str, float]:
+    """The largest diameter of the sections with each moment-curvature curve, by its name, in the deck's units."""
+    found: dict[str, float] = {}
+    for section in context.scene.section_table.sections:
+        for _, name in names_given(section.entry, Names.MOMENT_CURVATURE):
+            found[folded(name)] = float(np.fmax(found.get(folded(name), math.nan), section.diameter))
+    return found
+
+
 def _points(of: Numbers) -> Floats | None:
     """Abscissas and ordinates of a curve, in SI; None where one is not known."""
     if of.table is None or of.rows is None or not of.rows.row or len(of.table) < FEWEST_POINTS:
@@ -351,10 +375,13 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,
     "times the diameter of the pipe": _times_pipe,
     "as a stiffness": _as_stiffness,
+    "times the inverse radius of the pipe, at its end": _skin_strain,
     "times the weight of the soil above and the diameter": _times_soil,
 }
-WEIGHED = (
+WEIGHED = {
     "diameters that the pipe sinks under its weight",
     "times the weight of the pipe, or 100 N/m, at its largest force",
-)
+}
 """Measures in which the weight of the pipe has a part."""
+OF_DEPTH = {"m above the water", "times the water depth"}
+"""Measures in which the depth of the water has a part."""

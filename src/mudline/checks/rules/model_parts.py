@@ -13,9 +13,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.geometry import without_sections
-from mudline.checks.rules.references import WATER
 from mudline.checks.rules.seabed_position import first_of
-from mudline.checks.rules.vertical_restraint import in_another_pipe
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
@@ -33,7 +31,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.curvilinear import Cables, CurvilinearNodes
 
 GEO007 = Code("GEO007", "element-without-section", Severity.WARNING)
-GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
 GEO009 = Code("GEO009", "node-without-element", Severity.INFO)
 GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
 GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
@@ -43,8 +40,8 @@ GEO015 = Code("GEO015", "no-elements", Severity.INFO)
 
 _PARTS = ("MODEL", "LOAD CASE")
 _ROUNDED = 1e-6
-_OF_CABLE = ("node", "cable", "distance")
 """Share of a length by which it may be rounded."""
+_OF_CABLE = ("node", "cable", "distance")
 
 
 def _is_whole(context: LintContext) -> bool:
@@ -68,7 +65,7 @@ def _blocks(context: LintContext) -> Iterator[tuple[Where, Block | Opaque]]:
             yield from ((Where(i, j), block) for j, block in enumerate(section.blocks))
 
 
-def _lacks(context: LintContext, *gifts: Gift) -> bool:
+def lacks(context: LintContext, *gifts: Gift) -> bool:
     """Whether what a whole model does not show of some kinds is missing: no line that is not read may give it."""
     return context.once(_is_whole) and not _unread_give(context, *gifts)
 
@@ -144,60 +141,13 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
     Finds: 8:2
     """
     scene = context.scene
-    if not context.blocks("GEOMETRIC SETS") or not _lacks(context, "elements", "sections"):
+    if not context.blocks("GEOMETRIC SETS") or not lacks(context, "elements", "sections"):
         return
     bare = np.flatnonzero((scene.section_table.of_element < 0) & ~without_sections(scene))
     if bare.size and bare.size < len(scene.element_ids):
         what = first_of("element", scene.element_ids[bare[0]], bare.size)
         message = f"{what} without a line in *GEOMETRIC SETS: put it into a set that has one, or give it a section"
         yield Problem(GEO007, message, where=scene.table.numbered.where(int(bare[0])))
-
-
-@rule(GEO008)
-def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
-    """Elements have no hydrodynamic properties in a load case with waves or a current.
-
-    No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right in a moonpool,
-    and a slip elsewhere. Inner pipes of *PIP SECTION need none. Put the elements into a set with coefficients.
-
-    Example on held:
-         $MODEL
-        |*OCEAN
-        | 420.0, 1025.0, 9.81
-
-          GEN=1, 2
-        |*ELEMENT SETS
-        | SET=Pipe
-        - 1
-        + 1, 2
-        |*HYDRODYNAMIC SETS
-        | SET=Pipe, TYPE=CONSTANT
-        | 1.0, 0.0, 2.0
-         $LOAD CASE
-        |*CURRENT
-        | TYPE=UNIFORM
-        | 0.5
-
-    Finds: 10:2
-    """
-    scene = context.scene
-    cases = (section for section in context.deck.sections if section.name == "LOAD CASE")
-    flows = any(WATER.fullmatch(block.keyword) for case in cases for block in case.blocks)
-    blocks = context.blocks("HYDRODYNAMIC SETS")
-    if not flows or not _lacks(context, "elements", "hydrodynamics"):
-        return
-    covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, block in blocks:
-        for entry in block.sets:
-            found = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
-            if found is None:
-                return
-            covered[found.elements] = True
-    bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
-    if bare.size:
-        what = first_of("element", scene.element_ids[bare[0]], bare.size)
-        message = f"{what} without coefficients in *HYDRODYNAMIC SETS: give them, else neither drag nor added mass acts"
-        yield Problem(GEO008, message, where=scene.table.numbered.where(int(bare[0])))
 
 
 @rule(GEO009)
@@ -214,7 +164,7 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     scene = context.scene
-    if not _lacks(context, "elements"):
+    if not lacks(context, "elements"):
         return
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     ends = scene.element_nodes
@@ -241,14 +191,15 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     scene = context.scene
-    if not _lacks(context, "elements", "supports") or (scene.element_nodes < 0).any():
+    if not lacks(context, "elements", "supports") or (scene.element_nodes < 0).any():
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     held = _named(context)
     free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
     if free.size and held.any():
         what = first_of("node", scene.node_ids[free[0]], free.size)
-        message = f"{what} at the end of a line is held by nothing: add it to *BOUNDARY, or leave it if the end is free"
+        at, it = ("the end of a line is", "it") if free.size == 1 else ("ends of lines are", "them")
+        message = f"{what} at {at} held by nothing: add {it} to *BOUNDARY, or leave {it} if the end is free"
         yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))
 
 

@@ -43,6 +43,8 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:8
     """
+    if not any(section.name.endswith(_REQUESTS) for section in context.deck.own_sections):
+        return
     effort = Effort()
     own = len(context.deck.own_sections)
     given = [(where, name) for where, name in used_names(context.deck, Names.VARIABLE) if where.section < own]

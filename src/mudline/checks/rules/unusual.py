@@ -6,25 +6,25 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
-from mudline.checks.rules.coordinates import UNT006
-from mudline.checks.rules.measures import CONDITIONS, MEASURES, WEIGHED, Numbers, over
-from mudline.checks.unit_slips import is_placeholder, lacks_point, likely_slips, meant_unit, units_of
+from mudline.checks.rules.coordinates import UNT006, height_over_depth
+from mudline.checks.rules.data_files import operator_files
+from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
+from mudline.checks.unit_slips import Units, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
 from mudline.language.keywords.ranges import in_words
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.usual import Usual
+from mudline.language.keywords.usual import BENT, Usual
 from mudline.language.keywords.values import Kind
 from mudline.model.scene.deck_values import number
 
@@ -43,15 +43,17 @@ def unusual_values(context: LintContext) -> list[Problem]:
     """What is outside of the usual values of its field; several rules need it, and ask `context.once`.
 
     Lines in which SYN015 found decimal commas are left out. Where gravity, a density or a length is unusual, the weight
-    of a pipe counts as not known.
+    of a pipe counts as not known, and where nodes lie too high for it, the depth of the water.
     """
     deck = Numbers(context, units_of(context))
     with np.errstate(all="ignore"):  # numbers may be as large as they like
         judged = _of_deck(deck)
-        heavy = any(problem.code in (UNT001, UNT004, UNT006) for _, problem in judged)
-        if heavy and any(usual.of in WEIGHED for usual, _ in judged):
-            judged = _of_deck(replace(deck, weighs=False))
-    found = [problem for _, problem in judged]
+        measures = {one.usual.of for one in judged}
+        heavy = bool(measures & WEIGHED) and any(one.problem.code in (UNT001, UNT004, UNT006) for one in judged)
+        shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
+        if heavy or shallow:
+            judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
+    found = [one.problem for one in judged]
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and found else set()
     return [one for one in found if not commas or not text or text.place(one).line not in commas]
@@ -59,7 +61,22 @@ def unusual_values(context: LintContext) -> list[Problem]:
 
 def _of_deck(deck: Numbers) -> list[Judged]:
     placed = deck.context.scene.context.placed.values()
-    return [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, None, where)]
+    own = [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, None, where)]
+    return [*own, *_in_files(deck)]
+
+
+def _in_files(deck: Numbers) -> Iterator[Judged]:
+    """What is unusual in the files of operators that a deck names, one finding a file."""
+    for file in deck.context.once(operator_files):
+        from mudline.language.keywords.library.vessel_motions import VesselRao  # noqa: PLC0415 - few decks have one
+
+        columns = record_schema(VesselRao).slots
+        lines = next(slot for slot in columns if slot.name == "lines")
+        of = replace(deck, where=file.where, columns=columns)
+        for judged in _in_table(of, lines, Table(np.array(file.rows).reshape(len(file.rows), -1))):
+            heading, frequency = file.rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
+            message = f"{file.name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
+            yield judged._replace(problem=replace(judged.problem, message=message, where=file.where))
 
 
 def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
@@ -71,10 +88,15 @@ def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
 
 
 class Judged(NamedTuple):
-    """A finding, and the range that its value is outside of."""
+    """A finding about a field, and the range that its value is outside of.
+
+    `explains` are the fields of its row that are unusual for the same reason.
+    """
 
     usual: Usual
     problem: Problem
+    slot: FieldSpec
+    explains: Sequence[FieldSpec]
 
 
 @cache
@@ -92,25 +114,16 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
     own, outer = _judged(type(part))
     if not (own or outer):
         return
+    given = [
+        (slot, math.nan if isinstance(value, Part) else float(value))
+        for slot, low, high in (_ranges(type(part), deck.units) if own else ())
+        if isinstance(value := getattr(part, slot.name, None), float | int | Part)
+        and (isinstance(value, Part) or not low <= value <= high)
+    ]
+    if not (given or outer):
+        return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    by_code: dict[Code, list[Judged]] = {}
-    for slot in own:
-        value = getattr(part, slot.name, None)
-        if isinstance(value, float | int | Part):
-            given = math.nan if isinstance(value, Part) else float(value)
-            for one in _compared(of, slot, given, where.inside(slot.json)):
-                by_code.setdefault(one.problem.code, []).append(one)
-    commas = [one for found in by_code.values() for one in found if _COMMA in one.problem.message]
-    rows = (
-        [commas + [one for found in by_code.values() for one in found if one not in commas]]
-        if commas
-        else by_code.values()
-    )
-    for first, *others in rows:
-        more = f"; and {counted(len(others), 'more field')} of it" if others else ""
-        problem = first.problem
-        following = tuple(one.problem for one in others)
-        yield Judged(first.usual, replace(problem, message=problem.message + more, following=following))
+    yield from _of_row([one for slot, value in given for one in _compared(of, slot, value, where.inside(slot.json))])
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
@@ -120,6 +133,35 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
         for index, one in enumerate(value if isinstance(value, list) else ()):
             if isinstance(one, Part):
                 yield from _inside(deck, one, part, where.inside(slot.json, index))
+
+
+@lru_cache(512)
+def _ranges(part: type[Part], units: Units) -> list[tuple[FieldSpec, float, float]]:
+    """The fields of a part that have usual values, each with the values (as the deck has them) that need no look.
+
+    Where more is compared than the number itself, all need one: NaN.
+    """
+    found = []
+    for slot in _judged(part)[0]:
+        usuals, size = slot.about.usuals, units.size(slot.about.unit)
+        low, high = max(usual.low for usual in usuals), min(usual.high for usual in usuals)
+        plain = not any(usual.of for usual in usuals)
+        found.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
+    return found
+
+
+def _of_row(found: Sequence[Judged]) -> Iterator[Judged]:
+    """One finding of each code, with the others under it; one of all that an exchange or a comma explains."""
+    cause = next((one for one in found if one.explains), None)
+    explained = cause.explains if cause else ()
+    rows: dict[Code | None, list[Judged]] = {}
+    for one in sorted(found, key=lambda one: one is not cause):
+        rows.setdefault(None if one is cause or one.slot in explained else one.problem.code, []).append(one)
+    for first, *others in rows.values():
+        more = f"; also unusual: {', '.join(in_words(one.slot) for one in others)}" if others else ""
+        following = tuple(one.problem for one in others)
+        problem = replace(first.problem, message=first.problem.message + more, following=following)
+        yield first._replace(problem=problem)
 
 
 def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
@@ -151,8 +193,9 @@ def _compared(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[
     for usual in slot.about.usuals if not slot.about.fault(value) else ():
         if _is_unusual(of, slot, usual, value):
             code = UNT008 if usual.remark else CODES[usual.code]
-            message = f"{_seen(of, slot, usual, value)}: {_advice(of, slot, usual, value, where)}"
-            return [Judged(usual, Problem(code, message, where=where))]
+            advice, explains = _advice(of, slot, usual, value, where)
+            problem = Problem(code, f"{_seen(of, slot, usual, value)}: {advice}", where=where)
+            return [Judged(usual, problem, slot, explains)]
     return []
 
 
@@ -192,7 +235,6 @@ def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, st
 
 
 _TIMES = {1e3: "smaller", 1e-3: "larger"}
-_COMMA = "a comma of thousands seems to stand in"
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3},\d{3}(?:\.\d*)?(?![\d.,]*\d)")
 
 
@@ -218,32 +260,41 @@ def _name(part: Part) -> str:
     return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
 
 
-def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> str:
+_Advice = tuple[str, Sequence[FieldSpec]]
+"""What to do about a value, in words, and the fields of its row that this explains."""
+
+
+def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> _Advice:
     """What to do about a value: the unit, the exchange or the comma that explains it."""
     if of.table is not None:
-        return _advice_on_curve(of, slot, usual)
+        return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
-        return "correct it"
+        return "correct it", ()
+    if found := _explanation(of, slot, usual, value):
+        return found, ()
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
-    if found := _explanation(of, slot, usual, value) or ("" if alone else _exchange(of, slot, where)):
-        return found
+    if not alone and (exchanged := _exchange(of, slot, where)):
+        return exchanged
     unit = slot.about.unit
     words = likely_slips(usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number))
-    return f"write it in{of.units.behind(unit)} ({words}?)" if words else f"correct it{_point(of, slot, usual, value)}"
+    point = _lacks_point(of, slot, usual, value)
+    if not words:
+        return "correct it (a decimal point?)" if point else "correct it", ()
+    return f"{'correct its decimal point, or ' * point}write it in{of.units.behind(unit)} ({words}?)", ()
 
 
-def _point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
-    """That a decimal point may be lost or misplaced, in words, or ""."""
-    if slot.kind is Kind.WHOLE:
-        return ""
+def _lacks_point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
+    """Whether a decimal point may be lost or misplaced."""
     sized = value * of.units.size(slot.about.unit)
-    return " (a decimal point?)" if lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each)) else ""
+    return slot.kind is not Kind.WHOLE and lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each))
 
 
 def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     """What to do about a whole curve: exchange its columns, or write its ordinates in another unit."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     over, ordinate = (columns[axis] for axis in cast("Rows", slot.about).axes)
+    if usual is BENT:
+        return f"write {over.label} in{of.units.behind(over.about.unit)}"
     quantity = _quantity(of, slot, usual, math.nan)
     if usual.of == "as a stiffness" and quantity > 0.0 and usual.holds(1.0 / quantity):
         first = min(over, ordinate, key=lambda column: column.order)
@@ -253,8 +304,8 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     return f"write {ordinate.label} in{of.units.behind(ordinate.about.unit)}" + (f" ({words}?)" if words else "")
 
 
-def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
-    """With which number beside it a value seems to be exchanged, or which comma is one too many; "" if none."""
+def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
+    """With which number beside it a value seems to be exchanged, or which comma is one too many; None if none."""
     row = [(one, number(of.part, one.name)) for one in of.columns if not one.key and not one.row]
     row = [(one, value) for one, value in row if not math.isnan(value)]
     fields, values = [one for one, _ in row], [value for _, value in row]
@@ -262,15 +313,15 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> str:
         exchanged = [*values[:left], values[left + 1], values[left], *values[left + 2 :]]
         real = one.kind is other.kind is Kind.REAL and 0.0 not in values[left : left + 2]
         if slot in (one, other) and real and _all_usual(of, fields, exchanged, (one, other)):
-            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first"
+            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first", (one, other)
     text = of.context.text
     line = text.source.line(text.place(Problem(UNT007, "", where=where)).line) if text else ""
     for comma in _THOUSANDS.finditer(line):
         left = line[: comma.start()].count(",")
         joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
         if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
-            return f"{_COMMA} {comma[0]}, write {comma[0].replace(',', '')}"
-    return ""
+            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}", fields
+    return None
 
 
 def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float], asked: Sequence[FieldSpec]) -> bool:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import Found, Joined, LintContext, joint
+from mudline.checks.rules.unusual import UNT007
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
@@ -28,6 +29,8 @@ STEEPEST = 0.142
 """Height over length of the steepest regular wave in deep water (Michell 1893)."""
 STEPS = 20
 """Time steps of a wave period, at least."""
+_OF_WAVE = ("amplitude", "height", "period")
+"""Fields of a wave by which time steps are judged."""
 _ROUNDED = 1e-3
 """Share of the water depth by which a profile may miss the surface."""
 
@@ -137,6 +140,27 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
                 f"give {shortest / STEPS:g} or less"
             )
             yield Problem(TIM004, message, where=where)
+
+
+@joint(TIM003, TIM004, WAV002)
+def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
+    """What only follows from a wave or a time step that is not usual itself."""
+    rest = [one for code in (WAV002, TIM003, TIM004) for one in found.get(code.code, ())]
+    for cause in found.get(UNT007.code, ()):
+        at = cause.where
+        if at is None or not at.path:
+            continue
+        keyword = context.deck.sections[at.section].blocks[at.block].keyword
+        wave = keyword.startswith("WAVE-") and at.path[-1] in _OF_WAVE
+        others = [
+            one
+            for one in rest
+            if one.where is not None
+            and (one.where[:2] == at[:2] or (wave and one.where.section == at.section and one.code is not WAV002))
+        ]
+        if others:
+            rest = [one for one in rest if one not in others]
+            yield Joined(cause, others)
 
 
 def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:

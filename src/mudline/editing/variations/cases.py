@@ -227,8 +227,9 @@ def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Ad
         )
     path = find_file(deck.folder, varied.file)
     if path is None:
-        why, refused = not_found(deck.folder, unquoted(varied.file))
-        raise RefusedError(why if refused else f"file {shown(unquoted(varied.file))} was not found beside the deck")
+        why, severity = not_found(deck.folder, unquoted(varied.file))
+        is_refused = severity is Severity.ERROR
+        raise RefusedError(why if is_refused else f"file {shown(unquoted(varied.file))} was not found beside the deck")
     try:
         text = _block_text(_content(path, varied.file), keyword)
     except RefusedError as error:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from collections.abc import Set as AbstractSet
+from functools import lru_cache
 from typing import Any, cast
 
 from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken, v_args
@@ -39,8 +40,11 @@ FORTRAN_EXPONENT = str.maketrans("dD", "ee")
 """The letters of an exponent as `float` reads them."""
 
 
+@lru_cache(256)
 def parse(text: str) -> Expression:
     """Read an equation: `text` is what stands between `=[` and `]`.
+
+    Decks of a project share their equations, and a deck is evaluated more than once: the last ones are remembered.
 
     Raises:
         ExpressionError: the text is not an equation, too long, or nested too deep (`docs/limits.md`).

@@ -103,11 +103,11 @@ _UNITS = {
 
 def unit_text(unit: str, system: str) -> str:
     """The unit of a field in a unit system, F/L2 as N/m2; what is no dimension as it is."""
-    if not re.fullmatch(r"(?:[FLMT]\d?|/)+", unit):
+    if not re.fullmatch(r"(?:[FLMT]\d?|1/|/)+", unit):
         return unit
     names = _UNITS[system]
     sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
-    return "/".join(" ".join(names[letter] + power for letter, power in side) for side in sides)
+    return "/".join(" ".join(names[letter] + power for letter, power in side) or "1" for side in sides)
 
 
 def range_text(about: FieldInfo) -> str:
@@ -119,6 +119,11 @@ def range_text(about: FieldInfo) -> str:
     return f">= {about.at_least:g}" if about.at_least is not None else ""
 
 
+def _symbol(name: str) -> str:
+    """The symbol of a field of a section: Do, but GJ."""
+    return name.capitalize() if name.startswith("d") else name.upper()
+
+
 def usual_text(about: FieldInfo) -> str:
     """What values of a field are usual, in metric units, with the reason of each range; "" where nothing is said."""
     unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")
@@ -127,7 +132,7 @@ def usual_text(about: FieldInfo) -> str:
             [
                 one.span(),
                 *(
-                    [f"times {one.of[1:].capitalize()}" if one.of.startswith("/") else one.of]
+                    [f"times {_symbol(one.of[1:])}" if one.of.startswith("/") else one.of]
                     if one.of
                     else [unit] * bool(unit)
                 ),

@@ -171,7 +171,11 @@ class _Reader:
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
-            return ReadBlock(model, self.places, doubtful(problems), lost=self.lost, opaque=True)
+            first = min(kept.span.start for kept in self.kept)  # what stands before it has no other form
+            lines = [one.found.span for one in mismatches if one.found and one.found.span.start < first]
+            certain = [one for one in problems if one.span and any(a <= one.span.start < b for a, b in lines)]
+            rest = [problem for problem in problems if problem not in certain]
+            return ReadBlock(model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True)
         return ReadBlock(model, self.places, problems, trailing, self.lost)
 
     def places(self) -> Places:

@@ -59,7 +59,7 @@ OF_ITS_CURVE = "the stiffness of the whole curve is judged"
 
 DIRECTION = Usual(-360.0, 360.0, "a full turn")
 HEEL = Usual(-45.0, 45.0, "no vessel heels farther")
-VESSEL_SIZE = Usual(-500.0, 500.0, "the longest vessel has 488 m")
+VESSEL_SIZE = Usual(-500.0, 500.0, "the longest vessel, Prelude, has 488 m")
 
 WIDTH = Usual(high=60.0, why="the hull of a spar has 37 m", code="UNT006", meant=0.3, within=8.0)
 PIPE_WALL = Usual(
@@ -105,6 +105,7 @@ CURVE_FORCE = Usual(
 ROTATION = Usual(1e-1, 1e9, remark=True)
 SECANT = "columns exchanged, or another unit"
 EI_CURVE = Usual(1.0, 1e14, SECANT, of="as a stiffness")
+BENT = Usual(high=0.5, why="no pipe bends to its own width", of="times the inverse radius of the pipe, at its end")
 EA_CURVE = Usual(1e3, 1e13, SECANT, of="as a stiffness")
 E_CURVE = Usual(1e5, 1e13, SECANT, of="as a stiffness")
 FORCE_CURVE = Usual(1.0, 1e13, SECANT, of="as a stiffness")
@@ -115,15 +116,15 @@ SOIL_CURVES = (
 )
 
 CURRENT = (
-    Usual(-5.0, 5.0, "the strongest tidal streams run at 5 m/s", meant=0.8, within=4.0),
+    Usual(-11.5, 11.5, "the strongest tidal stream, Saltstraumen, runs at 22 knots", meant=0.8, within=4.0),
     Usual(-2.5, 2.5, "the Gulf Stream runs at 2.5 m/s", remark=True),
 )
 WAVE_PERIOD = Usual(1.0, 60.0, "ocean waves have 2 to 30 s")
 SEA_PERIOD = Usual(2.0, 30.0, "ocean waves have 2 to 30 s")
 SEA_FREQUENCY = Usual(1.0 / 30.0, 0.5, "ocean waves have 2 to 30 s")
 SEA_HEIGHT = (
-    Usual(high=25.0, why="the highest that was measured is 19 m"),
-    Usual(high=0.077, why="steeper seas break (DNV-RP-C205, 3.5.4)", of="as steepness, 2 pi H / g T2"),
+    Usual(high=25.0, why="the highest of a buoy is 19 m (WMO 2016)"),
+    Usual(high=0.077, why="severe seas have 1/20 to 1/16 (API RP 2MET)", of="as steepness, 2 pi H / g T2"),
 )
 CUTOFF = Usual(0.08, 2.0, "beyond it a sea has no energy", remark=True)
 INCREMENT = Usual(high=0.1, why="a spectrum is narrower", remark=True)
@@ -138,7 +139,7 @@ HEIGHT = Usual(high=40.0, why="the highest waves that were measured have 30 m")
 STEP = Usual(high=5.0, why="waves have periods of 2 to 30 s", when="waves in the time domain")
 
 DRAG = Usual(high=5.0, why="bluff bodies have up to 2.5", meant=1.0, within=3.0)
-ALONG_DRAG = Usual(high=3.0, why="a chain has 1.2", meant=0.1, within=10.0)
+ALONG_DRAG = Usual(high=3.0, why="along a line there is less drag than across it", meant=0.1, within=10.0)
 INERTIA = Usual(high=6.0, why="a cylinder has 2, at the seabed 3.3")
 ADDED_MASS = Usual(high=5.0, why="a cylinder has 1, at the seabed 2.3")
 LIFT = Usual(-5.0, 5.0, "at the seabed it stays below 5")

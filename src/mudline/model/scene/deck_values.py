@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
-from pathlib import Path
+from itertools import islice
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, cast
 
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, bare, folded
-from mudline.language.diagnostics import Span, Where
+from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, record_schema
 from mudline.language.keywords.text import shown
@@ -67,8 +69,12 @@ def find_file(folder: Path | None, written: str) -> Path | None:
     return path if usable else None
 
 
-def not_found(folder: Path, name: str) -> tuple[str, bool]:
-    """Why a deck in a folder does not get the file that it names, and whether that is because it is refused."""
+def not_found(folder: Path, name: str) -> tuple[str, Severity]:
+    """Why a deck in a folder does not get the file that it names, and how bad that is.
+
+    An error where the file is refused, a warning where others of its kind are there, which the deck came with; else an
+    info.
+    """
     try:
         refused = "\0" not in name and is_refused(folder / name, folder)
     except OSError:
@@ -76,10 +82,25 @@ def not_found(folder: Path, name: str) -> tuple[str, bool]:
     if refused:
         return (
             f"the file {shown(name)} lies outside of the project {project_of(folder).as_posix()}, and is refused",
-            True,
+            Severity.ERROR,
         )
     looked = f"looked in {folder.as_posix()}"
-    return f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there", False
+    message = f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there"
+    return message, Severity.WARNING if _has_siblings(folder / name) else Severity.INFO
+
+
+_MOST_BESIDE = 1000
+"""Files of a folder that are looked at: among more there are others of every kind."""
+
+
+def _has_siblings(path: Path) -> bool:
+    """Whether the folder of a file has others with its suffix."""
+    try:
+        with os.scandir(path.parent) as entries:
+            names = [entry.name for entry in islice(entries, _MOST_BESIDE)]
+    except (OSError, ValueError):
+        return False
+    return len(names) == _MOST_BESIDE or any(PurePath(name).suffix.lower() == path.suffix.lower() for name in names)
 
 
 def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:

@@ -136,8 +136,8 @@ def _missing(deck: Deck, name: str) -> tuple[str, bool]:
     """Why the deck that LAST= names is not there, and whether that is because it is refused."""
     names = candidate_names(deck, name)
     folder = deck.folder or Path()
-    why, refused = not_found(folder, names[0])
-    if refused:
+    why, severity = not_found(folder, names[0])
+    if severity is Severity.ERROR:
         return why, True
     looked = f"looked in {folder.as_posix() if deck.folder else ''} for {', '.join(names)}"
     return f"the deck {shown(names[0])} was not found ({looked}): {_ADVICE}", False

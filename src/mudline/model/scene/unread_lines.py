@@ -144,16 +144,21 @@ class _Looking:
         """
         first, *others = read_line(line, Span(0, len(line))).groups[0].fields
         node = read_number(first.text)
-        if node is None or not node.is_integer():
+        if (node is None and not Label.match(first.text)) or (node is not None and not node.is_integer()):
             return
-        shown_nodes = nodes is not None and shows_nodes(self.context, nodes)
-        lacks = nodes is not None and shown_nodes and (nodes.indices(np.array([node])) < 0).any()
-        if lacks and not self.context.possible_definition("NODE", int(node)):
-            message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number{_UNREAD}"
-            self._note(Problem(REF006, message, None, Severity.WARNING, where.inside(*first.span), lacks=f"{node:.0f}"))
+        if node is not None:
+            self._follower(node, where.inside(*first.span), nodes)
         for given in others:
             if given.text and read_number(given.text) is None and not given.text.startswith(("=[", "{")):
                 self._vessel(where.inside(*given.span), keyword, given.text)
+
+    def _follower(self, node: float, where: Where, nodes: Numbered | None) -> None:
+        """The number of a node that follows a vessel."""
+        shows = nodes is not None and shows_nodes(self.context, nodes)
+        lacks = nodes is not None and shows and (nodes.indices(np.array([node])) < 0).any()
+        if lacks and not self.context.possible_definition("NODE", int(node)):
+            message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number{_UNREAD}"
+            self._note(Problem(REF006, message, None, Severity.WARNING, where, lacks=f"{node:.0f}"))
 
     def _keyless(self, where: Where, keyword: str, groups: list[Group]) -> None:
         """A line of a keyword that is read, which lacks the key before its first value."""
@@ -285,5 +290,5 @@ class _Looking:
         given = self.context.written.sections[where.section].name in catalogue.CERTAIN_SECTIONS
         if folder is None or not given or "%" in name or find_file(folder, name) is not None:
             return
-        message, refused = not_found(folder, name)
-        self._note(Problem(REF015, f"{message}{_UNREAD}", None, Severity.ERROR if refused else None, where))
+        message, severity = not_found(folder, name)
+        self._note(Problem(REF015, f"{message}{_UNREAD}", None, severity, where))

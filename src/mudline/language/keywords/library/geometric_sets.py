@@ -48,9 +48,7 @@ class FlexibleSection(Row):
             "polar inertia per unit length",
             unit="ML",
             at_least=0,
-            usual=Usual(
-                high=4.0, why="the mass lies within the radius", of="times the mass and the radius squared", remark=True
-            ),
+            usual=Usual(high=4.0, why="the mass lies within the radius", of="times the mass and the radius squared"),
         ),
     ]
     di: Annotated[Real, about("internal diameter", unit="L", at_least=0, usual=WIDTH)] = Field(alias="Di")

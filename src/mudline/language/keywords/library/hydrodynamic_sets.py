@@ -79,7 +79,7 @@ class HydrodynamicSets(OpenBlock):
     facts = Facts(gives=("hydrodynamics",), later_wins=True)
     open_lines = False
     summary = "Drag, inertia and added mass coefficients by element set."
-    example = "*HYDRODYNAMIC SETS\n DIAMETER=DRAG\n SET=ALL, TYPE=CONSTANT\n 1.0, 0.0, 2.0, 1.0, 0.0\n"
+    example = "*HYDRODYNAMIC SETS\n DIAMETER=DRAG\n SET=ALL, TYPE=CONSTANT\n 1.0, 0.05, 2.0\n"
 
     keyword: Literal["HYDRODYNAMIC SETS"] = "HYDRODYNAMIC SETS"
     diameter: Annotated[

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, curve_points
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import E_CURVE, EA_CURVE, EI_CURVE, OF_ITS_CURVE, Usual
+from mudline.language.keywords.usual import BENT, E_CURVE, EA_CURVE, EI_CURVE, OF_ITS_CURVE, Usual
 from mudline.language.keywords.values import Name, Names, Real
 
 
@@ -31,7 +31,7 @@ class MomentCurvatureCurve(Record):
             "points in any order; at least two",
             "moment-curvature curve",
             abscissa="curvature",
-            usual=EI_CURVE,
+            usual=(EI_CURVE, BENT),
         ),
     ]
 

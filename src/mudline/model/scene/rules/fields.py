@@ -58,8 +58,9 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
 
     FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
     mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
-    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A deck from
-    standard input has no folder in which its files could be, so they are not searched.
+    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A file that
+    nothing is computed from is an info where its folder has no other file of its suffix: the deck came without its
+    companions. A deck from standard input has no folder in which its files could be, so they are not searched.
 
     Example on storm:
          $LOAD CASE
@@ -69,11 +70,11 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 6:7
     """
     for where, folder, name in missing_files(scene.context.written):
-        message, refused = not_found(folder, name)
-        severity = Severity.ERROR if refused else None
+        message, severity = not_found(folder, name)
         # Without the file of its profile the seabed is not known.
-        profile = refused or (bool(scene.seabed.missing) and where == scene.seabed.where.inside("file"))
-        blocks = Blocks.ALWAYS if profile else Blocks.NEVER
+        profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
+        blocks = Blocks.ALWAYS if profile or severity is Severity.ERROR else Blocks.NEVER
+        severity = max(severity, Severity.WARNING, key=lambda one: one.rank) if profile else severity
         yield Problem(REF015, message, None, severity, where, blocks=blocks)
 
 

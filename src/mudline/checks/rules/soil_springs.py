@@ -1,0 +1,102 @@
+"""Soil springs: the depths of their curves, and how resistance goes on along each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords.table import Table
+from mudline.language.rules import rule
+from mudline.model.scene.deck_values import number
+
+CRV015 = Code("CRV015", "repeated-depth", Severity.WARNING)
+CRV016 = Code("CRV016", "soil-gains-again", Severity.INFO)
+
+
+@rule(CRV015)
+def repeated_depth(context: LintContext) -> Iterator[Problem]:
+    """A soil spring has two curves at one depth, or a depth above the one before it.
+
+    Between the depths that are given the resistance is interpolated: at a depth that stands twice it jumps, or one of
+    its curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
+    not follow each other downwards are an info, as nothing says that they must. Correct the depth.
+
+    Example on pipe:
+          STIFFNESS=50000.0
+        |*P-Y
+        | SET=ALL
+        | DEPTH=0.0
+        | 0.0, 0.0
+        | 2000.0, 0.05
+        - DEPTH=0.0
+        + DEPTH=5.0
+        | 0.0, 0.0
+        | 20000.0, 0.05
+
+    Finds: 22:8
+    """
+    for where, block in context.scene.deck.blocks_that(lambda declared: declared.facts.soil_springs):
+        for index, entry in enumerate(block.sets):
+            before: list[float] = []
+            for at, curve in enumerate(entry.curves):
+                depth = number(curve, "depth", math.inf)  # one that is not known is deeper than all others
+                place = where.inside("sets", index, "curves", at, "depth")
+                if depth in before and depth < math.inf:
+                    yield Problem(CRV015, f"there is already a curve at depth {depth:g}: correct one", where=place)
+                elif before and depth < max(before):
+                    message = f"depth {depth:g} follows {max(before):g}: write the curves from the mudline downwards"
+                    yield Problem(CRV015, message, where=place, severity=Severity.INFO)
+                before.append(depth)
+
+
+@rule(CRV016)
+def soil_gains_again(context: LintContext) -> Iterator[Problem]:
+    """The resistance of a soil spring falls, and rises again farther out.
+
+    Soil that softens falls to a residual resistance and stays there; one that has lost strength gains none by being
+    pushed farther. A curve that rises again has mostly a digit wrong in one point, or two points exchanged. Correct it,
+    or leave it if it was measured so. Each side of a curve is looked at for itself.
+
+    Example on pipe:
+          STIFFNESS=50000.0
+        |*P-Y
+        | SET=ALL
+        | DEPTH=5.0
+        | 0.0, 0.0
+        | 9000.0, 0.01
+        - 1500.0, 0.05
+        + 15000.0, 0.05
+        | 18000.0, 0.2
+
+    Finds: 22:2
+    """
+    for where, block in context.scene.deck.blocks_that(lambda declared: declared.facts.soil_springs):
+        for index, entry in enumerate(block.sets):
+            for at, curve in enumerate(entry.curves):
+                if isinstance(curve.points, Table) and (lowest := _gains_again(curve.points)) is not None:
+                    resistance, displacement = (float(curve.points.column(each)[lowest]) for each in (0, 1))
+                    message = (
+                        f"resistance falls to {resistance:g} at {displacement:g} and rises again farther out, as no "
+                        "soil does that has softened: correct a point, or leave it if it was measured"
+                    )
+                    place = where.inside("sets", index, "curves", at, "points", lowest)
+                    yield Problem(CRV016, message, where=place)
+
+
+def _gains_again(points: Table) -> int | None:
+    """The row to which resistance falls before it rises again, on either side of a curve; None without one."""
+    resistance, displacement = points.column(0), points.column(1)
+    for side in (1.0, -1.0):
+        rows = np.flatnonzero((side * displacement >= 0.0) & np.isfinite(resistance))
+        rows = rows[np.argsort(np.abs(displacement[rows]), kind="stable")]
+        steps = np.diff(np.abs(resistance[rows]))
+        falls = np.flatnonzero(steps < 0.0)
+        rises = np.flatnonzero(steps > 0.0)
+        if falls.size and rises.size and rises[-1] > falls[0]:
+            again = rises[rises > falls[0]][0]
+            return int(rows[again])
+    return None
