@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from numbers import Real
 from types import NoneType
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,6 +64,8 @@ class ContactModel:
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
+        self._made: WeakKeyDictionary[ContactResult, tuple[ContactResult, ContactState]] = WeakKeyDictionary()
+        """The series of one step behind the result of each step, and the state behind that step."""
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
     def __repr__(self) -> str:
@@ -138,8 +140,8 @@ class ContactModel:
                 rates = None if motion is None else np.asarray(motion[start:stop], np.float64)
                 spans = None if clock is None else np.diff(clock[max(start - 1, 0) : stop])
                 before = state
-                state = self._advance(driver, points, rates, spans, part, state, start, spare=spare)
-                spare = before if driver else None
+                state = self._advance(driver, points, rates, spans, part, state, start, spare if driver else state)
+                spare = before
             if whole is None:
                 yield Part(start, part)
         if whole is not None:
@@ -155,15 +157,19 @@ class ContactModel:
         velocities: ArrayLike | None,
         state: ContactState,
         dt: float | None = None,
+        *,
+        out: tuple[ContactResult, ContactState] | None = None,
     ) -> tuple[ContactResult, ContactState]:
         """Evaluate one step (n, 3) behind `state`; return its result and the state behind it.
 
-        Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step.
+        Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step. `out` is what
+        an earlier step of this model returned and nobody needs any more: its arrays are written again and returned, in
+        less time than new ones take. It may not hold `state`; if the step raises, what is in it is lost.
 
         Raises:
             PositionError, ElementError: as `evaluate`.
             ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed, or `state`
-                is that of another model.
+                is that of another model, or `out` is not what a step of this model returned, or holds `state`.
         """
         expect(state, "state", ContactState, "a ContactState")
         if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
@@ -180,14 +186,23 @@ class ContactModel:
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
+            given, part = _read_steps(series, range(1), self.input.node_ids, mask), self._again(out, state)
             # a copy: state and result keep it, and whoever steps may write the next positions into the same array
-            points = _read_steps(series, range(1), self.input.node_ids, mask).copy()
+            points = np.empty(given.shape) if part is None else part.positions
+            points.flags.writeable = True
+            points[...] = given
             points.flags.writeable = False
-            part = self._blank(points, mask, None)
+            if part is None:
+                part = self._blank(points, mask, None)
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
-            after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
-        return part.step(0), after
+            spare = None if out is None else out[1]
+            after = self._advance(self._driver(1), points, rates, spans, part, state, 0, spare)
+        if out is not None:
+            return out[0], after
+        result = part.step(0)
+        self._made[result] = part, after
+        return result, after
 
     def tangent(
         self,
@@ -256,33 +271,45 @@ class ContactModel:
         part: ContactResult,
         state: ContactState,
         first_step: int,
-        *,
-        spare: ContactState | None = None,
-        kept: bool = False,
+        spare: ContactState | None,
     ) -> ContactState:
-        """Evaluate a batch into `part`; return the state behind it.
-
-        It is in the arrays of `spare`, or without a driver of `state` unless that is `kept`.
-        """
-        laid = points[0] if state.laid is None else state.laid
+        """Evaluate a batch into `part`; return the state behind it: `spare`, written again, if there is one."""
+        laid = state.laid
+        if laid is None:  # a copy: the positions of a step may be written again
+            laid = points[0].copy() if self.plan.history else points[0]
         self._numpy.locate(points, part)
         batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid)
         if self._tables.level is not None:
             from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
 
             lower(self._tables, points, laid, part.normal, part.gap)
-        after = None if driver is None else driver.run(batch, part, state, spare)
-        if after is None:
-            after = state.copied() if kept or driver else state
+        after = state.following(spare, points[-1], laid) if self.plan.history else state
+        if driver is None or not driver.run(batch, part, state, after):
+            after.remember(state)
             self._numpy.run(batch, part, after)
             if not is_finite(part, batch.speed):
                 refuse(part, batch.speed, first_step, self._tables)
         refuse_pulling(part, first_step, self._tables)
         if not part.present.all():
             _blank_absent(part)
-        if not self.plan.history:
-            return state
-        return replace(after, positions=points[-1], laid=laid)
+        return after
+
+    def _again(
+        self, out: tuple[ContactResult, ContactState] | None, state: ContactState
+    ) -> ContactResult | None:
+        """Return the arrays of a step that are to be written again, as a series; None for new ones."""
+        if out is None:
+            return None
+        expect(out, "out", tuple, "a result and a state")
+        part, after = self._made.get(out[0], (None, None))
+        if part is None or len(out) != 2 or after is not out[1]:
+            raise ValueError("out must be the result and the state that a step of this model returned")
+        if after is state and self.plan.history:
+            raise ValueError("out holds the state that the step begins with: its arrays cannot be written yet")
+        for marks in (part.cut, part.regularised):  # steps set them, and leave the others as they are
+            if marks is not None and marks.flags.writeable:
+                marks[...] = False
+        return part
 
     def _speed(
         self,

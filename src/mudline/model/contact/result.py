@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
 TableName = Literal["elements", "nodes", "summary"]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, weakref_slot=True)
 class ContactResult:
     """Arrays over elements (m) and nodes (n); over (steps, m) and (steps, n) for a series of positions.
 

@@ -61,15 +61,15 @@ def elements_loop(
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
-        begin: Index, end: Index, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
-        normals: Array, knots: Array, damping: Array, before: Array, states: Array, out: Array, extra: Array,
-        work: Array,
+        begin: Index, end: Index, tables: Array, points: Array, speed: Array, work: Array, part: Array, before: Array,
+        states: Array,
     ) -> int:  # fmt: skip
+        index, table, knots, pulls, damping = tables
+        gap, normals, (out, cut, state, regularised), _ = part
         depth, ratio, contact, force, slope, stiffness = out
-        cut, state, regularised = extra
         tangent, sideways, ring = work
         lines, episodes, touchdown, ways = states
-        past_lines, past_episodes, places = before
+        past_lines, past_episodes, places, _ = before
         wrong = min(edition, 0)
         for step in range(np.uint64(len(gap))):
             if step > 0:
@@ -192,12 +192,15 @@ def _trench_limit(has: Features) -> Callable[..., Any]:
     flat, tables = has.flat, has.tables
     dot = vectors.PLANES[2 if has.flat else 3].dot
 
-    def walls(i: int, total: float, p: Point, across: Array, forward: bool, trenches: Array) -> float:  # noqa: FBT001
-        (first, behind), index, table, lines, rows, laid, beside = trenches
+    def walls(  # noqa: PLR0913, PLR0917 - loops pass arguments by place
+        i: int, total: float, p: Point, across: Array, forward: bool, trenches: Array, laid: Array  # noqa: FBT001
+    ) -> float:
+        (first, behind), index, table, lines, rows = trenches
+        places, beside = laid
         added = 0.0
         for at in range(first[i], behind[i]):
             line, kind, amount = index[at, col.CENTRELINE], index[at, col.TRENCH_KIND], table[at, col.AMOUNT]
-            x, y, z = from_laid(laid, beside, i, p) if line == NOTHING else from_straight(lines, line, p)
+            x, y, z = from_laid(places, beside, i, p) if line == NOTHING else from_straight(lines, line, p)
             offset = dot(across, (y, z)) if flat else dot(across, (x, y, z))
             if (offset > 0.0) if forward else (offset < 0.0):
                 distance = np.abs(offset)
@@ -246,16 +249,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
 
     def loop(
-        begin: Index, end: Index, starts: Array, elements: Array, senses: Array, half: Array, index: Array,
-        table: Array, points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array,
-        work: Array, trenches: Array, breaks: Array, before: Array, states: Array, out: Array, extra: Array,
+        begin: Index, end: Index, tables: Array, points: Array, speed: Array, laid: Array, work: Array, part: Array,
+        before: Array, states: Array,
     ) -> int:  # fmt: skip
-        first, behind = starts
-        totals, reaction = out
-        friction_force, slipping = extra
+        (first, behind), elements, senses, half, index, table, damping, trenches, breaks = tables
+        gap, normals, ((_, ratio, _, force, _, _), _, _, _), (totals, reaction, friction_force, slipping) = part
         tangent, sideways, ring = work
         sticks, sticking, moved_so_far = states
-        past_sticks, past_sticking = before
+        past_sticks, past_sticking, _ = before
         wrong = min(edition, 0)
         for step in range(np.uint64(len(gap))):
             if step > 0:
@@ -328,14 +329,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                                         moved_so_far[axis, index[i, col.BREAKS_OUT]] = p[axis]
                                 deep = 0.0
                                 for at in range(first[i], behind[i]):
-                                    deep += breaks[1][step, elements[at]]
-                                soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks[0], moved_so_far)
+                                    deep += ratio[step, elements[at]]
+                                soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks, moved_so_far)
                                 k2, l2 = k2 * soft, l2 * share
                                 t2 = k2 * e2
                             curved = elliptic and index[i, col.ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
-                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, trenches)
+                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, trenches, laid)
                                 f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             m1 = m2 = 0.0
                             if slip_1 or slip_2:
@@ -371,19 +372,23 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
 def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
     """Make the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
 
-    It takes what the two loops take behind a range; their options are those of `elements_loop` and `nodes_loop`. What
-    elements leave for nodes is in the row e & ring of `work`, so that it need not hold all elements.
+    Behind the ranges it takes tables of elements, of nodes, positions, velocities, the line as laid, what elements leave
+    for nodes, the results, and the states before and behind. What elements leave is in the row e & ring of `work`, so
+    that it need not hold all elements.
     """
     elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
 
-    def loop(ranges: Array, element_arrays: Array, node_arrays: Array) -> int:
+    def loop(
+        ranges: Array, element_tables: Array, node_tables: Array, points: Array, speed: Array, laid: Array,
+        work: Array, part: Array, before: Array, after: Array,
+    ) -> int:  # fmt: skip
         wrong = 0
         for at in range(len(ranges)):
             begin, end = ranges[at, 1], ranges[at, 2]
             if ranges[at, 0] > 0:
-                wrong += nodes(begin, end, *node_arrays)
+                wrong += nodes(begin, end, node_tables, points, speed, laid, work, part, before[1], after[1])
             else:
-                wrong += elements(begin, end, *element_arrays)
+                wrong += elements(begin, end, element_tables, points, speed, work, part, before[0], after[0])
         return wrong
 
     return loop
