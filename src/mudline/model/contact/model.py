@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from numbers import Real
 from types import NoneType
 from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
+from weakref import WeakKeyDictionary, WeakSet
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,6 +66,7 @@ class ContactModel:
         self._compiled: CompiledDriver | None = None
         self._made: WeakKeyDictionary[ContactResult, tuple[ContactResult, ContactState]] = WeakKeyDictionary()
         """The series of one step behind the result of each step, and the state behind that step."""
+        self._own: WeakSet[ContactState] = WeakSet()
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
     def __repr__(self) -> str:
@@ -172,7 +173,9 @@ class ContactModel:
                 is that of another model, or `out` is not what a step of this model returned, or holds `state`.
         """
         expect(state, "state", ContactState, "a ContactState")
-        if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
+        if state not in self._own and (
+            state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes)
+        ):
             raise ValueError("state must be one of this model: it is that of other nodes, elements or laws")
         expect(dt, "dt", (Real, NoneType), "a number")
         if dt is not None and not 0.0 < dt < np.inf:
@@ -202,6 +205,7 @@ class ContactModel:
             return out[0], after
         result = part.step(0)
         self._made[result] = part, after
+        self._own.add(after)
         return result, after
 
     def tangent(
@@ -294,9 +298,7 @@ class ContactModel:
             _blank_absent(part)
         return after
 
-    def _again(
-        self, out: tuple[ContactResult, ContactState] | None, state: ContactState
-    ) -> ContactResult | None:
+    def _again(self, out: tuple[ContactResult, ContactState] | None, state: ContactState) -> ContactResult | None:
         """Return the arrays of a step that are to be written again, as a series; None for new ones."""
         if out is None:
             return None

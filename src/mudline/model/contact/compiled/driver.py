@@ -131,11 +131,12 @@ class CompiledDriver:
         damping, of_nodes = (read_only(np.empty(0) if each is None else each) for each in given_damping)
         line = tables.line
         of_line = line.elements.astype(np.uint32), line.senses, tables.half
+        of_elements = element_tables(tables)
         self._fixed = (
-            (*element_tables(tables), suction_table(tables), damping),
+            (*of_elements, suction_table(tables), damping),
             (
-                between(line.start), *map(read_only, of_line), *node_tables(tables), of_nodes, trench_tables(tables),
-                breakout_table(tables),
+                between(line.start), *map(read_only, of_line), of_elements[0], *node_tables(tables), of_nodes,
+                trench_tables(tables), breakout_table(tables),
             ),
         )  # fmt: skip
         self._made: WeakKeyDictionary[ContactResult | ContactState, tuple[Any, ...]] = WeakKeyDictionary()
