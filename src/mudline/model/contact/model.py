@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from numbers import Real
 from types import NoneType
@@ -17,7 +18,15 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, StepRea
 from mudline.model.contact.input import ContactInput, PositionError
 from mudline.model.contact.numpy_driver import NumpyDriver
 from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
-from mudline.model.contact.result import ContactResult, Part, blank_result, is_finite, refuse, refuse_pulling
+from mudline.model.contact.result import (
+    ContactResult,
+    Part,
+    blank_absent,
+    blank_result,
+    is_finite,
+    refuse,
+    refuse_pulling,
+)
 from mudline.model.contact.seabed import FlatSeabed, Seabed
 from mudline.model.contact.tables import Batch, ContactState, Tables
 
@@ -28,6 +37,8 @@ if TYPE_CHECKING:
 
 
 RealArray = NDArray[np.floating[Any] | np.integer[Any]]
+Stepped = tuple[ContactResult, ContactState]
+"""A result, and the state behind it."""
 
 
 class ContactModel:
@@ -64,8 +75,10 @@ class ContactModel:
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
-        self._made: WeakKeyDictionary[ContactResult, tuple[ContactResult, ContactState]] = WeakKeyDictionary()
-        """The series of one step behind the result of each step, and the state behind that step."""
+        # of the result of a step: the series of one step that it is a view of, and the state
+        self._made: WeakKeyDictionary[ContactResult, Stepped] = WeakKeyDictionary()
+        self._everywhere = np.ones(len(given.node_ids), np.bool_)
+        self._everywhere.flags.writeable = False
         self._own: WeakSet[ContactState] = WeakSet()
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
@@ -122,8 +135,8 @@ class ContactModel:
         Takes and raises what `evaluate` does.
         """
         expect(together, "together", (bool, np.bool_), "True or False")
-        nodes = len(self.input.node_ids)
-        series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
+        series = _as_series(positions, self._nodes)
+        mask = self._everywhere if present is None else _as_mask(present, self._nodes)
         motion = _as_velocities(velocities, series.shape)
         clock = _as_times(times, len(series))
         if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
@@ -159,8 +172,8 @@ class ContactModel:
         state: ContactState,
         dt: float | None = None,
         *,
-        out: tuple[ContactResult, ContactState] | None = None,
-    ) -> tuple[ContactResult, ContactState]:
+        out: Stepped | None = None,
+    ) -> Stepped:
         """Evaluate one step (n, 3) behind `state`; return its result and the state behind it.
 
         Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step. `out` is what
@@ -180,26 +193,25 @@ class ContactModel:
         expect(dt, "dt", (Real, NoneType), "a number")
         if dt is not None and not 0.0 < dt < np.inf:
             raise ValueError(f"dt must be finite and above 0, not {dt!r}")
-        nodes = len(self.input.node_ids)
-        series = _as_series(positions, nodes)
+        series = _as_series(positions, self._nodes)
         if len(series) != 1:
             raise ValueError("a step takes the positions of one step")
-        mask = _as_mask(None, nodes)
         motion = _as_velocities(velocities, series.shape)
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
-            given, part = _read_steps(series, range(1), self.input.node_ids, mask), self._again(out, state)
+            given = _read_steps(series, range(1), self.input.node_ids, self._everywhere)
+            if out is None:
+                part, spare = self._blank(np.empty(given.shape), self._everywhere, None), None
+            else:
+                part, spare = self._again(out, state)
             # a copy: state and result keep it, and whoever steps may write the next positions into the same array
-            points = np.empty(given.shape) if part is None else part.positions
+            points = np.asarray(part.positions)
             points.flags.writeable = True
             points[...] = given
             points.flags.writeable = False
-            if part is None:
-                part = self._blank(points, mask, None)
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
-            spare = None if out is None else out[1]
             after = self._advance(self._driver(1), points, rates, spans, part, state, 0, spare)
         if out is not None:
             return out[0], after
@@ -282,7 +294,8 @@ class ContactModel:
         if laid is None:  # a copy: the positions of a step may be written again
             laid = points[0].copy() if self.plan.history else points[0]
         self._numpy.locate(points, part)
-        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid)
+        complete = part.present is self._everywhere or bool(part.present.all())
+        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
             from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
 
@@ -294,24 +307,23 @@ class ContactModel:
             if not is_finite(part, batch.speed):
                 refuse(part, batch.speed, first_step, self._tables)
         refuse_pulling(part, first_step, self._tables)
-        if not part.present.all():
-            _blank_absent(part)
+        if not complete:
+            blank_absent(part)
         return after
 
-    def _again(self, out: tuple[ContactResult, ContactState] | None, state: ContactState) -> ContactResult | None:
-        """Return the arrays of a step that are to be written again, as a series; None for new ones."""
-        if out is None:
-            return None
+    def _again(self, out: Stepped, state: ContactState) -> Stepped:
+        """Return a series of one step and the state behind it whose arrays are to be written again."""
         expect(out, "out", tuple, "a result and a state")
-        part, after = self._made.get(out[0], (None, None))
-        if part is None or len(out) != 2 or after is not out[1]:
+        found = self._made.get(out[0])
+        if found is None or len(out) != 2 or found[1] is not out[1]:
             raise ValueError("out must be the result and the state that a step of this model returned")
+        part, after = found
         if after is state and self.plan.history:
             raise ValueError("out holds the state that the step begins with: its arrays cannot be written yet")
         for marks in (part.cut, part.regularised):  # steps set them, and leave the others as they are
             if marks is not None and marks.flags.writeable:
                 marks[...] = False
-        return part
+        return found
 
     def _speed(
         self,
@@ -339,7 +351,7 @@ class ContactModel:
             speed = np.ascontiguousarray(rates[..., 0])
         else:
             speed = rates[..., 0] * normal[..., 0] + rates[..., 1] * normal[..., 1] + rates[..., 2] * normal[..., 2]
-        if not np.isfinite(rates.sum()):
+        if not math.isfinite(rates.sum()):
             speed = np.where(np.isfinite(rates).all(axis=-1), speed, np.nan)
         return speed
 
@@ -365,16 +377,6 @@ def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArra
     return rates
 
 
-def _blank_absent(part: ContactResult) -> None:
-    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
-    for on_elements in (part.force, part.slope, part.stiffness):
-        on_elements[:, ~part.evaluated] = np.nan
-    part.normal_force[:, ~part.present] = np.nan
-    part.reaction[:, ~part.present] = np.nan
-    if part.friction is not None:
-        part.friction[:, ~part.present] = np.nan
-
-
 def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | StepReader:
     """Return (nodes, 3) or (steps, nodes, 3) positions as (steps, nodes, 3), neither copied nor converted.
 
@@ -390,14 +392,12 @@ def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | Ste
     return given if isinstance(given, StepReader) or given.ndim == 3 else given[np.newaxis]
 
 
-def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
-    """Return which nodes have a position; None means all of them.
+def _as_mask(present: ArrayLike, nodes: int) -> BoolArray:
+    """Return which nodes have a position.
 
     Raises:
         ValueError: `present` is not an array (nodes,) of booleans.
     """
-    if present is None:
-        return np.ones(nodes, np.bool_)
     mask = as_array(present, "present").copy()
     if mask.dtype != np.bool_ or mask.shape != (nodes,):
         raise ValueError(f"present must be booleans of shape ({nodes},), not {mask.dtype} of shape {mask.shape}")
@@ -412,7 +412,7 @@ def _read_steps(series: RealArray | StepReader, steps: range, node_ids: IdArray,
     """
     points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
     # a finite sum has finite terms only, and is sooner had than a look at each of them
-    if not np.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
+    if not math.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
         row, column = bad[0].tolist()
         step, node = steps.start + row, int(node_ids[column])
         place = tuple(points[row, column].tolist())

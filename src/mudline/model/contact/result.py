@@ -296,6 +296,16 @@ def blank_result(
     )
 
 
+def blank_absent(part: ContactResult) -> None:
+    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
+    for on_elements in (part.force, part.slope, part.stiffness):
+        on_elements[:, ~part.evaluated] = np.nan
+    part.normal_force[:, ~part.present] = np.nan
+    part.reaction[:, ~part.present] = np.nan
+    if part.friction is not None:
+        part.friction[:, ~part.present] = np.nan
+
+
 def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
     """The same values everywhere, as a view that may not be written; what np.broadcast_to does, sooner."""
     found: NDArray[Any] = np.ndarray((*shape, *values.shape), values.dtype, values.data, 0, (0, 0, *values.strides))

@@ -102,11 +102,13 @@ class Batch(NamedTuple):
         points: (steps, n, 3) positions, NaN for nodes without one.
         speed: (steps, n) velocities along the normals; None where nothing asks for them.
         laid: (n, 3) positions of the first step of the series.
+        complete: whether all nodes have a position.
     """
 
     points: FloatArray
     speed: FloatArray | None
     laid: FloatArray
+    complete: bool
 
 
 class NormalRows(NamedTuple):

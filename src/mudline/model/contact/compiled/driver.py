@@ -8,6 +8,7 @@ for the sums at nodes, which come after the elements.
 from __future__ import annotations
 
 import itertools
+import math
 import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -158,13 +159,14 @@ class CompiledDriver:
         Return False where something is not finite: the numpy driver has to say what.
         """
         speed = batch.speed
-        if speed is not None and not (np.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
+        if speed is not None and not (math.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
             return False
         after.remember(state, IN_PLACE)
         together = len(self._together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS
         job = (
             *self._fixed, read_only(batch.points), np.empty((0, 0)) if speed is None else speed,
-            self._laid_tables(batch.laid, part), self._work(len(batch.points), 2**64 if together else self._held),
+            self._laid_tables(batch.laid, complete=batch.complete),
+            self._work(len(batch.points), 2**64 if together else self._held),
             self._arrays(part), self._remembered(state), self._remembered(after),
         )  # fmt: skip
         try:
@@ -234,8 +236,8 @@ class CompiledDriver:
         )
         return found
 
-    def _laid_tables(self, laid: FloatArray, part: ContactResult) -> tuple[Any, ...]:
-        if self._tables.trench is None or part.present.all():
+    def _laid_tables(self, laid: FloatArray, *, complete: bool) -> tuple[Any, ...]:
+        if self._tables.trench is None or complete:
             return read_only(laid), self._beside
         line = self._tables.laid_line(laid)  # without the elements that have a node without a position
         return read_only(laid), beside(line.ends, line.elements_at)
