@@ -83,8 +83,7 @@ class ContactModel:
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
     def __repr__(self) -> str:
-        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
-        size = f"{counted(nodes, 'node')}, {counted(elements, 'element')}"
+        size = f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
         return outline("ContactModel", size, stages, self.plan.steps)
 
@@ -117,9 +116,8 @@ class ContactModel:
             given = as_array(given, "positions")
             single = given.ndim == 2
             given = given.copy() if single else given  # the result keeps it: the caller may write the next into theirs
-        parts = list(self.stream(given, present=present, velocities=velocities, times=times, together=True))
-        result = parts[0].result
-        return result.step(0) if single else result
+        part = next(self.stream(given, present=present, velocities=velocities, times=times, together=True))
+        return part.result.step(0) if single else part.result
 
     def stream(
         self,
@@ -261,8 +259,7 @@ class ContactModel:
         result = None if positions is None else self.evaluate(positions, velocities=velocities)
         speed = None
         if result is not None and velocities is not None:
-            rates = np.asarray(velocities, np.float64)
-            speed = (rates * result.normal).sum(axis=-1)
+            speed = (np.asarray(velocities, np.float64) * result.normal).sum(axis=-1)
         return stiffest(self._tables, result, speed)
 
     def _driver(self, steps: int) -> CompiledDriver | None:
