@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.model.contact import ContactModel
+from mudline.model.contact import ContactModel, ContactResult, ContactState
 from mudline.model.contact.plan import Backend
 from tests.helpers.builders.contact import (
     CURVE,
@@ -124,7 +124,8 @@ def test_steps_into_arrays_of_earlier_steps_give_the_same_bits(backend: Backend)
     contact = ContactModel(replace(everything(40, 2), tension="cut"), backend=backend)
     positions, velocities, _ = journey(40, 12, 3)
     expected = contact.evaluate(positions, velocities=velocities)
-    state, pairs = contact.initial_state(), []
+    state = contact.initial_state()
+    pairs: list[tuple[ContactResult, ContactState]] = []
     for step, (place, rate) in enumerate(zip(positions, velocities, strict=True)):
         out = pairs[step % 2] if step > 1 else None
         found = contact.step(place, rate, state, out=out)

@@ -312,7 +312,7 @@ class ContactModel:
         """Return a series of one step and the state behind it whose arrays are to be written again."""
         expect(out, "out", tuple, "a result and a state")
         found = self._made.get(out[0])
-        if found is None or len(out) != 2 or found[1] is not out[1]:
+        if found is None or found[1] not in out[1:]:
             raise ValueError("out must be the result and the state that a step of this model returned")
         part, after = found
         if after is state and self.plan.history:
