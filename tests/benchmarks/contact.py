@@ -11,6 +11,10 @@ a deck lists the nodes between which GEN= makes others.
 
 The peers: a function written by hand for one curve ("by hand"), a copy of the positions, and np.searchsorted over the
 points of the curve.
+
+`--ratios` has the goals alone: a compiled step into the arrays of an earlier one beside copy and root of 16 numbers a
+node, and a series with nine nodes of ten above the seabed beside one with all on it, with every law. What is compared
+runs in turn; a ratio is that of the least times.
 """
 
 from __future__ import annotations
@@ -162,6 +166,56 @@ def stepping(inputs: ContactInput, positions: FloatArray, backend: Backend) -> W
     return lambda: model.step(positions[1], None, state, 0.1)
 
 
+def stepping_again(inputs: ContactInput, positions: FloatArray) -> Work:
+    """One compiled step behind another, into the arrays of an earlier one."""
+    model = ContactModel(inputs, backend="fast", threads=1)
+    _, state = model.step(positions[0], None, model.initial_state())
+    out = model.step(positions[1], None, state, 0.1)
+    return lambda: model.step(positions[1], None, state, 0.1, out=out)
+
+
+def copy_and_root(nodes: int) -> Work:
+    """What numpy takes for two passes over 16 numbers of each node."""
+    numbers = np.random.default_rng(1).random((nodes, 16))
+    target = np.empty_like(numbers)
+
+    def run() -> None:
+        np.copyto(target, numbers)
+        np.sqrt(target, out=target)
+
+    return run
+
+
+def above_and_on(nodes: int, steps: int) -> tuple[Work, Work]:
+    """Compiled series with nine nodes of ten 5 m above the seabed, and with all of them 0.1 m in it."""
+    inputs = all_laws(nodes)
+    positions = series(inputs, steps)
+    above, on_it = positions.copy(), positions.copy()
+    above[:, : nodes * 9 // 10, 0] += 5.0
+    on_it[..., 0] -= 0.1
+    return streaming(inputs, above, "fast"), streaming(inputs, on_it, "fast")
+
+
+def ratios(rounds: int) -> Iterator[tuple[str, float, float, float]]:
+    """What is measured, its goal, and the least seconds of it and of its peer, which run in turn."""
+    pairs: list[tuple[str, float, int, tuple[Work, Work]]] = []
+    for nodes, goal in ((1000, 4.5), (100, 20.0)):
+        inputs = all_laws(nodes)
+        works = stepping_again(inputs, series(inputs, 2)), copy_and_root(nodes)
+        pairs.append((f"step(out=...) of {nodes} nodes / copy and root of 16 numbers a node", goal, 100, works))
+    pairs.append(("series with 90 % of the nodes in the air / with all on the seabed", 0.5, 1, above_and_on(1000, 400)))
+    for what, goal, times, works in pairs:
+        taken = [[_average(work, times) for work in works] for _ in range(rounds + 1)][1:]
+        yield what, goal, *map(min, zip(*taken, strict=True))
+
+
+def _average(work: Work, times: int) -> float:
+    start = time.thread_time()
+    for _ in range(times):
+        work()
+    return (time.thread_time() - start) / times
+
+
 def generated(inputs: ContactInput) -> ContactInput:
     """The same line with its end nodes first."""
     count = len(inputs.node_ids)
@@ -231,7 +285,12 @@ def main() -> None:
     parser.add_argument("--nodes", type=int, nargs="+", default=[1000, 10_000, 100_000, 1_000_000])
     parser.add_argument("--rounds", type=int, default=7, help="runs to take the least time of (default 7)")
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+    parser.add_argument("--ratios", action="store_true", help="print the goals alone, with what is reached")
     arguments = parser.parse_args()
+    if arguments.ratios:
+        for what, goal, taken, peer in ratios(arguments.rounds):
+            print(f"{what}: {taken / peer:.3g} ({taken * 1e6:.0f} / {peer * 1e6:.0f} us; goal at most {goal:g})")
+        return
     sizes: dict[int, dict[str, dict[str, float]]] = {}
     if not arguments.json:
         print(f"{'nodes':>8}{'ns/node/step':>14}{'numpy':>12}{'compiled':>12}{'2 threads':>12}")

@@ -38,11 +38,11 @@ from mudline.model.contact.laws.suction import (
     breakout_uplift,
     from_cohesion,
     release_stiffness,
-    step,
 )
 from tests.benchmarks.studies.laws import DIAMETER
 from tests.benchmarks.studies.newton import Newton
 from tests.benchmarks.tables import digits, load, save, table
+from tests.helpers.suction import step
 
 CYCLES, RELEASE = "stability-newton-cycles", "stability-release"
 STARTS = np.linspace(-20.0, 20.0, 101)

@@ -25,10 +25,11 @@ from scipy.integrate import solve_ivp
 
 from mudline.model.contact.arrays import BoolArray, FloatArray
 from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.model.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, from_cohesion, step
+from mudline.model.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, from_cohesion
 from mudline.model.curves import ForceCurve
 from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, WEIGHT, CurveLaw, Falling, Law, LinearLaw
 from tests.benchmarks.studies.motion import Forces, History, Motion, System, Trajectory
+from tests.helpers.suction import step
 
 Rate = Callable[[float, FloatArray], list[float]]
 RUNS = 32

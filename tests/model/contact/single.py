@@ -21,15 +21,14 @@ from mudline.model.contact.laws.friction import (
     slide,
 )
 from mudline.model.contact.laws.suction import (
-    Suction,
     SuctionHistory,
     SuctionLaw,
     SuctionState,
     breakout_uplift,
     maximum_force,
-    step,
 )
 from tests.helpers.builders.contact import floats
+from tests.helpers.suction import Suction, remembered, step
 
 FREE, COMPRESSION, SUCTION, HOLD, BROKEN = SuctionState
 OPEN, STICK, SLIP = FrictionState.OPEN, FrictionState.STICK, FrictionState.SLIP
@@ -77,7 +76,7 @@ def lifted(law: SuctionLaw, v_max: ArrayLike = 0.0) -> SuctionHistory:
     """Elements in the middle of an uplift episode."""
     count = len(law.cyclic)
     state = np.full(count, SUCTION, np.int8)
-    return SuctionHistory.of(law, np.ones(count, np.bool_), floats(v_max, count), state, law.initial_factor)
+    return remembered(law, np.ones(count, np.bool_), floats(v_max, count), state, law.initial_factor)
 
 
 class SuctionWalk(NamedTuple):

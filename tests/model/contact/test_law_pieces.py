@@ -8,6 +8,7 @@ import pytest
 from mudline.model.contact.laws import suction, trench, unloading
 from mudline.model.contact.laws.suction import SuctionState
 from tests.helpers.builders.contact import bridge_law
+from tests.helpers.suction import step as suction_step
 
 INNER, OUTER = 0.25, 0.85
 """Half widths of a trench; the middle of its walls is at 0.55."""
@@ -158,7 +159,7 @@ def test_an_element_that_is_pressed_has_the_uplift_at_breakout_of_rest() -> None
     law = bridge_law(2)
     history = suction.SuctionHistory.initial(law)
     pressed, free = np.array([True, False]), np.array([-0.01, 0.01])
-    step, after = suction.step(law, history, free, np.full(2, 0.1), pressed)
+    step, after = suction_step(law, history, free, np.full(2, 0.1), pressed)
     assert step.depth[0] == law.least_depth[0]
     assert step.force.tolist() == [0.0, 0.0]
     assert after.armed.tolist() == [True, False]

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mudline.model.contact import ContactModel
-from tests.helpers.builders.contact import CURVE, LINEAR, at_depths, chain, everything, mixed
+from mudline.model.contact import ContactModel, ContactResult, ContactState
+from mudline.model.contact.plan import Backend
+from tests.helpers.builders.contact import (
+    CURVE,
+    LINEAR,
+    at_depths,
+    chain,
+    everything,
+    friction,
+    journey,
+    mixed,
+)
 from tests.model.contact.comparison import same_bits
 
 
@@ -103,3 +114,54 @@ def test_a_scene_with_history_keeps_the_last_state_only() -> None:
     model = ContactModel(everything(4000, 3), backend="numpy")  # a few steps at a time
     peak(model, 10**4, clock=True)
     assert peak(model, 4 * 10**5, clock=True) < peak(model, 10**5, clock=True) + SLACK
+
+
+# ------------------------------------------------------------------------------------- arrays of an earlier step, again
+
+
+@pytest.mark.parametrize("backend", ["numpy", "fast"])
+def test_steps_into_arrays_of_earlier_steps_give_the_same_bits(backend: Backend) -> None:
+    contact = ContactModel(replace(everything(40, 2), tension="cut"), backend=backend)
+    positions, velocities, _ = journey(40, 12, 3)
+    expected = contact.evaluate(positions, velocities=velocities)
+    state = contact.initial_state()
+    pairs: list[tuple[ContactResult, ContactState]] = []
+    for step, (place, rate) in enumerate(zip(positions, velocities, strict=True)):
+        out = pairs[step % 2] if step > 1 else None
+        found = contact.step(place, rate, state, out=out)
+        assert out is None or (found[0] is out[0] and found[1] is out[1])
+        assert same_bits(found[0], expected.step(step))
+        pairs, state = [*pairs, found], found[1]
+
+
+@pytest.mark.parametrize("backend", ["numpy", "fast"])
+def test_positions_may_be_those_of_the_arrays_that_are_written(backend: Backend) -> None:
+    contact = ContactModel(chain([CURVE, LINEAR], friction(3)), backend=backend)
+    place = at_depths([0.1, 0.2, 0.1])
+    first = contact.step(place, None, contact.initial_state())
+    assert first[0].positions is not None
+    expected, after = contact.step(first[0].positions, None, first[1])
+    again, _ = contact.step(first[0].positions, None, after, out=first)
+    assert np.array_equal(again.reaction, expected.reaction)
+
+
+def test_what_cannot_be_written_again_is_refused() -> None:
+    contact, place = ContactModel(chain([CURVE], friction(2))), at_depths([0.1, 0.1])
+    start = contact.initial_state()
+    one, other = (contact.step(place, None, start) for _ in range(2))
+    foreign = ContactModel(contact.input).step(place, None, start)
+    for out in (foreign, (one[0], other[1]), (one[0],), (contact.evaluate(place), one[1])):
+        with pytest.raises(ValueError, match="out must be the result and the state that a step of this model returned"):
+            contact.step(place, None, start, out=out)  # type: ignore[arg-type]  # on purpose
+    with pytest.raises(ValueError, match="out holds the state that the step begins with"):
+        contact.step(place, None, one[1], out=one)
+    with pytest.raises(TypeError, match="out must be"):
+        contact.step(place, None, start, out=[*one])  # type: ignore[arg-type]  # on purpose
+
+
+def test_without_a_history_there_is_one_state_to_step_from() -> None:
+    contact, start = ContactModel(chain([LINEAR])), ContactModel(chain([LINEAR])).initial_state()
+    first = contact.step(at_depths([0.1, 0.1]), None, start)
+    again = contact.step(at_depths([0.2, 0.2]), None, start, out=first)
+    assert again[0] is first[0]
+    assert again[0].depth.tolist() == [0.2]

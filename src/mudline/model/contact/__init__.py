@@ -33,25 +33,22 @@ __all__ = [
 ]
 
 _HOMES = {
-    name: home
-    for home, names in {
-        "input": ["ContactInput", "ElementError", "LawAssignment", "LawKind", "PositionError", "Tension"],
-        "model": ["ContactModel"],
-        "plan": ["Plan", "Stage"],
-        "result": ["ContactResult"],
-        "tables": ["ContactState"],
-    }.items()
-    for name in names
+    "ContactModel": "model",
+    "ContactResult": "result",
+    "ContactState": "tables",
+    "Plan": "plan",
+    "Stage": "plan",
 }
+"""Modules of names that are not in `input`."""
 
 
 def __getattr__(name: str) -> object:
     """Public names are imported when they are first used: to lint a deck takes the input alone."""
-    if name not in _HOMES:
+    if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module  # noqa: PLC0415 - as above
 
-    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES.get(name, 'input')}"), name)
     return found
 
 

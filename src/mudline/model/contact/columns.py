@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
@@ -76,6 +77,8 @@ class Table(ABC):
     quantities: ClassVar[Mapping[str, Quantity]]
     _fixed: dict[str, Values]
     """Values that no step changes, by the name of their column."""
+    _blanks: Mapping[str, int] = MappingProxyType({})
+    """The whole numbers that stand for no value, by the name of their column."""
 
     def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
         self._chosen = chosen
@@ -109,7 +112,8 @@ class Table(ABC):
                 self._names.get(name, quantity.names),
                 quantity.vector,
                 quantity.over_steps,
-                unit=quantity.unit_name(self.units),
+                self._blanks.get(name),
+                quantity.unit_name(self.units),
             )
             for name, quantity in self.quantities.items()
         ]

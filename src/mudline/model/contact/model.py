@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import replace
 from numbers import Real
 from types import NoneType
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary, WeakSet
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +18,15 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, StepRea
 from mudline.model.contact.input import ContactInput, PositionError
 from mudline.model.contact.numpy_driver import NumpyDriver
 from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
-from mudline.model.contact.result import ContactResult, Part, blank_result, is_finite, refuse, refuse_pulling
+from mudline.model.contact.result import (
+    ContactResult,
+    Part,
+    blank_absent,
+    blank_result,
+    is_finite,
+    refuse,
+    refuse_pulling,
+)
 from mudline.model.contact.seabed import FlatSeabed, Seabed
 from mudline.model.contact.tables import Batch, ContactState, Tables
 
@@ -28,6 +37,8 @@ if TYPE_CHECKING:
 
 
 RealArray = NDArray[np.floating[Any] | np.integer[Any]]
+Stepped = tuple[ContactResult, ContactState]
+"""A result, and the state behind it."""
 
 
 class ContactModel:
@@ -64,11 +75,15 @@ class ContactModel:
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
+        # of the result of a step: the series of one step that it is a view of, and the state
+        self._made: WeakKeyDictionary[ContactResult, Stepped] = WeakKeyDictionary()
+        self._everywhere = np.ones(len(given.node_ids), np.bool_)
+        self._everywhere.flags.writeable = False
+        self._own: WeakSet[ContactState] = WeakSet()
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
     def __repr__(self) -> str:
-        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
-        size = f"{counted(nodes, 'node')}, {counted(elements, 'element')}"
+        size = f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
         return outline("ContactModel", size, stages, self.plan.steps)
 
@@ -101,9 +116,8 @@ class ContactModel:
             given = as_array(given, "positions")
             single = given.ndim == 2
             given = given.copy() if single else given  # the result keeps it: the caller may write the next into theirs
-        parts = list(self.stream(given, present=present, velocities=velocities, times=times, together=True))
-        result = parts[0].result
-        return result.step(0) if single else result
+        part = next(self.stream(given, present=present, velocities=velocities, times=times, together=True))
+        return part.result.step(0) if single else part.result
 
     def stream(
         self,
@@ -119,8 +133,8 @@ class ContactModel:
         Takes and raises what `evaluate` does.
         """
         expect(together, "together", (bool, np.bool_), "True or False")
-        nodes = len(self.input.node_ids)
-        series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
+        series = _as_series(positions, self._nodes)
+        mask = self._everywhere if present is None else _as_mask(present, self._nodes)
         motion = _as_velocities(velocities, series.shape)
         clock = _as_times(times, len(series))
         if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
@@ -138,8 +152,8 @@ class ContactModel:
                 rates = None if motion is None else np.asarray(motion[start:stop], np.float64)
                 spans = None if clock is None else np.diff(clock[max(start - 1, 0) : stop])
                 before = state
-                state = self._advance(driver, points, rates, spans, part, state, start, spare=spare)
-                spare = before if driver else None
+                state = self._advance(driver, points, rates, spans, part, state, start, spare if driver else state)
+                spare = before
             if whole is None:
                 yield Part(start, part)
         if whole is not None:
@@ -155,39 +169,54 @@ class ContactModel:
         velocities: ArrayLike | None,
         state: ContactState,
         dt: float | None = None,
-    ) -> tuple[ContactResult, ContactState]:
+        *,
+        out: Stepped | None = None,
+    ) -> Stepped:
         """Evaluate one step (n, 3) behind `state`; return its result and the state behind it.
 
-        Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step.
+        Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step. `out` is what
+        an earlier step of this model returned and nobody needs any more: its arrays are written again and returned, in
+        less time than new ones take. It may not hold `state`; if the step raises, what is in it is lost.
 
         Raises:
             PositionError, ElementError: as `evaluate`.
             ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed, or `state`
-                is that of another model.
+                is that of another model, or `out` is not what a step of this model returned, or holds `state`.
         """
         expect(state, "state", ContactState, "a ContactState")
-        if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
+        if state not in self._own and (
+            state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes)
+        ):
             raise ValueError("state must be one of this model: it is that of other nodes, elements or laws")
         expect(dt, "dt", (Real, NoneType), "a number")
         if dt is not None and not 0.0 < dt < np.inf:
             raise ValueError(f"dt must be finite and above 0, not {dt!r}")
-        nodes = len(self.input.node_ids)
-        series = _as_series(positions, nodes)
+        series = _as_series(positions, self._nodes)
         if len(series) != 1:
             raise ValueError("a step takes the positions of one step")
-        mask = _as_mask(None, nodes)
         motion = _as_velocities(velocities, series.shape)
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
+            given = _read_steps(series, range(1), self.input.node_ids, self._everywhere)
+            if out is None:
+                part, spare = self._blank(np.empty(given.shape), self._everywhere, None), None
+            else:
+                part, spare = self._again(out, state)
             # a copy: state and result keep it, and whoever steps may write the next positions into the same array
-            points = _read_steps(series, range(1), self.input.node_ids, mask).copy()
+            points = np.asarray(part.positions)
+            points.flags.writeable = True
+            points[...] = given
             points.flags.writeable = False
-            part = self._blank(points, mask, None)
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
-            after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
-        return part.step(0), after
+            after = self._advance(self._driver(1), points, rates, spans, part, state, 0, spare)
+        if out is not None:
+            return out[0], after
+        result = part.step(0)
+        self._made[result] = part, after
+        self._own.add(after)
+        return result, after
 
     def tangent(
         self,
@@ -230,8 +259,7 @@ class ContactModel:
         result = None if positions is None else self.evaluate(positions, velocities=velocities)
         speed = None
         if result is not None and velocities is not None:
-            rates = np.asarray(velocities, np.float64)
-            speed = (rates * result.normal).sum(axis=-1)
+            speed = (np.asarray(velocities, np.float64) * result.normal).sum(axis=-1)
         return stiffest(self._tables, result, speed)
 
     def _driver(self, steps: int) -> CompiledDriver | None:
@@ -256,33 +284,43 @@ class ContactModel:
         part: ContactResult,
         state: ContactState,
         first_step: int,
-        *,
-        spare: ContactState | None = None,
-        kept: bool = False,
+        spare: ContactState | None,
     ) -> ContactState:
-        """Evaluate a batch into `part`; return the state behind it.
-
-        It is in the arrays of `spare`, or without a driver of `state` unless that is `kept`.
-        """
-        laid = points[0] if state.laid is None else state.laid
+        """Evaluate a batch into `part`; return the state behind it: `spare`, written again, if there is one."""
+        laid = state.laid
+        if laid is None:  # a copy: the positions of a step may be written again
+            laid = points[0].copy() if self.plan.history else points[0]
         self._numpy.locate(points, part)
-        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid)
+        complete = part.present is self._everywhere or bool(part.present.all())
+        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
             from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
 
             lower(self._tables, points, laid, part.normal, part.gap)
-        after = None if driver is None else driver.run(batch, part, state, spare)
-        if after is None:
-            after = state.copied() if kept or driver else state
+        after = state.following(spare, points[-1], laid) if self.plan.history else state
+        if driver is None or not driver.run(batch, part, state, after):
+            after.remember(state)
             self._numpy.run(batch, part, after)
             if not is_finite(part, batch.speed):
                 refuse(part, batch.speed, first_step, self._tables)
         refuse_pulling(part, first_step, self._tables)
-        if not part.present.all():
-            _blank_absent(part)
-        if not self.plan.history:
-            return state
-        return replace(after, positions=points[-1], laid=laid)
+        if not complete:
+            blank_absent(part)
+        return after
+
+    def _again(self, out: Stepped, state: ContactState) -> Stepped:
+        """Return a series of one step and the state behind it whose arrays are to be written again."""
+        expect(out, "out", tuple, "a result and a state")
+        found = self._made.get(out[0])
+        if found is None or found[1] not in out[1:]:
+            raise ValueError("out must be the result and the state that a step of this model returned")
+        part, after = found
+        if after is state and self.plan.history:
+            raise ValueError("out holds the state that the step begins with: its arrays cannot be written yet")
+        for marks in (part.cut, part.regularised):  # steps set them, and leave the others as they are
+            if marks is not None and marks.flags.writeable:
+                marks[...] = False
+        return found
 
     def _speed(
         self,
@@ -310,7 +348,7 @@ class ContactModel:
             speed = np.ascontiguousarray(rates[..., 0])
         else:
             speed = rates[..., 0] * normal[..., 0] + rates[..., 1] * normal[..., 1] + rates[..., 2] * normal[..., 2]
-        if not np.isfinite(rates.sum()):
+        if not math.isfinite(rates.sum()):
             speed = np.where(np.isfinite(rates).all(axis=-1), speed, np.nan)
         return speed
 
@@ -336,16 +374,6 @@ def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArra
     return rates
 
 
-def _blank_absent(part: ContactResult) -> None:
-    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
-    for on_elements in (part.force, part.slope, part.stiffness):
-        on_elements[:, ~part.evaluated] = np.nan
-    part.normal_force[:, ~part.present] = np.nan
-    part.reaction[:, ~part.present] = np.nan
-    if part.friction is not None:
-        part.friction[:, ~part.present] = np.nan
-
-
 def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | StepReader:
     """Return (nodes, 3) or (steps, nodes, 3) positions as (steps, nodes, 3), neither copied nor converted.
 
@@ -361,14 +389,12 @@ def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | Ste
     return given if isinstance(given, StepReader) or given.ndim == 3 else given[np.newaxis]
 
 
-def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
-    """Return which nodes have a position; None means all of them.
+def _as_mask(present: ArrayLike, nodes: int) -> BoolArray:
+    """Return which nodes have a position.
 
     Raises:
         ValueError: `present` is not an array (nodes,) of booleans.
     """
-    if present is None:
-        return np.ones(nodes, np.bool_)
     mask = as_array(present, "present").copy()
     if mask.dtype != np.bool_ or mask.shape != (nodes,):
         raise ValueError(f"present must be booleans of shape ({nodes},), not {mask.dtype} of shape {mask.shape}")
@@ -383,7 +409,7 @@ def _read_steps(series: RealArray | StepReader, steps: range, node_ids: IdArray,
     """
     points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
     # a finite sum has finite terms only, and is sooner had than a look at each of them
-    if not np.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
+    if not math.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
         row, column = bad[0].tolist()
         step, node = steps.start + row, int(node_ids[column])
         place = tuple(points[row, column].tolist())

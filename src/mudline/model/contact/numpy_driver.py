@@ -96,45 +96,42 @@ def _keep_freed_memory() -> None:
 
 
 class _Breakout(NamedTuple):
-    """Nodes of a range with a breakout: rows of the law, columns in the range, parameters, 1 over elements."""
+    """Nodes of a range with a breakout, over the steps of a batch.
+
+    Attributes:
+        rows: those in the arrays of the law. at: columns in the range. law: parameters. share: 1 over elements.
+        embedment: their ratios z/D (steps, k), or one for all.
+        held: (5, k) what they remember, written in place.
+    """
 
     rows: slice
     at: Picked
     law: tuple[FloatArray, ...]
     share: FloatArray
-
-
-class _Softening:
-    """The breakout of nodes over the steps of a batch.
-
-    `embedment` are their ratios z/D (steps, k), or one for all; `held` (5, k) what they remember, written in place.
-    """
-
-    def __init__(self, nodes: _Breakout, embedment: FloatArray | None, held: FloatArray) -> None:
-        self._nodes, self._embedment, self._held = nodes, embedment, held
+    embedment: FloatArray
+    held: FloatArray
 
     def soften(self, step: int, scaled: tuple[FloatArray, FloatArray], points: FloatArray, across: Components) -> None:
         """Scale the lateral springs and limits (k,) of a step to points (3, k)."""
         from mudline.model.contact.laws.breakout import reached, shares  # noqa: PLC0415 - most friction has no breakout
 
-        (_, at, law, _), held, axes = self._nodes, self._held, len(across)
+        at, law, held, axes = self.at, self.law, self.held, len(across)
         away = tuple(points[3 - axes :, at] - held[3 - axes : 3])
         distance = vectors.PLANES[axes].dot(tuple(axis[at] if len(axis) > 1 else axis for axis in across), away)
-        deep = 0.0 if self._embedment is None else self._embedment[step]
-        held[3], held[4] = reached((held[3], held[4]), distance, deep, law)
+        held[3], held[4] = reached((held[3], held[4]), distance, self.embedment[step], law)
         share, _, softer = shares(held[3], held[4], law)
         for values, factor in zip(scaled, (softer, share), strict=True):
             values[at] *= factor
 
     def begin(self, points: FloatArray, on: BoolArray) -> None:
         """Forget what nodes remember that were not in contact."""
-        on = on[self._nodes.at]
-        self._held[:3] = np.where(on, self._held[:3], points[:, self._nodes.at])
-        self._held[3:] = np.where(on, self._held[3:], 0.0)
+        on = on[self.at]
+        self.held[:3] = np.where(on, self.held[:3], points[:, self.at])
+        self.held[3:] = np.where(on, self.held[3:], 0.0)
 
     def end(self, held: BoolArray) -> None:
         """Forget what nodes remember that are out of contact."""
-        self._held[...] = np.where(held[self._nodes.at], self._held, [[np.nan]] * 3 + [[0.0]] * 2)
+        self.held[...] = np.where(held[self.at], self.held, [[np.nan]] * 3 + [[0.0]] * 2)
 
 
 class Nodes:
@@ -166,7 +163,9 @@ class Nodes:
         if (breakout := tables.breakout) is not None:
             cut = rows_within(breakout.rows, begin, end)
             columns = tuple(column[cut] for column in breakout.columns)
-            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns, tables.shares[cut])
+            none = np.zeros((0, 0))
+            at = as_range(breakout.rows[cut] - begin)
+            self._breakout = _Breakout(cut, at, columns, tables.shares[cut], none, none)
         if tables.trench is not None:
             from mudline.model.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
 
@@ -316,14 +315,14 @@ class Nodes:
                 force[side][curved], slip[side][curved] = found[side], slipping
         return force, slip
 
-    def _softening(self, state: ContactState, work: Work) -> _Softening | None:
+    def _softening(self, state: ContactState, work: Work) -> _Breakout | None:
         nodes, held = self._breakout, state.breakout
         if nodes is None or held is None:
             return None
-        deep = None
+        deep = np.zeros((len(work.load), 1))
         if self._tables.embeds:
             deep = taken(self._tables.line.sums(work.ratio, self.begin, self.end), nodes.at) * nodes.share
-        return _Softening(nodes, deep, held[:, nodes.rows])
+        return nodes._replace(embedment=deep, held=held[:, nodes.rows])
 
     def _walls(
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from importlib import import_module
 from operator import attrgetter
-from types import ModuleType, NoneType
+from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
 TableName = Literal["elements", "nodes", "summary"]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, weakref_slot=True)
 class ContactResult:
     """Arrays over elements (m) and nodes (n); over (steps, m) and (steps, n) for a series of positions.
 
@@ -94,7 +94,7 @@ class ContactResult:
 
     def _repr_html_(self) -> str:
         """How large it is, and the touchdown of its lines at the first steps, for notebooks."""
-        found: str = _module("mudline.model.contact.frames").html(self)
+        found: str = import_module("mudline.model.contact.frames").html(self)
         return found
 
     @property
@@ -124,7 +124,7 @@ class ContactResult:
             ImportError: pandas is not installed; the extra `frames` brings it.
             ValueError: there is no such table, or the result does not know what was evaluated.
         """
-        return _module("mudline.model.contact.frames").dataframe(self, table)
+        return import_module("mudline.model.contact.frames").dataframe(self, table)
 
     def to_arrow(self, table: TableName = "elements") -> pa.Table:
         """Return the elements, nodes or lines ("summary") as a pyarrow table with the columns of `to_dataframe`.
@@ -132,7 +132,7 @@ class ContactResult:
         Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
         what `to_dataframe` does, ImportError for want of pyarrow.
         """
-        return _module("mudline.model.contact.frames").arrow_table(self, table)
+        return import_module("mudline.model.contact.frames").arrow_table(self, table)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The elements for whatever takes Arrow streams: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.
@@ -149,7 +149,7 @@ class ContactResult:
         single state has no `time`, except as a number where it is one of a series. Raises what `to_dataframe` does,
         ImportError for want of xarray.
         """
-        found: xr.Dataset = _module("mudline.model.contact.frames").dataset(self)
+        found: xr.Dataset = import_module("mudline.model.contact.frames").dataset(self)
         return found
 
     @property
@@ -190,7 +190,7 @@ class ContactResult:
         expect(path, "path", (str, os.PathLike, NoneType), "a path")
         elements = several(elements, "elements", (int, np.integer), "several numbers of elements")
         try:
-            plots = _module("mudline.model.results.plots")
+            plots = import_module("mudline.model.results.plots")
         except ImportError as error:
             raise ImportError(f"a plot needs matplotlib: {install_hint('plot')}") from error
         found: Figure = plots.plot_result(self, path, elements=elements)
@@ -201,7 +201,7 @@ class ContactResult:
 
         Raises ValueError for a result that does not know what was evaluated.
         """
-        found: list[LineSummary] = _module("mudline.model.contact.touchdown").line_summaries(self)
+        found: list[LineSummary] = import_module("mudline.model.contact.touchdown").line_summaries(self)
         return found
 
     def _cut(self, key: int | slice) -> ContactResult:
@@ -219,11 +219,6 @@ class ContactResult:
 def _whole(value: int, name: str) -> int:
     expect(value, name, (int, np.integer), "a whole number")
     return int(value)
-
-
-def _module(name: str) -> ModuleType:
-    """A module that knows results, and draws them or makes tables of them; results know it when it is asked for."""
-    return import_module(name)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -300,6 +295,16 @@ def blank_result(
         positions=positions,
         times=times,
     )
+
+
+def blank_absent(part: ContactResult) -> None:
+    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
+    for on_elements in (part.force, part.slope, part.stiffness):
+        on_elements[:, ~part.evaluated] = np.nan
+    part.normal_force[:, ~part.present] = np.nan
+    part.reaction[:, ~part.present] = np.nan
+    if part.friction is not None:
+        part.friction[:, ~part.present] = np.nan
 
 
 def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:

@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 
 _Part = Any
 """What a law remembers: an array, or a dataclass of arrays, with slots."""
-_REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
-_IN_PLACE = ("breakout", "paths")
-"""What a step moves on from what it is."""
+REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
+IN_PLACE = ("breakout", "paths")
+"""What the compiled loops move on from what it is."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, weakref_slot=True)
 class ContactState:
-    """The state behind a step. It is never changed: a step gives a new one.
+    """The state behind a step. It is never changed: a step gives a new one, or writes the one that it gets for `out`.
 
     Attributes:
         positions: (n, 3) of the step, for velocities by backward difference; None before the first step.
@@ -65,24 +65,23 @@ class ContactState:
 
     def _parts(self) -> list[tuple[str, _Part]]:
         """What the laws that are there remember, by the names of the fields."""
-        return [(name, part) for name in _REMEMBERED if (part := getattr(self, name)) is not None]
+        return [(name, part) for name in REMEMBERED if (part := getattr(self, name)) is not None]
 
-    def copied(self) -> ContactState:
-        """Return a state whose arrays may be written; positions stay as they are."""
-        return ContactState(
-            self.positions, self.laid, **{name: _like(part, copies=True) for name, part in self._parts()}
-        )
+    def following(self, spare: ContactState | None, positions: FloatArray, laid: FloatArray) -> ContactState:
+        """Return a state behind this one, whose arrays are to be written: those of `spare`, if there is one."""
+        found = spare
+        if found is None:
+            found = ContactState(**{name: _like(part) for name, part in self._parts()})
+        object.__setattr__(found, "positions", positions)
+        object.__setattr__(found, "laid", laid)
+        return found
 
-    def blank(self, spare: ContactState | None) -> ContactState:
-        """Return a state to be written, with what every step writes for each element and node not filled in.
-
-        Arrays of `spare` are taken, if there is one.
-        """
-        found = {}
+    def remember(self, before: ContactState, names: tuple[str, ...] = REMEMBERED) -> None:
+        """Write what the state before this one remembers into the arrays of this one."""
         for name, part in self._parts():
-            held = None if spare is None or name in _IN_PLACE else getattr(spare, name)
-            found[name] = _like(part, copies=name in _IN_PLACE) if held is None else held
-        return ContactState(self.positions, self.laid, **found)
+            if name in names and self is not before:
+                for new, old in zip(arrays_of(part), arrays_of(getattr(before, name)), strict=True):
+                    new[...] = old
 
 
 def arrays_of(part: _Part) -> list[NDArray[Any]]:
@@ -90,9 +89,9 @@ def arrays_of(part: _Part) -> list[NDArray[Any]]:
     return [part] if isinstance(part, np.ndarray) else [getattr(part, name) for name in part.__slots__]
 
 
-def _like(part: _Part, *, copies: bool) -> _Part:
-    """The same with arrays of its own, in the same order in memory."""
-    made = [array.copy(order="K") if copies else np.empty_like(array) for array in arrays_of(part)]
+def _like(part: _Part) -> _Part:
+    """The same with arrays of its own, in the same order in memory, which are not filled in."""
+    made = [np.empty_like(array) for array in arrays_of(part)]
     return made[0] if isinstance(part, np.ndarray) else type(part)(*made)
 
 
@@ -103,11 +102,13 @@ class Batch(NamedTuple):
         points: (steps, n, 3) positions, NaN for nodes without one.
         speed: (steps, n) velocities along the normals; None where nothing asks for them.
         laid: (n, 3) positions of the first step of the series.
+        complete: whether all nodes have a position.
     """
 
     points: FloatArray
     speed: FloatArray | None
     laid: FloatArray
+    complete: bool
 
 
 class NormalRows(NamedTuple):

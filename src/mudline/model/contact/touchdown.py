@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -192,6 +193,7 @@ class LineTable(Table):
     """The lines with an evaluated element."""
 
     quantities = LINES
+    _blanks = MappingProxyType(dict.fromkeys(("largest_force_element", "largest_uplift_element"), NO_ELEMENT))
 
     def __init__(self, given: ContactInput, elements: IndexArray) -> None:
         lines = np.unique(given.lines.of_element[elements])
@@ -209,21 +211,12 @@ class LineTable(Table):
         """Return the columns of `LINES`."""
         with np.errstate(over="ignore", invalid="ignore"):
             found = [self._values(one, part.result) for one in self.finder.series(part)]
-        values = self._fixed | {
+        given = {
             name: np.stack([each[name] for each in found], axis=1) if found else np.zeros((part.count, 0))
             for name in LINES
             if name not in self._fixed
         }
-        return [
-            Column(
-                name,
-                values[name],
-                over_steps=quantity.over_steps,
-                blank=NO_ELEMENT if name.startswith("largest") and name.endswith("element") else None,
-                unit=quantity.unit_name(self.units),
-            )
-            for name, quantity in LINES.items()
-        ]
+        return self._columns(given, part.result)
 
     def _values(self, one: LineSeries, result: ContactResult) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines

@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.model.contact import ContactModel
-from mudline.model.contact.laws.suction import Suction, SuctionHistory, SuctionLaw, SuctionState, step
+from mudline.model.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState
 from tests.helpers.builders.contact import NONE, bridge_law, chain, floats, heave, suction
+from tests.helpers.suction import Suction, step
 from tests.model.contact.single import BROKEN, DEPTH, HOLD, largest, lift, lifted, pull
 
 Path = list[tuple[float, float]]

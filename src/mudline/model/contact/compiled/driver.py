@@ -8,6 +8,7 @@ for the sums at nodes, which come after the elements.
 from __future__ import annotations
 
 import itertools
+import math
 import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -15,6 +16,7 @@ from functools import cache
 from importlib import import_module
 from inspect import isfunction
 from typing import Any, TypeVar
+from weakref import WeakKeyDictionary
 
 import numba
 import numpy as np
@@ -42,7 +44,7 @@ from mudline.model.contact.compiled.loops import ranges_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import Batch, ContactState, NormalRows, Tables, arrays_of
+from mudline.model.contact.tables import IN_PLACE, Batch, ContactState, NormalRows, Tables, arrays_of
 
 _BATCH = 3 * 2**19
 """Nodes times steps at a time, at most."""
@@ -96,8 +98,8 @@ def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
 
 _Task = tuple[bool, int, int]
 """A range to be written: whether it is one of nodes, its begin and its end."""
-_Job = tuple[tuple[Any, ...], tuple[Any, ...]]
-"""What the loops over elements, and over nodes, take of a batch behind the range."""
+_Job = tuple[Any, ...]
+"""What the loop takes of a batch behind the ranges."""
 
 
 _NO_LOOP: type[Exception] = getattr(numba.core.errors, "UnsupportedBytecodeError", numba.core.errors.NumbaError)
@@ -126,15 +128,19 @@ class CompiledDriver:
             (has, _equations(normal), paths, _choice(slopes), sources),
             (has, _equations(tables.nodal), sources),
         )
-        self._index, self._numbers, self._knots = element_tables(tables)
-        self._pulls = suction_table(tables)
-        self._node_index, self._node_numbers = node_tables(tables)
-        self._trenches, self._breaks = trench_tables(tables), breakout_table(tables)
         given_damping = tables.damping, tables.nodal_damping
-        self._damping = [read_only(np.empty(0) if each is None else each) for each in given_damping]
+        damping, of_nodes = (read_only(np.empty(0) if each is None else each) for each in given_damping)
         line = tables.line
         of_line = line.elements.astype(np.uint32), line.senses, tables.half
-        self._line = between(line.start), *map(read_only, of_line)
+        of_elements = element_tables(tables)
+        self._fixed = (
+            (*of_elements, suction_table(tables), damping),
+            (
+                between(line.start), *map(read_only, of_line), of_elements[0], *node_tables(tables), of_nodes,
+                trench_tables(tables), breakout_table(tables),
+            ),
+        )  # fmt: skip
+        self._made: WeakKeyDictionary[ContactResult | ContactState, tuple[Any, ...]] = WeakKeyDictionary()
         ends, elements_at = (line.ends, line.beside) if has.trench else (np.empty((0, 2)), np.empty((0, 2)))
         self._beside = beside(ends, elements_at)
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
@@ -147,27 +153,29 @@ class CompiledDriver:
         self.broken = False
         """Whether a law turned out not to compile."""
 
-    def run(
-        self, batch: Batch, part: ContactResult, state: ContactState, spare: ContactState | None
-    ) -> ContactState | None:
-        """Write a batch to `part`, but for gaps and normals, which are there; return the state behind it.
+    def run(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState) -> bool:
+        """Write a batch to `part`, but for gaps and normals, which are there, and the state behind it to `after`.
 
-        `spare` is one that may be written. None: something is not finite, and the numpy driver has to say what.
+        Return False where something is not finite: the numpy driver has to say what.
         """
         speed = batch.speed
-        if speed is not None and not (np.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
-            return None
-        after = state.blank(spare)
+        if speed is not None and not (math.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
+            return False
+        after.remember(state, IN_PLACE)
         together = len(self._together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS
-        job = self._job(batch, part, state, after, 2**64 if together else self._held)
+        job = (
+            *self._fixed, read_only(batch.points), np.empty((0, 0)) if speed is None else speed,
+            self._laid_tables(batch.laid, complete=batch.complete),
+            self._work(len(batch.points), 2**64 if together else self._held),
+            self._arrays(part), self._remembered(state), self._remembered(after),
+        )  # fmt: skip
         try:
-            wrong = self._run(job, together=together)
+            return not self._run(job, together=together)
         except (numba.core.errors.NumbaError, _NO_LOOP) as error:
             first = str(error).strip().splitlines()[0]
             warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
             self.broken = True
-            return None
-        return None if wrong else after
+            return False
 
     def _run(self, job: _Job, *, together: bool) -> int:
         """Write all ranges, or several together; return how many values are not finite."""
@@ -180,65 +188,59 @@ class CompiledDriver:
             sum(pool.map(lambda ranges: self._loop(ranges, *job), groups)) for groups in (self._together, self._behind)
         )
 
-    def _job(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState, held: int) -> _Job:
-        """What the loops take of a batch; what elements leave for nodes is there for `held`, a power of two."""
-        steps, has = len(batch.points), self._has
-        components = 2 if has.flat else 3
-        shape = (steps, min(held, self._elements), components)
-        work = (
-            np.empty(shape) if has.slides else np.empty((0, 0, components)),
-            np.empty(shape) if has.lateral else np.empty((0, 0, components)),
-            np.uint64(held - 1),
-        )
+    def _work(self, steps: int, held: int) -> tuple[Any, ...]:
+        """What elements leave for nodes; it is there for `held`, a power of two."""
+        components = 2 if self._has.flat else 3
+        shape, none = (steps, min(held, self._elements), components), (0, 0, components)
+        slides, lateral = self._has.slides, self._has.lateral
+        return np.empty(shape if slides else none), np.empty(shape if lateral else none), np.uint64(held - 1)
+
+    def _arrays(self, part: ContactResult) -> tuple[Any, ...]:
+        """What the loops read and write of a batch, made once for each."""
+        if (found := self._made.get(part)) is not None:
+            return found
         none = np.zeros((0, 0), np.int8)
-        paths = np.empty((0, 0)) if after.paths is None else after.paths
-        moved = np.empty((5, 0)) if after.breakout is None else after.breakout
-        extra = (
+        of_elements = (
+            (part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness),
             part.cut if part.cut.flags.writeable else none > 0,
             none if part.state is None else part.state,
             none > 0 if part.regularised is None else part.regularised,
         )
-        slips = (
+        of_nodes = (
+            part.normal_force,
+            part.reaction,
             np.empty((0, 0, 2)) if part.friction is None else part.friction,
             np.zeros((0, 0, 2), np.int8) if part.friction_state is None else part.friction_state,
         )
-        points, speed = read_only(batch.points), np.empty((0, 0)) if batch.speed is None else batch.speed
         normals = read_only(part.normal) if self._normal is None else self._normal
-        written = part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness
-        elements = (
-            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, self._damping[0],
-            _of_elements(state), (*_of_elements(after), paths), written, extra, work,
-        )  # fmt: skip
-        nodes = (
-            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, speed,
-            self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid, part)),
-            (self._breaks, part.ratio), _of_nodes(state), (*_of_nodes(after), moved),
-            (part.normal_force, part.reaction), slips,
-        )  # fmt: skip
-        return elements, nodes
+        found = self._made[part] = part.gap, normals, of_elements, of_nodes
+        return found
 
-    def _laid_tables(self, laid: FloatArray, part: ContactResult) -> tuple[Any, ...]:
-        if self._tables.trench is None or part.present.all():
+    def _remembered(self, state: ContactState) -> tuple[Any, ...]:
+        """What elements remember, and what nodes remember, as the loops take it, made once for each state."""
+        if (found := self._made.get(state)) is not None:
+            return found
+        lines, pulls, friction = state.unloading, state.suction, state.friction
+        found = self._made[state] = (
+            (
+                (np.empty(0),) * 4 if lines is None else tuple(map(plain, arrays_of(lines))),
+                (np.empty(0),) * 5 if pulls is None else tuple(map(plain, arrays_of(pulls))),
+                np.empty((3, 0)) if state.touchdown is None else plain(state.touchdown.T),
+                np.empty((0, 0)) if state.paths is None else plain(state.paths),
+            ),
+            (
+                np.empty((3, 0)) if friction is None else plain(friction.stick_points.T),
+                np.zeros((2, 0), np.int8) if friction is None else plain(friction.states.T),
+                np.empty((5, 0)) if state.breakout is None else plain(state.breakout),
+            ),
+        )
+        return found
+
+    def _laid_tables(self, laid: FloatArray, *, complete: bool) -> tuple[Any, ...]:
+        if self._tables.trench is None or complete:
             return read_only(laid), self._beside
         line = self._tables.laid_line(laid)  # without the elements that have a node without a position
         return read_only(laid), beside(line.ends, line.elements_at)
-
-
-def _of_elements(state: ContactState) -> tuple[Any, ...]:
-    """What elements remember, but for paths: of unloading, suction and lateral springs."""
-    lines, pulls = state.unloading, state.suction
-    return (
-        (np.empty(0),) * 4 if lines is None else tuple(map(plain, arrays_of(lines))),
-        (np.empty(0),) * 5 if pulls is None else tuple(map(plain, arrays_of(pulls))),
-        np.empty((3, 0)) if state.touchdown is None else plain(state.touchdown.T),
-    )
-
-
-def _of_nodes(state: ContactState) -> tuple[Any, ...]:
-    """What nodes remember of friction."""
-    if state.friction is None:
-        return np.empty((3, 0)), np.zeros((2, 0), np.int8)
-    return plain(state.friction.stick_points.T), plain(state.friction.states.T)
 
 
 def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:

@@ -148,8 +148,15 @@ def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> I
     return at
 
 
-def unit_of_span(dx: float, dy: float, dz: float) -> tuple[float, float, float]:
-    """Return the direction of a span; 0 for one without length, or with an end that is not there."""
+def point_of(values: Array, step: Index, row: Index) -> Point:
+    """Return three components of an array (steps, k, 3)."""
+    return values[step, row, 0], values[step, row, 1], values[step, row, 2]
+
+
+def direction_of(points: Array, step: Index, a: Index, b: Index) -> Point:
+    """Return the direction from one node to another; 0 for those at one place, or if one is not there."""
+    p, q = point_of(points, step, a), point_of(points, step, b)
+    dx, dy, dz = q[0] - p[0], q[1] - p[1], q[2] - p[2]
     square = dx * dx + dy * dy + dz * dz
     if not vectors.LEAST_SQUARE < square < vectors.LARGEST_SQUARE:
         scale = vectors.span_scale(dx, dy, dz)
@@ -193,7 +200,7 @@ def next_suction(
 ) -> tuple[tuple[bool, int, Numbers], float, float, bool]:
     """Return the suction history of an element: armed, state, numbers; force, stiffness, and whether v < v_r.
 
-    `law` are the columns of the table of suction laws.
+    Its law is a `row` of the table of suction laws, of which most elements need little.
     """
     armed, state, (v_max, factor, depth) = before
     g = h = 0.0

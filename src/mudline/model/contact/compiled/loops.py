@@ -19,6 +19,7 @@ from mudline.model.contact.compiled.functions import (
     Numbers,
     Point,
     Wrap,
+    direction_of,
     followed,
     from_laid,
     from_straight,
@@ -27,9 +28,9 @@ from mudline.model.contact.compiled.functions import (
     next_suction,
     next_unloading,
     one_of,
+    point_of,
     row_of,
     table_resistance,
-    unit_of_span,
 )
 from mudline.model.contact.laws import PathLaw
 from mudline.model.contact.laws.breakout import reached, shares
@@ -38,6 +39,23 @@ from mudline.model.contact.laws.friction import slip_distance
 from mudline.model.contact.laws.linear import damping_force, lateral_force, spring_suction
 from mudline.model.contact.laws.suction import SUCTION
 from mudline.model.contact.laws.trench import PEAK, WALL, on_wall, peak_share
+
+
+def _components(wrap: Wrap, has: Features) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
+    """Make the functions that take the components in the plane of the seabed of a vector, read, and write them."""
+    flat, axes = has.flat, 2 if has.flat else 3
+
+    def in_plane(vector: Point) -> Numbers:
+        return vector[1:] if flat else vector
+
+    def read(values: Array, step: Index, row: Index) -> Numbers:
+        return (values[step, row, 0], values[step, row, 1]) if flat else point_of(values, step, row)
+
+    def write(values: Array, step: Index, row: Index, vector: Numbers) -> None:
+        for axis in range(axes):
+            values[step, row, axis] = vector[axis]
+
+    return wrap(in_plane), wrap(read), wrap(write)
 
 
 def elements_loop(
@@ -56,20 +74,22 @@ def elements_loop(
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
     suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
     plane = vectors.PLANES[2 if has.flat else 3]
-    project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
+    project, default, cross, dot, blend = plane.project, plane.default, plane.across, plane.dot, plane.blend
+    in_plane, _, write = _components(wrap, has)
+    nothing = (0.0, 0.0) if has.flat else (0.0, 0.0, 0.0)
     suction_law = row_of(wrap, col.SUCTION_COLUMNS)
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
-        begin: Index, end: Index, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
-        normals: Array, knots: Array, damping: Array, before: Array, states: Array, out: Array, extra: Array,
-        work: Array,
+        begin: Index, end: Index, tables: Array, points: Array, speed: Array, work: Array, part: Array, before: Array,
+        states: Array,
     ) -> int:  # fmt: skip
+        index, table, knots, pulls, damping = tables
+        gap, normals, (out, cut, state, regularised), _ = part
         depth, ratio, contact, force, slope, stiffness = out
-        cut, state, regularised = extra
         tangent, sideways, ring = work
         lines, episodes, touchdown, ways = states
-        past_lines, past_episodes, places = before
+        past_lines, past_episodes, places, _ = before
         wrong = min(edition, 0)
         for step in range(np.uint64(len(gap))):
             if step > 0:
@@ -144,44 +164,35 @@ def elements_loop(
                 if not slides:
                     continue
 
-                row = np.uint64(e) & ring
-                p = (points[step, a, 0], points[step, a, 1], points[step, a, 2])
-                q = (points[step, b, 0], points[step, b, 1], points[step, b, 2])
-                unit = unit_of_span(q[0] - p[0], q[1] - p[1], q[2] - p[2])
-                if flat:
-                    tangent[step, row, 0], tangent[step, row, 1] = unit[1], unit[2]
+                # a direction is asked for by nodes with a normal force alone: NaN for one that is not there
+                row, unit = np.uint64(e) & ring, nothing
+                if touches:
+                    unit = in_plane(direction_of(points, step, a, b))
+                    write(tangent, step, row, unit)
                 else:
-                    tangent[step, row, 0], tangent[step, row, 1], tangent[step, row, 2] = unit
-                if lateral and index[e, col.SPRINGS_BACK] != NOTHING:
-                    held = index[e, col.SPRINGS_BACK]
-                    x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
-                    place = (places[0, held], places[1, held], places[2, held])
-                    if not touches:
-                        place = (np.nan, np.nan, np.nan)
-                    elif math.isnan(place[0]):
-                        place = (x, y, z)
-                    touchdown[0, held], touchdown[1, held], touchdown[2, held] = place
-                    n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
-                    wanted: Numbers = unit[1:] if flat else unit
-                    x, y, z = x - place[0], y - place[1], z - place[2]
-                    arm: Numbers = (y, z) if flat else (x, y, z)
-                    if not flat and normals.shape[1] > 1:
-                        n = vectors.mean_normal(
-                            (normals[step, a, 0], normals[step, a, 1], normals[step, a, 2]),
-                            (normals[step, b, 0], normals[step, b, 1], normals[step, b, 2]),
-                        )
-                    along, able = project(wanted, n)
-                    if not able:
-                        along = default(n)
-                    across = cross(along, n)
-                    push = lateral_force(table[e, col.LATERAL], dot(across, arm)) if touches else 0.0
-                    sideways[step, row, 0], sideways[step, row, 1] = across[0] * push, across[1] * push
-                    if not flat:
-                        sideways[step, row, 2] = across[2] * push
-                elif lateral:
-                    sideways[step, row, 0] = sideways[step, row, 1] = 0.0
-                    if not flat:
-                        sideways[step, row, 2] = 0.0
+                    tangent[step, row, 0] = np.nan
+                if lateral:
+                    push = nothing
+                    if index[e, col.SPRINGS_BACK] != NOTHING:
+                        held, place = index[e, col.SPRINGS_BACK], (np.nan, np.nan, np.nan)
+                        if touches:
+                            p, q = point_of(points, step, a), point_of(points, step, b)
+                            x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
+                            place = (places[0, held], places[1, held], places[2, held])
+                            if math.isnan(place[0]):
+                                place = (x, y, z)
+                            n = point_of(normals, 0, 0)
+                            if not flat and normals.shape[1] > 1:
+                                n = vectors.mean_normal(point_of(normals, step, a), point_of(normals, step, b))
+                            along, able = project(unit, n)
+                            if not able:
+                                along = default(n)
+                            across = cross(along, n)
+                            arm = in_plane((x - place[0], y - place[1], z - place[2]))
+                            size = lateral_force(table[e, col.LATERAL], dot(across, arm))
+                            push = blend(across, nothing, size, 0.0)
+                        touchdown[0, held], touchdown[1, held], touchdown[2, held] = place
+                    write(sideways, step, row, push)
         return wrong
 
     return loop
@@ -193,7 +204,7 @@ def _trench_limit(has: Features) -> Callable[..., Any]:
     dot = vectors.PLANES[2 if has.flat else 3].dot
 
     def walls(i: int, total: float, p: Point, across: Array, forward: bool, trenches: Array) -> float:  # noqa: FBT001
-        (first, behind), index, table, lines, rows, laid, beside = trenches
+        ((first, behind), index, table, lines, rows), (laid, beside) = trenches
         added = 0.0
         for at in range(first[i], behind[i]):
             line, kind, amount = index[at, col.CENTRELINE], index[at, col.TRENCH_KIND], table[at, col.AMOUNT]
@@ -244,40 +255,30 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     blend, added, reacts = plane.blend, plane.added, plane.reaction
     normal_law = one_of(wrap, laws, col.NODE_LAW)
     walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
+    in_plane, read, _ = _components(wrap, has)
+    nothing = (0.0, 0.0) if has.flat else (0.0, 0.0, 0.0)
 
     def loop(
-        begin: Index, end: Index, starts: Array, elements: Array, senses: Array, half: Array, index: Array,
-        table: Array, points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array,
-        work: Array, trenches: Array, breaks: Array, before: Array, states: Array, out: Array, extra: Array,
+        begin: Index, end: Index, tables: Array, points: Array, speed: Array, laid: Array, work: Array, part: Array,
+        before: Array, states: Array,
     ) -> int:  # fmt: skip
-        first, behind = starts
-        totals, reaction = out
-        friction_force, slipping = extra
+        (first, behind), elements, senses, half, ends, index, table, damping, trenches, breaks = tables
+        gap, normals, ((_, ratio, _, force, _, _), _, _, _), (totals, reaction, friction_force, slipping) = part
         tangent, sideways, ring = work
         sticks, sticking, moved_so_far = states
-        past_sticks, past_sticking = before
+        past_sticks, past_sticking, _ = before
         wrong = min(edition, 0)
         for step in range(np.uint64(len(gap))):
             if step > 0:
                 past_sticks, past_sticking = sticks, sticking
             for i in range(begin, end):
                 total = 0.0
-                tx = ty = tz = gx = gy = gz = 0.0
+                wanted = push = sideward = nothing
                 for at in range(first[i], behind[i]):
                     e = elements[at]
-                    row = np.uint64(e) & ring
                     total += force[step, e] * half[e]
-                    if slides:
-                        sense = senses[at] if turns else 1.0
-                        tx += tangent[step, row, 0] * sense
-                        ty += tangent[step, row, 1] * sense
-                        if not flat:
-                            tz += tangent[step, row, 2] * sense
                     if lateral:
-                        gx += sideways[step, row, 0]
-                        gy += sideways[step, row, 1]
-                        if not flat:
-                            gz += sideways[step, row, 2]
+                        push = added(push, read(sideways, step, np.uint64(e) & ring))
                 if nodal and index[i, col.NODE_KIND] != NOTHING:
                     z = 0.0 - gap[step, i]
                     if z > table[i, col.NODE_ONSET]:
@@ -287,26 +288,32 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                 if damps:
                     total += damping_force(0.0 - gap[step, i], speed[step, i], damping[i])
                 totals[step, i] = total
-                n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
+                n = point_of(normals, 0, 0)
                 if normals.shape[1] > 1:
-                    n = (normals[step, i, 0], normals[step, i, 1], normals[step, i, 2])
-                wanted: Numbers = (tx, ty) if flat else (tx, ty, tz)
-                push: Numbers = (gx, gy) if flat else (gx, gy, gz)
-                sideward: Numbers = (0.0, 0.0) if flat else (0.0, 0.0, 0.0)
+                    n = point_of(normals, step, i)
 
                 if slides:
-                    along, able = project(wanted, n)
-                    if not able:
-                        along = default(n)
-                    if friction and turned and not math.isnan(table[i, col.COSINE]):
-                        along = turn(table[i, col.COSINE], table[i, col.SINE], n)
-                    across = cross(along, n)
                     f1 = f2 = 0.0
+                    along = across = nothing
+                    slides_here = friction and index[i, col.ACTIVE] > 0 and total > 0.0
+                    if slides_here or (lateral and push != nothing):  # else there is no force along any direction
+                        for at in range(first[i], behind[i]):
+                            e = elements[at]
+                            unit = read(tangent, step, np.uint64(e) & ring)
+                            if math.isnan(unit[0]):
+                                unit = in_plane(direction_of(points, step, ends[e, col.FIRST], ends[e, col.SECOND]))
+                            wanted = blend(wanted, unit, 1.0, senses[at] if turns else 1.0)
+                        along, able = project(wanted, n)
+                        if not able:
+                            along = default(n)
+                        if friction and turned and not math.isnan(table[i, col.COSINE]):
+                            along = turn(table[i, col.COSINE], table[i, col.SINE], n)
+                        across = cross(along, n)
                     if friction:
                         one: Index = np.int64(index[i, col.ACTIVE]) - 1
                         other = one
-                        if index[i, col.ACTIVE] > 0 and total > 0.0:
-                            p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
+                        if slides_here:
+                            p = point_of(points, step, i)
                             held = past_sticking[0, i] > 0
                             stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
                             # no branch: which nodes are held cannot be guessed
@@ -315,8 +322,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                                 stick[1] if held else p[1],
                                 stick[2] if held else p[2],
                             )
-                            x, y, z = p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]
-                            away = (y, z) if flat else (x, y, z)
+                            away = in_plane((p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]))
                             e1, e2 = dot(along, away), dot(across, away)
                             k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
                             k2 = table[i, col.CONSTANT_2] + table[i, col.RISING_2] * total
@@ -328,14 +334,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                                         moved_so_far[axis, index[i, col.BREAKS_OUT]] = p[axis]
                                 deep = 0.0
                                 for at in range(first[i], behind[i]):
-                                    deep += breaks[1][step, elements[at]]
-                                soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks[0], moved_so_far)
+                                    deep += ratio[step, elements[at]]
+                                soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks, moved_so_far)
                                 k2, l2 = k2 * soft, l2 * share
                                 t2 = k2 * e2
                             curved = elliptic and index[i, col.ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
-                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, trenches)
+                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, (trenches, laid))
                                 f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             m1 = m2 = 0.0
                             if slip_1 or slip_2:
@@ -371,19 +377,23 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
 def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
     """Make the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
 
-    It takes what the two loops take behind a range; their options are those of `elements_loop` and `nodes_loop`. What
-    elements leave for nodes is in the row e & ring of `work`, so that it need not hold all elements.
+    Behind the ranges it takes tables of elements and of nodes, positions, velocities, the line as laid, what elements
+    leave for nodes, the results, and the states before and behind. What elements leave is in the row e & ring of
+    `work`, so that it need not hold all elements.
     """
     elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
 
-    def loop(ranges: Array, element_arrays: Array, node_arrays: Array) -> int:
+    def loop(
+        ranges: Array, element_tables: Array, node_tables: Array, points: Array, speed: Array, laid: Array,
+        work: Array, part: Array, before: Array, after: Array,
+    ) -> int:  # fmt: skip
         wrong = 0
         for at in range(len(ranges)):
             begin, end = ranges[at, 1], ranges[at, 2]
             if ranges[at, 0] > 0:
-                wrong += nodes(begin, end, *node_arrays)
+                wrong += nodes(begin, end, node_tables, points, speed, laid, work, part, before[1], after[1])
             else:
-                wrong += elements(begin, end, *element_arrays)
+                wrong += elements(begin, end, element_tables, points, speed, work, part, before[0], after[0])
         return wrong
 
     return loop
