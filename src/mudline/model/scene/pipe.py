@@ -27,7 +27,7 @@ class Pipe(NamedTuple):
     weight: submerged weight with contents.
     mass: of the pipe alone. contents: mass of what flows in it in the last load case. added_mass: Ca rho pi D^2 / 4.
     drag: Cd rho D / 2, the force of water across at a velocity of 1.
-    drag_coefficient: Cd. has_coefficients: False where Cd and Ca are assumed.
+    drag_coefficient, added_mass_coefficient: Cd and Ca. has_coefficients: False where these are assumed.
     bending, axial: EI and EA, of curves their slope at 0; 0 for sections that do not bend.
     """
 
@@ -37,6 +37,7 @@ class Pipe(NamedTuple):
     added_mass: Floats
     drag: Floats
     drag_coefficient: Floats
+    added_mass_coefficient: Floats
     has_coefficients: Mask
     bending: Floats
     axial: Floats
@@ -63,6 +64,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
             added_mass=added * around.density * math.pi / 4.0 * size * size,
             drag=0.5 * drag * around.density * drag_diameter,
             drag_coefficient=drag,
+            added_mass_coefficient=added,
             has_coefficients=given,
             bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
             axial=picked((each.axial for each in of_sections), table.of_element),

@@ -235,8 +235,8 @@ def _titles(codes: Collection[str]) -> dict[str, str]:
 
 def _model(scene: Scene) -> dict[str, Any]:
     found = summarise(scene)
-    names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions")
-    return {name: found[name] for name in names} | {"keywords": found["sections"]}
+    names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions", "sheet")
+    return {name: found[name] for name in (*names, "weights_without")} | {"keywords": found["sections"]}
 
 
 def _curves(scene: Scene) -> dict[str, Any]:

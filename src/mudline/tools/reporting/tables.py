@@ -63,7 +63,7 @@ def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     yield _on_page(DisplayTable("Size", _FIGURES, counts), numeric={1})
     yield _on_page(set_table(found["sets"], names), MOST_CURVES, numeric={1})
     yield _on_page(diameter_table(found["diameters"], names))
-    yield _on_page(static_table(found["static_embedment"], names, first=False, stiffness=names.stiffness))
+    yield _on_page(static_table(found["static_embedment"], names, found["weights_without"], first=False))
     keywords = [(section["name"], one) for section in found["keywords"] for one in section["keywords"]]
     columns = (
         text("section", lambda row: f"${row[0]}"),
