@@ -74,9 +74,9 @@ def _apart(differences: Sequence[Sequence[Difference]]) -> list[list[tuple[_Key,
         alike: dict[tuple[int, ...], list[int]] = {}
         for number, places in of_element.items():
             alike.setdefault(tuple(places), []).append(number)
-        for places, numbers in alike.items():
+        for those_places, numbers in alike.items():
             key = group, f"elements {text_of(spans_of(np.sort(np.array(numbers, np.int64))))}{path}"
-            for deck, place in enumerate(places):
+            for deck, place in enumerate(those_places):
                 if place >= 0:
                     found[deck].append((key, differences[deck][place]))
     return found

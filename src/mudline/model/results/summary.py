@@ -217,8 +217,10 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     rows = []
     for filled, weight in enumerate(weights):
         known = np.flatnonzero((weight > 0.0) & own)
-        rows += [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known, bool(filled))]
-        rows += _of_nodes(scene, weight, bool(filled))
+        rows += [
+            _of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known, filled=bool(filled))
+        ]
+        rows += _of_nodes(scene, weight, filled=bool(filled))
     return rows[:_TABLE_ROWS]
 
 
@@ -238,7 +240,7 @@ class _Zones(NamedTuple):
         return cls(half_width, one_sided)
 
 
-def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, filled: bool) -> list[_Case]:
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_Case]:
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
@@ -269,7 +271,7 @@ def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> 
         return _row(scene, case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
 
 
-def _of_nodes(scene: Scene, weight: Floats, filled: bool) -> list[dict[str, Any]]:
+def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, Any]]:
     """The least and the most that a node with a spring of its own carries, by set."""
     if not scene.nodal.any() or (scene.element_nodes < 0).any():
         return []

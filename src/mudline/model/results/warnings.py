@@ -213,9 +213,10 @@ class ContactWatch:
     def _least_weight(self) -> tuple[Floats, Contents | None]:
         """The least submerged weight per length (m,) over the load cases, and the first case in which one floats."""
         scene = self._scene
-        gravity, own = surroundings(scene.deck).gravity, scene.submerged_weight
-        own = own + attached(scene).weighing * gravity if attached(scene).weighing.any() else own
-        cases = [(own + one.mass * gravity, one) for one in contents(scene)]
+        gravity, masses = surroundings(scene.deck).gravity, attached(scene).weighing
+        own = scene.submerged_weight + masses * gravity if masses.any() else scene.submerged_weight
+        with np.errstate(over="ignore", invalid="ignore"):
+            cases = [(own + one.mass * gravity, one) for one in contents(scene)]
         if not cases:
             return own, None
         floating = next((case for weight, case in cases if (weight[self._elements] < 0.0).any()), None)
@@ -234,8 +235,13 @@ class ContactWatch:
             found = _Balance(reaction, weight, empty, here, len(contact))
             if before is None:
                 return found
-            sums = (one + other for one, other in zip(before[:3], found[:3], strict=True))
-            return _Balance(*sums, np.union1d(before.elements, here), before.steps + found.steps)
+            return _Balance(
+                before.reaction + reaction,
+                before.weight + weight,
+                before.empty + empty,
+                np.union1d(before.elements, here),
+                before.steps + found.steps,
+            )
 
     # ----------------------------------------------------------------------------------------------- what it found
 
@@ -341,7 +347,7 @@ class ContactWatch:
     def _balanced(self, balance: _Balance) -> str:
         behind = unit_names(self._scene.units).behind("force")
         elements = counted(len(balance.elements), "element")
-        reaction, weight, empty = (value / balance.steps for value in balance[:3])
+        reaction, weight, empty = (each / balance.steps for each in (balance.reaction, balance.weight, balance.empty))
         total = "not known" if math.isnan(reaction) else f"{shown(reaction)}{behind}"
         carried = f"total reaction {total} on {elements} in contact"
         if math.isnan(weight):

@@ -10,6 +10,7 @@ import numpy as np
 from mudline.basics.quantities import finite
 from mudline.language.keywords.format import unit_text
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, picked
 from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import ResolvedDeck
@@ -78,60 +79,66 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
     A run ends where a value changes, and where an element is not joined to the one before. Of load cases in which the
     contents are others than in the last one there are two more columns each.
     """
-    table, gravity, pipe = scene.section_table, surroundings(scene.deck).gravity, pipe_of(scene)
-    filled, masses = contents(scene), attached(scene).mass * scene.length
-    last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
-    others = [one for one in filled[:-1] if (one.density != last).any()]
-    entries = [section.entry.section for section in table.sections]
-    inner = picked((float(getattr(each, "di", None) or np.nan) for each in entries), table.of_element)
-    own = [stiffnesses(scene.deck, section) for section in table.sections]
-    friction = _friction(scene)
-    linear = np.where(scene.law == LawKind.LINEAR, scene.law_arrays().linear_stiffness, np.nan)
-    with np.errstate(all="ignore"):
-        numbers = {
-            "outer_diameter": scene.diameter,
-            "inner_diameter": inner,
-            "diameter_over_wall": 2.0 * scene.diameter / (scene.diameter - inner),
-            "mass": scene.mass_per_length,
-            "empty_weight": scene.submerged_weight,
-            "contents": last,
-            "filled_mass": scene.mass_per_length + pipe.contents,
-            "filled_weight": pipe.weight,
-            "bending": picked((each.bending for each in own), table.of_element),
-            "axial": picked((each.axial for each in own), table.of_element),
-            "drag": np.where(pipe.has_coefficients, pipe.drag_coefficient, np.nan),
-            "added_mass": np.where(pipe.has_coefficients, pipe.added_mass_coefficient, np.nan),
-            "stiffness": linear,
-            "axial_friction": friction[:, 0],
-            "lateral_friction": friction[:, 1],
-        }
-        columns = [*RUN, *PIPE, *AROUND]
-        for one in others:
-            case = f"load case {one.number}"
-            key = case.replace(" ", "_")
-            columns.append(SheetColumn(f"contents_{key}", f"contents,\n{case}", "M/L3"))
-            columns.append(SheetColumn(f"weight_{key}", f"weight,\n{case}", "F/L"))
-            numbers[f"contents_{key}"] = one.density
-            numbers[f"weight_{key}"] = scene.submerged_weight + one.mass * gravity
-    kinds = np.column_stack([table.of_element, scene.law, scene.laws.of_element, scene.replacing])
-    rows = []
-    for first, end in _runs(scene, np.column_stack([kinds, *numbers.values()])):
-        total = finite(float(masses[first:end].sum()))
-        section = int(table.of_element[first])
-        rows.append(
-            {
-                "first_element": int(scene.element_ids[first]),
-                "last_element": int(scene.element_ids[end - 1]),
-                "elements": end - first,
-                "section": table.sections[section].name if section >= 0 else None,
-                "length": finite(float(scene.length[first:end].sum())),
-                "masses_at_nodes": total or None,
-                "law": None if scene.law[first] == LawKind.NONE else scene.law_names[first],
-            }
-            | {key: finite(float(values[first])) for key, values in numbers.items()}
-        )
+    table = scene.section_table
+    with np.errstate(all="ignore"):  # values of a deck may overflow, which is no value
+        numbers, others = _numbers(scene)
+        masses = attached(scene).mass * scene.length
+        kinds = np.column_stack([table.of_element, scene.law, scene.laws.of_element, scene.replacing])
+        rows = []
+        for first, end in _runs(scene, np.column_stack([kinds, *numbers.values()])):
+            section = int(table.of_element[first])
+            rows.append(
+                {
+                    "first_element": int(scene.element_ids[first]),
+                    "last_element": int(scene.element_ids[end - 1]),
+                    "elements": end - first,
+                    "section": table.sections[section].name if section >= 0 else None,
+                    "length": finite(float(scene.length[first:end].sum())),
+                    "masses_at_nodes": finite(float(masses[first:end].sum())) or None,
+                    "law": None if scene.law[first] == LawKind.NONE else scene.law_names[first],
+                }
+                | {key: finite(float(values[first])) for key, values in numbers.items()}
+            )
+    columns = [*RUN, *PIPE, *AROUND, *others]
     ordered = [{column.key: row[column.key] for column in columns} for row in rows]
     return Sheet(columns, ordered, left_out(scene))
+
+
+def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]:
+    """The values (m,) of all elements by column, and the columns of other load cases."""
+    table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
+    entries = [section.entry.section for section in table.sections]
+    inner = picked((number(each, "di") or np.nan for each in entries), table.of_element)
+    own = [stiffnesses(scene.deck, section) for section in table.sections]
+    friction = _friction(scene)
+    last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
+    found = {
+        "outer_diameter": scene.diameter,
+        "inner_diameter": inner,
+        "diameter_over_wall": 2.0 * scene.diameter / (scene.diameter - inner),
+        "mass": scene.mass_per_length,
+        "empty_weight": scene.submerged_weight,
+        "contents": last,
+        "filled_mass": scene.mass_per_length + pipe.contents,
+        "filled_weight": pipe.weight,
+        "bending": picked((each.bending for each in own), table.of_element),
+        "axial": picked((each.axial for each in own), table.of_element),
+        "drag": np.where(pipe.has_coefficients, pipe.drag_coefficient, np.nan),
+        "added_mass": np.where(pipe.has_coefficients, pipe.added_mass_coefficient, np.nan),
+        "stiffness": np.where(scene.law == LawKind.LINEAR, scene.law_arrays().linear_stiffness, np.nan),
+        "axial_friction": friction[:, 0],
+        "lateral_friction": friction[:, 1],
+    }
+    others = []
+    for one in filled[:-1]:
+        if (one.density != last).any():
+            case = f"load case {one.number}"
+            dense = SheetColumn(f"contents_load_case_{one.number}", f"contents,\n{case}", "M/L3")
+            heavy = SheetColumn(f"weight_load_case_{one.number}", f"weight,\n{case}", "F/L")
+            others += [dense, heavy]
+            found[dense.key] = one.density
+            found[heavy.key] = scene.submerged_weight + one.mass * surroundings(scene.deck).gravity
+    return found, others
 
 
 def _friction(scene: ResolvedDeck) -> Floats:

@@ -55,7 +55,8 @@ def contents(scene: ResolvedDeck) -> list[Contents]:
         for where, block in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE"):
             if where.section == index:
                 _fill(scene, cast("InternalFluid", block), middle, density)
-        found.append(Contents(len(found) + 1, Where(index), density, density * area))
+        with np.errstate(over="ignore"):
+            found.append(Contents(len(found) + 1, Where(index), density, density * area))
     return found
 
 
@@ -115,7 +116,10 @@ def operating_weight(scene: ResolvedDeck) -> Floats:
     mass = attached(scene).weighing
     for one in contents(scene)[-1:]:
         mass = mass + one.mass
-    return scene.submerged_weight + mass * surroundings(scene.deck).gravity if mass.any() else scene.submerged_weight
+    with np.errstate(over="ignore", invalid="ignore"):
+        return (
+            scene.submerged_weight + mass * surroundings(scene.deck).gravity if mass.any() else scene.submerged_weight
+        )
 
 
 _WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS")
