@@ -14,7 +14,7 @@ from mudline.cli import DONE, FOUND, WRONG_USAGE
 from tests.cli.runner import run
 from tests.helpers.samples import FAULTY, SAMPLES
 
-NO_STUDY = "verdict,findings,model,curves,contact,plan"
+NO_STUDY = "verdict,findings,inputs,model,curves,contact,plan"
 ACTING = {"script", "iframe", "object", "embed", "base", "form", "link", "a:http"}
 CSP = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 CHOSEN = ("broken.keyxm", "scr-vessel.keyxm", "scr-soil.keyxm", "lines-deck.keyxm", "imperial-riser.keyxi")
@@ -83,7 +83,18 @@ def test_a_sample_has_a_page_that_stands_alone(tmp_path: Path, name: str) -> Non
     text = made(tmp_path, str(SAMPLES / name), code=FOUND if name in FAULTY else DONE)
     page = checked(text)
     assert len(text.encode()) < 1_500_000
-    assert {"verdict", "findings", "model", "curves", "contact", "plan", "interpretation", "sign"} <= {*page.ids}
+    assert {
+        "verdict",
+        "findings",
+        "inputs",
+        "model",
+        "curves",
+        "contact",
+        "plan",
+        "interpretation",
+        "sign",
+        "appendix",
+    } <= {*page.ids}
     assert all(role in page.text for role in ("Prepared", "Checked", "Approved"))
     assert name != "scr-vessel.keyxm" or {"law-1", "curve-1", "picture-model-1"} <= {*page.ids}
     assert "table" in page.tags
@@ -116,6 +127,86 @@ def test_the_content_is_what_the_other_commands_say() -> None:
         ("resistance", 295),
     }
     assert any(one["keyword"] == "SEABED STIFFNESS" for one in found["inferred"])
+
+
+def test_the_document_block_and_its_place_in_print(tmp_path: Path) -> None:
+    words = (
+        "--title",
+        "Riser <A>",
+        "--document",
+        "P-001",
+        "--revision",
+        "B",
+        "--field",
+        "Client=A = B",
+        "--field",
+        "Job=7",
+    )
+    text = made(tmp_path, str(SAMPLES / "legacy-flowline.keyxm"), *words, sections="verdict")
+    page = checked(text)
+    assert "<h1>Riser &lt;A&gt;</h1>" in text
+    block = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", text)
+    assert block[:4] == [("Document", "P-001"), ("Revision", "B"), ("Client", "A = B"), ("Job", "7")]
+    (head,) = re.findall(r'@top-left \{ content: "(.*?)"; \}', text)
+    assert (
+        re.sub(r"\\([0-9a-f]+) ", lambda code: chr(int(code[1], 16)), head)
+        == "P-001, revision B, legacy-flowline.keyxm"
+    )
+    assert page.ids.index("verdict") < page.ids.index("sign") < page.ids.index("interpretation")
+    assert "--field 'Client'" in run("report", "x.keyxm", "-o", "x.html", "--field", "Client").err
+
+
+def test_the_title_of_a_deck_is_that_of_its_page(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text("$MODEL\n*TITLE\n Deep riser\n" + ON_SOIL.removeprefix("$MODEL\n"), encoding="utf-8")
+    assert "<h1>Deep riser</h1>" in made(tmp_path, str(deck), sections="verdict")
+
+
+def test_folders_of_this_computer_do_not_stand_on_the_page(tmp_path: Path) -> None:
+    deck = tmp_path / "decks" / "deck.keyxm"
+    deck.parent.mkdir()
+    deck.write_text(ON_SOIL + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n", encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert "'none.txt' was not found (looked in the folder of the deck)" in Page(text).text
+    assert str(tmp_path) not in text
+
+
+def test_a_deck_that_continues_another_says_so_and_has_its_inputs(tmp_path: Path) -> None:
+    (tmp_path / "base.keyxm").write_text(ON_SOIL + "*OCEAN\n 120.0, 1025.0, 9.81\n", encoding="utf-8")
+    deck = tmp_path / "next.keyxm"
+    case = "$LOAD CASE\n*RESTART\n LAST=base\n TYPE=STATIC\n*WAVE-REGULAR\n 6.0, 10.0, 180.0\n"
+    deck.write_text(case, encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert "<dt>Continues</dt><dd>base.keyxm</dd>" in text
+    assert row_of(text, "$LOAD CASE").endswith("*RESTART | LAST=base; TYPE=STATIC | 2")
+    assert "<td>amplitude 6 m, period 10 s, direction 180 deg</td><td>5</td>" in text
+    assert "<td>depth 120 m; density 1025 kg/m3; gravity 9.81 m/s2</td><td>37 of base.keyxm</td>" in text
+
+
+def test_the_page_has_the_qualifications_of_evaluate(tmp_path: Path) -> None:
+    deck = str(SAMPLES / "scr-vessel.keyxm")
+    said = run("evaluate", deck).err.removeprefix("mudline: ").strip()
+    text = made(tmp_path, deck)
+    assert said in Page(text).text
+    assert (
+        Page(text).text.count("weights without *DRAG CHAIN") == 5
+    )  # figures, sheet, embedment, equilibrium, touchdown
+    assert '<td>the same, empty [N]</td><td class="number">283600</td>' in text
+
+
+def test_five_numbers_beside_the_verdict(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="verdict")
+    assert row_of(text, "305.1") == "305.1 | 305.1 | 0.0366 | 283300 | 0.7325"
+
+
+def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="inputs")
+    assert "TYPE=VESSEL, not read: 157, Semi" in text
+    assert "elevation [m], velocity [m/s], direction [deg]: 0, 0.1, 180 / 400, 0.25, 180 / 800, 1.1, 180" in text
+    assert row_of(text, "41 to 110").startswith(
+        "41 to 110 | Touchdown | 300 | 0.2731 | 0.2223 | 10.75 | 155.1 | 932.7 | 820"
+    )
+    assert '<td class="gap">none</td>' in text
 
 
 ON_SOIL = """$MODEL
@@ -207,6 +298,8 @@ def test_a_faulty_deck_gets_a_page_that_says_what_is_missing(tmp_path: Path) -> 
     page = checked(made(tmp_path, str(SAMPLES / "broken.keyxm"), code=FOUND))
     assert "illegal" in page.text
     assert page.text.count("This could not be computed: line") == 4
+    assert "The plan could not be computed: line" in page.text
+    assert "No contact was computed: line" in page.text
     assert "finding-1" in page.ids
     assert "rule-SYN011" in page.ids
 
@@ -342,7 +435,7 @@ def test_a_company_has_its_own_template_and_logo(tmp_path: Path) -> None:
     deck = str(SAMPLES / "legacy-flowline.keyxm")
     words = ("--template", str(tmp_path / "ours.html"), "--logo", str(tmp_path / "logo.svg"), "--date", "1 May 2026")
     page = checked(made(tmp_path, deck, *words, sections="verdict"))
-    assert f"Check of {deck}" in page.text
+    assert "Check of legacy-flowline.keyxm" in page.text
     assert "1 May 2026" in page.text
     assert any(one.startswith("data:image/svg+xml;base64,") for one in page.references)
 
