@@ -15,8 +15,9 @@ from mudline.model.scene.sheet import AROUND, PIPE, RUN, Sheet, SheetColumn
 
 SHEET_FORMAT = "mudline-sheet/1"
 
-_GAPS = {"section", "drag", "added_mass", "law"}
-"""Columns of the sheet where no value is a gap of the deck."""
+_UNKNOWN = {"mass", "filled_mass", "empty_weight", "filled_weight"}
+_GAPS = {**dict.fromkeys(("section", "drag", "added_mass", "law"), "none"), **dict.fromkeys(_UNKNOWN, "unknown")}
+"""Columns of the sheet where no value is a gap of the deck, and what stands there."""
 _WORDS = {"section", "law"}
 
 
@@ -41,7 +42,7 @@ def _elements(row: dict[str, Any]) -> str:
 def _sheet_column(one: SheetColumn, units: str) -> DisplayColumn:
     def cell(row: dict[str, Any]) -> Cell:
         value: Cell = row[one.key]
-        return ("none", "bold yellow") if value is None and one.key in _GAPS else value
+        return (_GAPS[one.key], "bold yellow") if value is None and one.key in _GAPS else value
 
     is_bare = one.key in {"masses_at_nodes", "stiffness"}
     return DisplayColumn(one.heading, cell, one.unit(units), left=one.key in _WORDS, optional=is_bare)
