@@ -35,7 +35,6 @@ from mudline.model.results.totals import (
     touchdown_words,
 )
 from mudline.model.scene.numbering import Mask
-from mudline.model.scene.weights import left_out
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -260,7 +259,7 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
     ]
     left = len(evaluation.lines) * evaluation.steps - len(rows)
     if rows:
-        notes = [f"{left} {_MORE_LINES}" if left else "", weight_note(left_out(evaluation.scene))]
+        notes = [f"{left} {_MORE_LINES}" if left else "", weight_note(evaluation.weights_without)]
         printer.table(DisplayTable("Touchdown", columns, rows, "; ".join(filter(None, notes))))
 
 

@@ -248,7 +248,8 @@ def test_positions_of_a_file_are_judged_in_the_mean_of_their_steps() -> None:
     ratio = 0.25 * 35000.0 * 100.0 / WEIGHT
     assert found.diagnostic.message == (
         "the positions are in the mean of all steps far from equilibrium: total reaction 875000 N on 10 elements in "
-        f"contact, their submerged weight {WEIGHT:.6g} N, ratio {ratio:.3g}; check their datum and units, and the weights"
+        f"contact, their submerged weight {WEIGHT:.6g} N, ratio {ratio:.3g}; check their datum and units, and the "
+        "weights"
     )
 
 
@@ -269,7 +270,9 @@ def test_a_pipe_that_floats_in_one_load_case_only() -> None:
     bore = np.pi / 4 * 0.3139**2
     weight = 9.81 * (np.pi / 4 * (7850.0 * (0.3239**2 - 0.3139**2) - 1025.0 * 0.3239**2) + 50.0 * bore)
     line = text.count("\n", 0, text.index("$LOAD CASE")) + 1
-    assert f"submerged weight {weight:.6g} N/m with the contents of load case 1 (line {line});" in message(text, "RUN004")
+    assert f"submerged weight {weight:.6g} N/m with the contents of load case 1 (line {line});" in message(
+        text, "RUN004"
+    )
 
 
 def test_contents_above_their_level_do_not_weigh() -> None:
@@ -397,7 +400,7 @@ def test_curve_that_the_unknown_keyword_would_use() -> None:
 def test_pieces_give_what_the_whole_series_gives() -> None:
     scene, places = legal_scene(pipe("")), heights(0.5, 0.2, -0.01, 0.1)
     result = scene.contact().evaluate(places)
-    watch = ContactWatch(scene, result.evaluated, places[0], own=False)
+    watch = ContactWatch(scene, result.evaluated, places[0], "file")
     for start in range(4):
         watch.take(Part(start, result.steps(start, start + 1)))
     assert watch.warnings() == contact_warnings(scene, result, places)

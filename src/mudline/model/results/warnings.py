@@ -37,6 +37,8 @@ BALANCED = (1.0 / 3.0, 3.0)
 NEAR = (0.9, 1.1)
 """The same, beyond which there is something to be said for a resting shape."""
 
+_ADDED = {"INTERNAL FLUID": "contents", "MASS": "masses"}
+"""Keywords that make the weight another one than that of the sections."""
 _TOUCHING = 1e-3
 """Clearance over diameter of a line that touches the seabed: its datum is right."""
 _CAPTION = 90
@@ -85,7 +87,8 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
         raise ValueError(f"positions must be numbers (nodes, 3) or (steps, nodes, 3), not of shape {places.shape}")
     if not len(places):
         raise ValueError("positions must have one step or more")
-    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
+    source = "deck" if positions is None else "file"
+    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], source)
     watch.take(Part(0, result.as_series()))
     return watch.warnings()
 
@@ -149,8 +152,9 @@ class _Balance(NamedTuple):
 class ContactWatch:
     """Takes the results of a few steps at a time, and keeps what the warnings need.
 
-    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions; `own` says that these are the
-    deck's coordinates, `at_rest` that they are a resting shape, which is in equilibrium.
+    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions, which are those of `source`:
+    "deck", "file" or "rest shape", which is in equilibrium. `weight` (m,) is the submerged weight per length, None for
+    the operating one.
     """
 
     def __init__(
@@ -158,14 +162,14 @@ class ContactWatch:
         scene: Scene,
         evaluated: Mask,
         places: Floats,
-        *,
-        own: bool,
-        at_rest: bool = False,
+        source: str,
         times: Floats | None = None,
+        weight: Floats | None = None,
     ) -> None:
-        self._scene, self._places, self._own, self._times = scene, places, own, times
-        self._at_rest, self._weight = at_rest, operating_weight(scene)
+        self._scene, self._places, self._source, self._times = scene, places, source, times
+        self._own, self._weight = source == "deck", operating_weight(scene) if weight is None else weight
         self._elements = np.flatnonzero(evaluated)
+        self._rows = self._elements if len(self._elements) < len(evaluated) else slice(None)
         self._nodes = np.unique(scene.element_nodes[self._elements])
         self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
         self._lightest, self._case = self._least_weight()
@@ -182,9 +186,8 @@ class ContactWatch:
     def of(cls, evaluation: Evaluation) -> ContactWatch:
         """What watches an evaluation."""
         places = np.asarray(evaluation.positions[0], dtype=np.float64)
-        own = evaluation.own_positions
-        at_rest = not own and evaluation.source != "file"
-        return cls(evaluation.scene, evaluation.evaluated, places, own=own, at_rest=at_rest, times=evaluation.time)
+        weight = evaluation.model.input.weight
+        return cls(evaluation.scene, evaluation.evaluated, places, evaluation.source, evaluation.time, weight)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
@@ -226,12 +229,12 @@ class ContactWatch:
         """Reaction and weights of some steps, (steps, m) and (steps, n), added to those before them."""
         scene = self._scene
         law = scene.law[self._elements]
-        held = contact[:, self._elements] & (law != LawKind.NONE)
+        held = contact[:, self._rows] & (law != LawKind.NONE)
         times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
         times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
             weight, empty = (float((times * per[here]).sum()) for per in (self._weight, scene.submerged_weight))
-            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[:, self._nodes].sum())
+            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[:, self._columns].sum())
             found = _Balance(reaction, weight, empty, here, len(contact))
             if before is None:
                 return found
@@ -337,7 +340,7 @@ class ContactWatch:
         yield self._warning(RUN003, message + advice, None, balance.elements, brief)
 
     def _is_unbalanced(self, balance: _Balance) -> bool:
-        known = not self._at_rest and not self._left_out
+        known = self._source != "rest shape" and not self._left_out
         return known and (balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1])
 
     @cached_property
@@ -352,7 +355,9 @@ class ContactWatch:
         carried = f"total reaction {total} on {elements} in contact"
         if math.isnan(weight):
             return f"{carried}, whose submerged weight is not known"
-        more = "" if weight == empty else f" with contents and masses ({shown(empty)}{behind} empty)"
+        given = self._scene.deck.keywords() | self._scene.deck.keywords("LOAD CASE")
+        what = " and ".join(word for name, word in _ADDED.items() if name in given)
+        more = "" if weight == empty else f" with {what} ({shown(empty)}{behind} empty)"
         more += f" without {', '.join(self._left_out)}" if self._left_out else ""
         ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
         return f"{carried}, their submerged weight {shown(weight)}{behind}{more}{ratio}"

@@ -40,7 +40,6 @@ from mudline.model.results.warnings import ContactWatch, caption
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sheet import Sheet, sheet_of
-from mudline.model.scene.weights import left_out
 from mudline.tools.reporting.inferred import inferences
 from mudline.tools.reporting.inputs import inputs_of
 from mudline.tools.touchdown_study.rest_shape import rest_shape
@@ -387,7 +386,7 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "reaction": finite(reaction(evaluation, result)),
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "empty_weight": None if watch.balance is None else finite(watch.balance.empty),
-        "weights_without": left_out(scene),
+        "weights_without": evaluation.weights_without,
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
         "positions": evaluation.source,

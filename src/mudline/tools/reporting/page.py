@@ -131,8 +131,8 @@ def _finalized(value: object) -> object:
     return visible(value) if type(value) is str else "" if value is None else value
 
 
-def _number(value: str | float | None) -> str:
-    return value if isinstance(value, str) else str(value) if isinstance(value, int) else four_digits(value)
+def _number(value: object) -> str:
+    return four_digits(value) if isinstance(value, float) else "" if value is None else str(value)
 
 
 _LOGOS = {".svg": ("image/svg+xml", (b"<",)), ".png": ("image/png", (b"\x89PNG",))}
