@@ -11,6 +11,7 @@ from mudline.cli.evaluate_inputs import read_headings
 from mudline.model.results.forms import FORMS
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
+from tests.helpers.builders.decks import STEPS_WARNING
 
 STEPS = """\
 time,node,x,y,z
