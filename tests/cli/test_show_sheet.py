@@ -153,3 +153,4 @@ def test_a_workbook_needs_a_file() -> None:
 def test_a_deck_without_elements_has_no_sheet(place: Place) -> None:
     ran = run("show", place("$MODEL\n*OCEAN\n 5.0, 1025.0\n"), "--sheet")
     assert (ran.code, ran.out) == (0, "")
+    assert ran.err == "mudline: deck.keyxm: the deck shows no elements, which a sheet is of\n"

@@ -67,7 +67,10 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     else:
         if not sheet:
             _print_summary(summary, view)
-        for table in sheet_tables(found, scene.units):
+        tables = sheet_tables(found, scene.units)
+        if sheet and not tables:
+            notify(f"{scene.deck.file}: the deck shows no elements, which a sheet is of")
+        for table in tables:
             view.printer().table(table.first(None if view.verbose else SHOWN_ROWS, "more rows: -v shows all"))
     if errors:
         counts = Counter(diagnostic.file for diagnostic in scene.deck.diagnose(errors))

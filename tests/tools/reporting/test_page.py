@@ -209,6 +209,15 @@ def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
     assert '<td class="gap">none</td>' in text
 
 
+def test_findings_that_inform_stand_in_the_appendix(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(ON_SOIL.replace("*SEABED STIFFNESS", "*seabed stiffness"), encoding="utf-8")
+    page = checked(made(tmp_path, str(deck), sections="findings"))
+    number = next(one for one in page.ids if one.startswith("finding-"))
+    assert page.ids.index("appendix") < page.ids.index("infos") < page.ids.index(number)
+    assert page.headings.count(4) == 1
+
+
 ON_SOIL = """$MODEL
 *NODE
  1, -0.01, 0, 0

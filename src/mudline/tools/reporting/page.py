@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -63,7 +63,8 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
         head=_css_text(_head_words(given)),
         hash=_css_text(f"SHA-256 {given['sha256'][:_SHORT_HASH]}"),
         study_texts=_study_texts(report),
-        findings=_groups(report, "reported"),
+        findings=_groups(report, "reported", lambda severity: severity != "info"),
+        infos=_groups(report, "reported", lambda severity: severity == "info"),
         hidden=_groups(report, "hidden"),
         rules=report.named,
         pictures=[one._replace(markup=Markup(one.markup)) for one in pictures],  # noqa: S704 - made from our figures
@@ -166,12 +167,13 @@ class Shown(NamedTuple):
     lines: Sequence[tuple[int, str]]
 
 
-def _groups(report: Report, kind: str) -> list[tuple[str, list[Shown]]]:
-    """The first findings by section of the deck."""
+def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _: True) -> list[tuple[str, list[Shown]]]:
+    """The first findings by section of the deck, of the severities that are wanted."""
     found = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
     rows = [
         Shown(number, one | {"message": cut(one["message"], LONGEST)}, _lines(report, one["line"]))
         for number, one in enumerate(found, 1)
+        if wanted(one["severity"])
     ]
     return [(name, list(group)) for name, group in groupby(rows, key=lambda one: str(one.found["section"]))]
 
