@@ -197,6 +197,15 @@ def test_the_page_has_the_qualifications_of_evaluate(tmp_path: Path) -> None:
 def test_five_numbers_beside_the_verdict(tmp_path: Path) -> None:
     text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="verdict")
     assert row_of(text, "305.1") == "305.1 | 305.1 | 0.0366 | 283300 | 0.7325"
+    text = made(tmp_path, str(SAMPLES / "full-cycle.keyxm"), sections="verdict")
+    (codes,) = re.findall("warnings about these numbers: (.*?)</p>", text)
+    warned = run("evaluate", str(SAMPLES / "full-cycle.keyxm")).err
+    assert all(code in warned for code in codes.split(", "))
+    laid = tmp_path / "deck.keyxm"
+    laid.write_text(ON_SOIL.replace(" 11, 3, 4\n", "").replace(" SET=Free\n 11\n", " SET=Free\n"), encoding="utf-8")
+    assert "all on the seabed | 10 | 0.01 |" in row_of(
+        made(tmp_path, str(laid), sections="verdict"), "all on the seabed"
+    )
 
 
 def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:

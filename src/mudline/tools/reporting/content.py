@@ -160,10 +160,12 @@ def _figures(made: Report, contact: dict[str, Any] | None, missing: str) -> dict
     return {
         "touchdown": [point["arc_length"] for line in lines for point in line["touchdown"]],
         "contact_length": finite(sum(line["contact_length"] or 0.0 for line in lines)),
+        "length": finite(sum(line["length"] or 0.0 for line in lines)),
         "depth": None if contact["deepest"] is None else contact["deepest"]["depth"],
         "reaction": contact["reaction"],
         "ratio": contact["ratio"],
         "weights_without": contact["weights_without"],
+        "warnings": sorted({one["code"] for one in contact["warnings"]}),
         "missing": "",
     }
 

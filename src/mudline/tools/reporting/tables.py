@@ -69,19 +69,19 @@ def _more(count: int, what: str) -> str:
 
 def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
     """Return the five numbers beside the verdict as a table of one row."""
-    places = ", ".join(map(four_digits, found["touchdown"][:_MOST_TOUCHDOWNS])) or "none"
-    more = len(found["touchdown"]) - _MOST_TOUCHDOWNS
+    places = [float(four_digits(place)) for place in found["touchdown"]]
+    words = touchdown_words(places, found["contact_length"], found["length"], _MOST_TOUCHDOWNS)
+    doubt = f"warnings about these numbers: {', '.join(found['warnings'])}" if found["warnings"] else ""
+    notes = filter(None, [weight_note(found["weights_without"]), doubt])
     columns = (
-        number("touchdown at arc length", lambda _: f"{places}, {more} more" if more > 0 else places, names.length),
+        number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest penetration", "depth", names.length),
         number("total reaction", lambda _: _known(found["reaction"]), names.force),
         number("reaction over submerged weight", "ratio"),
     )
-    return _on_page(
-        DisplayTable("Contact in five numbers", columns, [found], weight_note(found["weights_without"])),
-        numeric=range(5),
-    )
+    table = DisplayTable("Contact in five numbers", columns, [found], "; ".join(notes))
+    return _on_page(table, numeric=range(5))
 
 
 def four_digits(value: float | None) -> str:
