@@ -4,78 +4,16 @@ from __future__ import annotations
 
 import json
 import re
-from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mudline.cli import DONE, FOUND, WRONG_USAGE
 from tests.cli.runner import run
 from tests.helpers.samples import FAULTY, SAMPLES
+from tests.tools.reporting.pages import CSP, NO_STUDY, ON_SOIL, Page, checked, content, made, row_of
 
-NO_STUDY = "verdict,findings,inputs,model,curves,contact,plan"
-ACTING = {"script", "iframe", "object", "embed", "base", "form", "link", "a:http"}
-CSP = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 CHOSEN = ("broken.keyxm", "scr-vessel.keyxm", "scr-soil.keyxm", "lines-deck.keyxm", "imperial-riser.keyxi")
-
-
-class Page(HTMLParser):
-    """Elements, ids, references and texts of a page."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.tags: list[str] = []
-        self.ids: list[str] = []
-        self.references: list[str] = []
-        self.policy = self.text = ""
-        self.headings: list[int] = []
-        self.attributes: list[tuple[str, str | None]] = []
-        self.feed(text)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append(tag)
-        given = dict(attrs)
-        self.attributes += attrs
-        if re.fullmatch(r"h[1-6]", tag):
-            self.headings.append(int(tag[1]))
-        if given.get("http-equiv") == "Content-Security-Policy":
-            self.policy = given["content"] or ""
-        self.ids += [value for name, value in attrs if name == "id" and value]
-        self.references += [value for name, value in attrs if name in {"href", "src", "xlink:href"} and value]
-
-    def handle_data(self, data: str) -> None:
-        self.text += data
-
-
-def checked(text: str) -> Page:
-    """A page that stands alone, with one policy, unique ids and references that lead somewhere."""
-    page = Page(text)
-    assert page.policy == CSP
-    assert not ACTING & {*page.tags}
-    assert not [name for name, _ in page.attributes if name.startswith("on")]
-    assert not re.search(r"https?:|//[a-z]", re.sub('base64,[^"]*', "", text))
-    assert sorted(page.ids) == sorted({*page.ids})
-    inside = [one[1:] for one in page.references if one.startswith("#")]
-    assert {*inside} <= {*page.ids}
-    assert all(one.startswith(("#", "data:image/")) for one in page.references)
-    assert page.headings[0] == 1
-    assert all(after - before <= 1 for before, after in zip(page.headings, page.headings[1:], strict=False))
-    return page
-
-
-def made(tmp_path: Path, *words: str, sections: str = NO_STUDY, code: int = DONE) -> str:
-    target = tmp_path / "out.html"
-    outcome = run("report", *words, "-o", str(target), "--sections", sections, "-q")
-    assert (outcome.code, outcome.err) == (code, "")
-    return target.read_text(encoding="utf-8")
-
-
-def content(*words: str, sections: str = NO_STUDY) -> dict[str, Any]:
-    outcome = run("report", *words, "--output-format", "json", "--sections", sections)
-    (found,) = json.loads(outcome.out)["reports"]
-    assert isinstance(found, dict)
-    return found
 
 
 @pytest.mark.parametrize("name", CHOSEN)
@@ -127,150 +65,6 @@ def test_the_content_is_what_the_other_commands_say() -> None:
         ("resistance", 295),
     }
     assert any(one["keyword"] == "SEABED STIFFNESS" for one in found["inferred"])
-
-
-def test_the_document_block_and_its_place_in_print(tmp_path: Path) -> None:
-    words = (
-        "--title",
-        "Riser <A>",
-        "--document",
-        "P-001",
-        "--revision",
-        "B",
-        "--field",
-        "Client=A = B",
-        "--field",
-        "Job=7",
-    )
-    text = made(tmp_path, str(SAMPLES / "legacy-flowline.keyxm"), *words, sections="verdict")
-    page = checked(text)
-    assert "<h1>Riser &lt;A&gt;</h1>" in text
-    block = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", text)
-    assert block[:4] == [("Document", "P-001"), ("Revision", "B"), ("Client", "A = B"), ("Job", "7")]
-    (head,) = re.findall(r'@top-left \{ content: "(.*?)"; \}', text)
-    assert (
-        re.sub(r"\\([0-9a-f]+) ", lambda code: chr(int(code[1], 16)), head)
-        == "P-001, revision B, legacy-flowline.keyxm"
-    )
-    assert page.ids.index("verdict") < page.ids.index("sign") < page.ids.index("interpretation")
-    assert "--field 'Client'" in run("report", "x.keyxm", "-o", "x.html", "--field", "Client").err
-
-
-def test_the_title_of_a_deck_is_that_of_its_page(tmp_path: Path) -> None:
-    deck = tmp_path / "deck.keyxm"
-    deck.write_text("$MODEL\n*TITLE\n Deep riser\n" + ON_SOIL.removeprefix("$MODEL\n"), encoding="utf-8")
-    assert "<h1>Deep riser</h1>" in made(tmp_path, str(deck), sections="verdict")
-
-
-def test_folders_of_this_computer_do_not_stand_on_the_page(tmp_path: Path) -> None:
-    deck = tmp_path / "decks" / "deck.keyxm"
-    deck.parent.mkdir()
-    deck.write_text(ON_SOIL + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n", encoding="utf-8")
-    text = made(tmp_path, str(deck))
-    assert "'none.txt' was not found (looked in the folder of the deck)" in Page(text).text
-    assert str(tmp_path) not in text
-
-
-def test_a_deck_that_continues_another_says_so_and_has_its_inputs(tmp_path: Path) -> None:
-    (tmp_path / "base.keyxm").write_text(ON_SOIL + "*OCEAN\n 120.0, 1025.0, 9.81\n", encoding="utf-8")
-    deck = tmp_path / "next.keyxm"
-    case = "$LOAD CASE\n*RESTART\n LAST=base\n TYPE=STATIC\n*WAVE-REGULAR\n 6.0, 10.0, 180.0\n"
-    deck.write_text(case, encoding="utf-8")
-    text = made(tmp_path, str(deck))
-    assert "<dt>Continues</dt><dd>base.keyxm</dd>" in text
-    assert row_of(text, "$LOAD CASE").endswith("*RESTART | LAST=base; TYPE=STATIC | 2")
-    assert "<td>amplitude 6 m, period 10 s, direction 180 deg</td><td>5</td>" in text
-    assert "<td>depth 120 m; density 1025 kg/m3; gravity 9.81 m/s2</td><td>37 of base.keyxm</td>" in text
-
-
-def test_the_page_has_the_qualifications_of_evaluate(tmp_path: Path) -> None:
-    deck = str(SAMPLES / "scr-vessel.keyxm")
-    said = run("evaluate", deck).err.removeprefix("mudline: ").strip()
-    text = made(tmp_path, deck)
-    assert said in Page(text).text
-    assert (
-        Page(text).text.count("weights without *DRAG CHAIN") == 5
-    )  # figures, sheet, embedment, equilibrium, touchdown
-    assert '<td>the same, empty [N]</td><td class="number">283600</td>' in text
-
-
-def test_five_numbers_beside_the_verdict(tmp_path: Path) -> None:
-    text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="verdict")
-    assert row_of(text, "305.1") == "305.1 | 305.1 | 0.0366 | 283300 | 0.7325"
-    text = made(tmp_path, str(SAMPLES / "full-cycle.keyxm"), sections="verdict")
-    (codes,) = re.findall("warnings about these numbers: (.*?)</p>", text)
-    warned = run("evaluate", str(SAMPLES / "full-cycle.keyxm")).err
-    assert all(code in warned for code in codes.split(", "))
-    laid = tmp_path / "deck.keyxm"
-    laid.write_text(ON_SOIL.replace(" 11, 3, 4\n", "").replace(" SET=Free\n 11\n", " SET=Free\n"), encoding="utf-8")
-    assert "all on the seabed | 10 | 0.01 |" in row_of(
-        made(tmp_path, str(laid), sections="verdict"), "all on the seabed"
-    )
-
-
-def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
-    text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="inputs")
-    assert "TYPE=VESSEL, not read: 157, Semi" in text
-    assert "elevation [m], velocity [m/s], direction [deg]: 0, 0.1, 180 / 400, 0.25, 180 / 800, 1.1, 180" in text
-    assert row_of(text, "41 to 110").startswith(
-        "41 to 110 | Touchdown | 300 | 0.2731 | 0.2223 | 10.75 | 155.1 | 932.7 | 820"
-    )
-    assert '<td class="gap">none</td>' in text
-
-
-def test_findings_that_inform_stand_in_the_appendix(tmp_path: Path) -> None:
-    deck = tmp_path / "deck.keyxm"
-    deck.write_text(ON_SOIL.replace("*SEABED STIFFNESS", "*seabed stiffness"), encoding="utf-8")
-    page = checked(made(tmp_path, str(deck), sections="findings"))
-    number = next(one for one in page.ids if one.startswith("finding-"))
-    assert page.ids.index("appendix") < page.ids.index("infos") < page.ids.index(number)
-    assert page.headings.count(4) == 1
-
-
-ON_SOIL = """$MODEL
-*NODE
- 1, -0.01, 0, 0
- 2, -0.01, 5, 0
- 3, -0.01, 10, 0
- 4, 7.0, 15, 0
-*ELEMENT
- 1, 1, 2
- GEN=1, 2
- 11, 3, 4
-*ELEMENT SETS
- SET=Laid
- 1, 2
- SET=Free
- 11
-*GEOMETRIC SETS
- OPTION=RIGID
- SET=ALL
- 2.07E11, 7.96E10, 0.3, 0.27, 7850
-*SEABED PROPERTIES
- TYPE=ELASTIC
- SET=Laid
- STIFFNESS=Clay
- SET=Free
- STIFFNESS=Clay
-*SEABED STIFFNESS
- CURVE=Clay
- 0, 0
- 0.5, 900
-*SEABED FRICTION
- SET=Laid
- COEFFICIENTS=0.4, 0.7
- STIFFNESS=40000, 60000
- LATERAL=PEAK-RESIDUAL
- PEAK=1.3, 0.03
- RESIDUAL=0.6, 0.5
-"""
-
-
-def row_of(text: str, first: str) -> str:
-    """The text of the row of a table that begins with a cell."""
-    row = re.search(rf"<tr[^>]*><td[^>]*>{re.escape(first)}</td>.*?</tr>", text, re.DOTALL)
-    assert row is not None, first
-    return " | ".join(re.findall(r"<td[^>]*>(.*?)</td>", row[0]))
 
 
 def test_values_are_written_for_people(tmp_path: Path) -> None:
