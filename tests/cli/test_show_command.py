@@ -47,12 +47,19 @@ set   law           [N/m]      ratio          [m]     [N/m2]
 ────────────────────────────────────────────────────────────
 Pipe  curve:Clay  348.178  0.0348178    0.0174089      20000
 
-Sheet: pipe, submerged weights
-                              outer     inner        mass,  weight,             mass,  weight,
-                   length  diameter  diameter        empty    empty  contents  filled   filled
-elements  section     [m]       [m]       [m]  D/t  [kg/m]    [N/m]   [kg/m3]  [kg/m]    [N/m]
-──────────────────────────────────────────────────────────────────────────────────────────────
-1 to 2    Pipe     20.008       0.5      0.46   25  236.75  348.178         0  236.75  348.178
+Sheet: pipe
+                              outer     inner
+                   length  diameter  diameter
+elements  section     [m]       [m]       [m]  D/t
+──────────────────────────────────────────────────
+1 to 2    Pipe     20.008       0.5      0.46   25
+
+Sheet: mass and submerged weight
+           mass,             mass,  weight,  weight,
+           empty  contents  filled    empty   filled
+elements  [kg/m]   [kg/m3]  [kg/m]    [N/m]    [N/m]
+────────────────────────────────────────────────────
+1 to 2    236.75         0  236.75  348.178  348.178
 
 Sheet: stiffness, water and seabed
                   EI           EA                          friction  friction

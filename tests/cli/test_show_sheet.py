@@ -112,7 +112,7 @@ def test_masses_at_labelled_nodes_and_without_weight(place: Place) -> None:
 
 def test_gaps_stand_out(place: Place) -> None:
     bare = HALVES.replace(" SET=Pipe\n 207", " SET=Half\n 207").replace("SET=Pipe\n STIFFNESS", "SET=Half\n STIFFNESS")
-    pipe = run("show", place(bare), "--sheet").out.partition("Sheet: stiffness")[0]
+    pipe = run("show", place(bare), "--sheet").out.partition("Sheet: mass")[0]
     assert [line.split()[:2] for line in pipe.splitlines()[-3:-1]] == [["1", "none"], ["2", "Half"]]
     colored = run("show", "deck.keyxm", "--sheet", "--color", "always").out
     assert colored.count("\x1b[1;33mnone") == 6  # a section and a law of one, Cd and Ca of both

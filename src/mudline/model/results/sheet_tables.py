@@ -11,7 +11,7 @@ from mudline.basics.display import Cell, DisplayColumn, DisplayTable, text
 from mudline.model.contact.columns import Column
 from mudline.model.results.forms import Tables
 from mudline.model.results.summary_tables import weight_note
-from mudline.model.scene.sheet import AROUND, PIPE, RUN, Sheet, SheetColumn
+from mudline.model.scene.sheet import AROUND, PIPE, RUN, WEIGHTS, Sheet, SheetColumn
 
 SHEET_FORMAT = "mudline-sheet/1"
 
@@ -22,15 +22,20 @@ _WORDS = {"section", "law"}
 
 
 def sheet_tables(sheet: Sheet, units: str) -> list[DisplayTable]:
-    """Return the sheet of a deck for people: the pipe, what is around it, and other load cases if there are any."""
-    spare = [one for one in sheet.columns if one not in (*RUN, *PIPE, *AROUND)]
-    parts = {"pipe, submerged weights": PIPE, "stiffness, water and seabed": AROUND, "other load cases": spare}
+    """Return the sheet for people: pipe, weights, what is around it, and other load cases if there are any."""
+    spare = [one for one in sheet.columns if one not in (*RUN, *PIPE, *WEIGHTS, *AROUND)]
+    parts = {
+        "pipe": PIPE,
+        "mass and submerged weight": WEIGHTS,
+        "stiffness, water and seabed": AROUND,
+        "other load cases": spare,
+    }
     tables = []
     for title, part in parts.items():
         columns = [text("elements", _elements), *(_sheet_column(one, units) for one in part)]
         tables += [DisplayTable(f"Sheet: {title}", columns, sheet.rows)] if part and sheet.rows else []
     if tables:
-        tables[0] = replace(tables[0], note=weight_note(sheet.left_out))
+        tables[1] = replace(tables[1], note=weight_note(sheet.left_out))
     return tables
 
 

@@ -46,15 +46,18 @@ PIPE = (
     SheetColumn("outer_diameter", "outer\ndiameter", "L"),
     SheetColumn("inner_diameter", "inner\ndiameter", "L"),
     SheetColumn("diameter_over_wall", "D/t"),
+)
+"""Columns of the sheet about the pipe."""
+WEIGHTS = (
     SheetColumn("mass", "mass,\nempty", "M/L"),
-    SheetColumn("empty_weight", "weight,\nempty", "F/L"),
     SheetColumn("contents", "contents", "M/L3"),
     SheetColumn("filled_mass", "mass,\nfilled", "M/L"),
+    SheetColumn("masses_at_nodes", "masses\nat nodes", "M"),
+    SheetColumn("empty_weight", "weight,\nempty", "F/L"),
     SheetColumn("filled_weight", "weight,\nfilled", "F/L"),
 )
-"""Columns of the sheet about the pipe; weights are submerged, contents those of the last load case."""
+"""Columns about mass and submerged weight; contents are those of the last load case."""
 AROUND = (
-    SheetColumn("masses_at_nodes", "masses\nat nodes", "M"),
     SheetColumn("bending", "EI", "FL2"),
     SheetColumn("axial", "EA", "F"),
     SheetColumn("drag", "Cd"),
@@ -64,7 +67,7 @@ AROUND = (
     SheetColumn("axial_friction", "friction\nalong"),
     SheetColumn("lateral_friction", "friction\nacross"),
 )
-"""Columns about masses at nodes, stiffness, water and seabed; `stiffness` is that of a linear law."""
+"""Columns about stiffness, water and seabed; `stiffness` is that of a linear law."""
 RUN = (
     SheetColumn("first_element", "first\nelement"),
     SheetColumn("last_element", "last\nelement"),
@@ -99,7 +102,7 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
                 }
                 | {key: finite(float(values[first])) for key, values in numbers.items()}
             )
-    columns = [*RUN, *PIPE, *AROUND, *others]
+    columns = [*RUN, *PIPE, *WEIGHTS, *AROUND, *others]
     ordered = [{column.key: row[column.key] for column in columns} for row in rows]
     return Sheet(columns, ordered, left_out(scene))
 
