@@ -14,7 +14,7 @@ from mudline.model.results.against import Comparison
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
-from tests.helpers.builders.decks import CLEAN_WARNING
+from tests.helpers.builders.decks import CLEAN_WARNING, STEPS_WARNING
 
 THEIRS = "element,force,stiffness\n1,1400.0,10000.0\n2,,0.0\n7,1,1\n"
 
@@ -82,6 +82,7 @@ def test_times_are_met_and_told(place: Place) -> None:
     outcome = run("evaluate", *options)
     assert outcome.err == (
         "mudline: 1 time of other.csv not evaluated: 9.0\nmudline: 1 evaluated time not in other.csv: 0.0\n"
+        f"{STEPS_WARNING}"
     )
     assert outcome.out.splitlines()[-2].split() == ["force", "2", "-300", "2", "2.5", "-0.2308", "2", "2.5", "223.6"]
     found = run("evaluate", *options, "--output-format", "json").json()

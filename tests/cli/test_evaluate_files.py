@@ -11,6 +11,7 @@ from mudline.cli.evaluate_inputs import read_headings
 from mudline.model.results.forms import FORMS
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
+from tests.helpers.builders.decks import STEPS_WARNING
 
 STEPS = """\
 time,node,x,y,z
@@ -34,7 +35,7 @@ def steps(folder: Path) -> str:
 def test_steps(place: Place, steps: str) -> None:
     outcome = run("evaluate", place(), "--positions", steps, "--output-format", "json")
     found = outcome.json()
-    assert (outcome.code, outcome.err) == (0, "")
+    assert (outcome.code, outcome.err) == (0, STEPS_WARNING)
     assert_fits(found, "evaluate")
     assert set(found) == {"format", "units", "plan", "steps", "summary", "positions", "warnings"}
     assert [step["time"] for step in found["steps"]] == [0.0, 2.5]
@@ -90,7 +91,8 @@ def test_written_csv_has_tables_of_nodes_and_lines_beside_it(place: Place, steps
     outcome = run("evaluate", place(), "--positions", steps, "-o", "out.csv")
     assert (outcome.code, outcome.out) == (0, "")
     assert outcome.err == (
-        "mudline: nodes -> out-nodes.csv\nmudline: summary -> out-summary.csv\nmudline: deck.keyxm -> out.csv\n"
+        f"{STEPS_WARNING}mudline: nodes -> out-nodes.csv\nmudline: summary -> out-summary.csv\n"
+        "mudline: deck.keyxm -> out.csv\n"
     )
     given = ("evaluate", place(), "--positions", steps)
     for table in ("elements", "nodes", "summary"):

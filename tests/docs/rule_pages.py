@@ -41,7 +41,7 @@ is doubtful in the results of one:
 | [MIG001](MIG001.md) | `cannot-migrate` | error | The new family of seabed keywords cannot say what the deck says. |
 | [RUN001](RUN001.md) | `cannot-evaluate` | error | The deck cannot be evaluated. |
 | [RUN002](RUN002.md) | `rule-failed` | error | A rule of a plugin failed on the deck. |
-| [RUN003](RUN003.md) | `no-equilibrium` | warning | The deck's own coordinates are far from an equilibrium. |
+| [RUN003](RUN003.md) | `no-equilibrium` | warning | Positions are far from an equilibrium. |
 | [RUN004](RUN004.md) | `floating-pipe` | warning | Elements in contact float: their submerged weight is negative. |
 | [RUN005](RUN005.md) | `rigid-reaction` | warning | A rigid seabed holds elements with a force that is not known. |
 """

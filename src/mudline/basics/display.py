@@ -70,7 +70,19 @@ class DisplayTable:
         """Return what each row shows."""
         return [[column.cell(row) for column in self.columns] for row in self.rows]
 
+    def filled(self) -> DisplayTable:
+        """Return the table without optional columns whose cells are all empty."""
+        cells = list(zip(*self.cells(), strict=True)) or [()] * len(self.columns)
+        kept = [
+            one for one, given in zip(self.columns, cells, strict=True) if not one.optional or any(map(_is_full, given))
+        ]
+        return replace(self, columns=kept)
+
     def first(self, most: int | None, words: str) -> DisplayTable:
         """Return the table with the first rows (None: all), and how many more there are in its note."""
         left = 0 if most is None else len(self.rows) - most
         return replace(self, rows=self.rows[:most], note=f"{left} {words}") if left > 0 else self
+
+
+def _is_full(cell: Cell) -> bool:
+    return bool(cell[0]) if isinstance(cell, tuple) else cell is not None and cell != ""

@@ -186,7 +186,8 @@ LINES = _by_name(
     Quantity("largest_uplift_element", "the element"),
     Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
     Quantity("reaction", "total normal force on its nodes; `null` on a rigid seabed", "force"),
-    Quantity("submerged_weight", "of its elements in contact", "force"),
+    Quantity("submerged_weight", "of its elements in contact, with contents and masses at nodes", "force"),
+    Quantity("empty_weight", "the same without contents and masses", "force"),
     Quantity("ratio", "reaction / submerged weight"),
 )
 """Of a line, in the order of the columns; `null` where there is none."""

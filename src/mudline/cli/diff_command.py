@@ -17,9 +17,12 @@ import click
 import numpy as np
 
 from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
+from mudline.cli.diff_matrix import MATRIX_FORMAT, matrix_table, value_text
+from mudline.cli.diff_matrix import matrix as matrix_of
 from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, is_in_any_form, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
@@ -72,7 +75,8 @@ Line = str | tuple[str, str]
 
 @options.command("diff")
 @click.argument("before", metavar="A")
-@click.argument("after", metavar="B")
+@click.argument("others", metavar="B...", nargs=-1, required=True)
+@options.flag("--matrix", help="What differs of A in decks B...: a row a value, a column a deck.")
 @options.option(
     "--tolerance",
     type=click.FloatRange(min=0, max=1),
@@ -82,7 +86,7 @@ Line = str | tuple[str, str]
     help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
 @options.flag("--strict", help="List differences of spelling in superseded keywords too: exit code 1.")
-@options.output_format("text", "json", "markdown")
+@options.output_format("text", "json", "markdown", "csv")
 @options.every_file
 @options.stdin_name
 @options.units
@@ -91,7 +95,8 @@ Line = str | tuple[str, str]
 def command(
     *,
     before: str,
-    after: str,
+    others: tuple[str, ...],
+    matrix: bool,
     tolerance: float,
     strict: bool,
     output_format: str,
@@ -104,12 +109,21 @@ def command(
 
     A and B are decks in keyword text, JSON or YAML, of which one may be - for standard input; or folders, whose decks
     are compared in pairs of the same relative path. The exit code is 0 when all mean the same, as a deck and its
-    migrated form do, and 1 when something differs, was added or removed, or a deck cannot be read.
+    migrated form do, and 1 when something differs, was added or removed, or a deck cannot be read. With --matrix, B...
+    are a family of load cases, each compared with A.
     """
-    if before == after == STDIN:
+    if [before, *others].count(STDIN) > 1:
         raise click.UsageError("only one of the decks can come from standard input")
     if not math.isfinite(tolerance):
         raise click.UsageError("--tolerance: expected a number from 0 to 1")
+    if matrix:
+        if output_format == "markdown":
+            raise click.UsageError("--output-format markdown: --matrix is printed as text, json or csv")
+        decks = [GivenDeck(path, stdin_name, units).load() for path in (before, *others)]
+        return _print_matrix(decks, tolerance, strict=strict, output_format=output_format, view=view)
+    if len(others) > 1 or output_format == "csv":
+        raise click.UsageError("more than two decks, and CSV, are for --matrix")
+    (after,) = others
     folders = [os.path.isdir(path) for path in (before, after)]  # noqa: PTH112 - Path raises for a long name
     if any(folders) and not all(folders):
         for path in (before, after):
@@ -145,6 +159,35 @@ def _comparison(first: Deck, second: Deck, tolerance: float, *, strict: bool) ->
     before, after = resolve(first), resolve(second)
     found = compare(before, after, tolerance)
     return Comparison(found, []) if strict else without_spelling(before, after, found, tolerance)
+
+
+def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, output_format: str, view: View) -> int:
+    """Print what differs of the first deck in the others."""
+    base, *others = decks
+    compared = [_comparison(base, other, tolerance, strict=strict).differences for other in others]
+    rows, names = matrix_of(compared), [deck.file for deck in decks]
+    if output_format == "json":
+        head = {"format": MATRIX_FORMAT, "decks": names, "tolerance": tolerance}
+        emit([*_json_lines(head, "rows", (row.json() for row in rows)), "\n}\n"])
+    elif output_format == "csv":
+        emit(csv_lines([["group", "value", *names], *([row.group, row.where, *_cells(row.values)] for row in rows)]))
+    elif rows:
+        table = matrix_table(rows, _short(names)).first(None if view.verbose else SHOWN_ROWS, "more rows: -v shows all")
+        view.printer().table(table)
+    if output_format == "text" and not view.quiet:
+        view.printer().line(f"{counted(len(rows), 'value')} differ" if rows else "no difference")
+    return FOUND if rows else DONE
+
+
+def _cells(values: Iterable[Value]) -> Iterator[object]:
+    """Values as CSV has them: no value is an empty field, several are in brackets."""
+    return (value_text(value) if isinstance(value, list) else value for value in values)
+
+
+def _short(names: Sequence[str]) -> list[str]:
+    """Names of files without the folder that all of them are in."""
+    folder = os.path.commonpath(names) if len({os.path.isabs(name) for name in names}) == 1 else ""  # noqa: PTH117
+    return [os.path.relpath(name, folder) if folder and name != folder else name for name in names]
 
 
 def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[Deck, Deck]:
@@ -326,22 +369,13 @@ def _number(one: Difference) -> int | None:
 def _described(one: Difference) -> str:
     """What differs, without the name of its group; its values, and its lines in the two decks as `-12 +14`."""
     if one.kind == "changed":
-        values = f": {_value_text(one.before)} -> {_value_text(one.after)}"
+        values = f": {value_text(one.before)} -> {value_text(one.after)}"
     else:
         value = one.after if one.kind == "added" else one.before
-        values = "" if value is None else f": {_value_text(value)}"
+        values = "" if value is None else f": {value_text(value)}"
     numbers = (("-", one.before_line), ("+", one.after_line))
     lines = " ".join(f"{side}{line}" for side, line in numbers if line is not None)
     return one.where.removeprefix(f"{one.group}/") + values + (f"  (line {lines})" if lines else "")
-
-
-def _value_text(value: Value) -> str:
-    """A value as people read it."""
-    if isinstance(value, list):
-        return "(" + ", ".join(map(_value_text, value)) + ")"
-    if value is None:
-        return "none"
-    return repr(value) if isinstance(value, float) else str(value)
 
 
 # ------------------------------------------------------------------------------------------------------------- Markdown

@@ -22,7 +22,7 @@ from mudline.model.contact.result import Part
 from mudline.model.results.against import Comparison, Extreme
 from mudline.model.results.evaluation import Evaluation, ResultConsumer
 from mudline.model.results.series import SeriesSummary
-from mudline.model.results.summary_tables import law_table
+from mudline.model.results.summary_tables import law_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
     First,
@@ -243,6 +243,7 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
     evaluation, rows = screen.evaluation, screen.lines.rows
     names = unit_names(evaluation.scene.units)
     pulled = any(row.largest_uplift is not None for row in rows)
+    filled = any(row.submerged_weight != row.empty_weight for row in rows)
     columns = [
         *([] if evaluation.time is None else [_time(evaluation, "time")]),
         number("line", "line"),
@@ -253,11 +254,13 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
         *(_largest("uplift", "largest_uplift", names) if pulled else ()),
         number("total\nreaction", lambda row: NOT_KNOWN if row.reaction is None else row.reaction, names.force),
         number("submerged\nweight", "submerged_weight", names.force),
+        *([number("weight,\nempty", "empty_weight", names.force)] if filled else []),
         number("ratio", "ratio"),
     ]
     left = len(evaluation.lines) * evaluation.steps - len(rows)
     if rows:
-        printer.table(DisplayTable("Touchdown", columns, rows, f"{left} {_MORE_LINES}" if left else ""))
+        notes = [f"{left} {_MORE_LINES}" if left else "", weight_note(evaluation.weights_without)]
+        printer.table(DisplayTable("Touchdown", columns, rows, "; ".join(filter(None, notes))))
 
 
 def _largest(what: str, name: str, names: UnitNames) -> Iterator[DisplayColumn]:

@@ -110,10 +110,8 @@ class Printer:
         Long texts are folded, so the longest belongs into the last column. Rather than cut a number or what is to stay
         whole, a table is wider than the screen.
         """
-        cells = [[self._cell(cell) for cell in row] for row in table.cells()]
-        kept = [i for i, one in enumerate(table.columns) if not one.optional or any(row[i][0] for row in cells)]
-        cells = [[row[i] for i in kept] for row in cells]
-        columns = [table.columns[i] for i in kept]
+        table = table.filled()
+        cells, columns = [[self._cell(cell) for cell in row] for row in table.cells()], table.columns
         depth = max(one.head.count("\n") for one in columns)
         padded = (("\n" * (depth - one.head.count("\n")) + one.head).split("\n") for one in columns)
         heads = list(zip(*([self.visible(line) for line in lines] for lines in padded), strict=True))

@@ -23,7 +23,7 @@ from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View
-from mudline.tools.reporting.content import SECTIONS, Given, Look, report_on
+from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, Document, Given, Look, report_on
 
 _LEGAL = "legal"
 
@@ -40,11 +40,17 @@ _LEGAL = "legal"
 @options.option(
     "--sections",
     metavar="NAME[,NAME...]",
-    default=",".join(SECTIONS),
+    default=",".join(BY_DEFAULT),
     show_default=True,
     help="Write these sections only; study measures run times, which differ from run to run.",
 )
 @click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape, not at the deck's own places.")
+@options.option("--title", metavar="TEXT", help="Call the page so; else by the *TITLE of the deck.")
+@options.option("--document", "number", metavar="TEXT", help="Write this number of the document on the page.")
+@options.option("--revision", metavar="TEXT", help="Write this revision on the page.")
+@options.option(
+    "--field", "fields", multiple=True, metavar="NAME=VALUE", help="Write this beside them; may be repeated."
+)
 @options.option("--date", metavar="TEXT", help="Write this date on the page.")
 @options.option("--template", metavar="FILE", help='Use this jinja2 template, which may extend "page.html".')
 @options.option("--logo", metavar="FILE.svg|png", help="Put this logo at the head of the page.")
@@ -59,6 +65,10 @@ def command(
     output_format: str,
     sections: str,
     rest_shape: bool,
+    title: str | None,
+    number: str | None,
+    revision: str | None,
+    fields: tuple[str, ...],
     date: str | None,
     template: str | None,
     logo: str | None,
@@ -67,13 +77,14 @@ def command(
     jobs: int,
     view: View,
 ) -> int:
-    """Write a page about a deck for a checker to sign: verdict, findings, model, curves, contact, study, plan.
+    """Write a page about a deck for a checker to sign: verdict, findings, inputs, model, curves, contact, plan.
 
     The page stands alone: no script, no address of the network. A deck with errors gets one too, without what could
     not be computed. DECKS are files, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML
     files that begin as decks do), or - for standard input.
     """
     names = _sections(sections)
+    document = Document(title, number, revision, date, tuple(map(_field, fields)))
     html = output_format == "html"
     if html and output is None:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
@@ -85,14 +96,13 @@ def command(
     for path in filter(None, (template, logo)) if html else ():
         reading(path)
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
-    wanted = Wanted(names, date, look, rest_shape)
+    wanted = Wanted(names, document, look, rest_shape)
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
     rows, contents = [], []
 
     def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
-        data, changed = file.read(), None if file.path is None else os.stat(file.path).st_mtime_ns  # noqa: PTH116 - Path raises for a long name
-        return file, (Given(data, file.name, file.folder, changed), settings.of(file), wanted)
+        return file, (Given(file.read(), file.name, file.folder), settings.of(file), wanted)
 
     with closing(many_files(inputs, prepared, make_report, Progress(len(inputs.files), view), jobs=jobs)) as results:
         for file, made in results:
@@ -102,7 +112,7 @@ def command(
                 page = target.page(file.name) if target is not None else None
                 if page is not None and made.html is not None:
                     write_text(page, [made.html])
-                rows.append(_row(made.content, page, target))
+                rows.append(_row(made.content, file.name, page, target))
                 contents += [] if html else [made.content]
     if not html:
         _print(contents, output)
@@ -118,11 +128,19 @@ def _sections(text: str) -> tuple[str, ...]:
     return tuple(name for name in SECTIONS if name in names)
 
 
+def _field(text: str) -> tuple[str, str]:
+    """Name and value of --field."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip():
+        raise click.UsageError(f"--field {text!r}: give NAME=VALUE")
+    return name.strip(), value.strip()
+
+
 class Wanted(NamedTuple):
-    """The sections of a page, its date, how it looks (None for JSON), and whether contact is that at rest."""
+    """The sections of a page, what it is called, how it looks (None for JSON), and whether contact is that at rest."""
 
     sections: tuple[str, ...]
-    date: str | None
+    document: Document
     look: Look | None
     rest_shape: bool = False
 
@@ -137,7 +155,7 @@ class Made(NamedTuple):
 
 def make_report(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
-    report = report_on(given, settings, wanted.sections, wanted.date, rest_shape=wanted.rest_shape)
+    report = report_on(given, settings, wanted.sections, wanted.document, rest_shape=wanted.rest_shape)
     if wanted.look is None:
         return Made(report.json, None)
     from mudline.tools.reporting.page import LookError, page  # noqa: PLC0415 - needs jinja2
@@ -174,8 +192,8 @@ class Target:
         return self.folder / name
 
 
-def _row(content: dict[str, Any], page: Path | None, target: Target | None) -> dict[str, Any]:
-    """A row of the index."""
+def _row(content: dict[str, Any], name: str, page: Path | None, target: Target | None) -> dict[str, Any]:
+    """A row of the index; decks of the folder that the run was started in have their paths from there."""
     verdict = content["verdict"]
     words = verdict["verdict"].partition(":")[0]
     kind = "as far as read" if words.startswith("legal as far") else words.partition(",")[0]
@@ -183,7 +201,8 @@ def _row(content: dict[str, Any], page: Path | None, target: Target | None) -> d
     counts = {name: verdict[name] for name in ("errors", "warnings")}
     keywords = verdict["keywords"]
     read = {"read": keywords["read"], "total": keywords["total"]}
-    return {"deck": content["deck"], "page": address, "verdict": words, "kind": kind} | counts | read
+    deck = content["deck"] if os.path.isabs(name) else name  # noqa: PTH117 - Path raises for a long name
+    return {"deck": deck, "page": address, "verdict": words, "kind": kind} | counts | read
 
 
 def _illegal(rows: list[dict[str, Any]]) -> int:

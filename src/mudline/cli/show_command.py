@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
+
+import click
 
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
@@ -16,41 +19,76 @@ from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
 from mudline.checks.engine import of_base
 from mudline.checks.verdict import all_findings, errors_of
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import emit_json, notify
+from mudline.cli.result_files import has_library, write_tables
+from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
+from mudline.model.results.forms.text import write_text
+from mudline.model.results.sheet_tables import sheet_data, sheet_tables
 from mudline.model.results.summary import summarise
 from mudline.model.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
+from mudline.model.scene.sheet import sheet_of
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
 
 @options.command("show")
-@options.output_format("text", "json")
+@options.flag("--sheet", help="The sheet only: a row for each run of elements with the same properties.")
+@options.output_option(
+    "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE", help="Write the sheet: .csv, .json, .xlsx."
+)
+@options.output_format("text", "json", "csv", "xlsx")
 @takes_deck
-def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
-    """Summarise a deck: sections, keywords, sets, curves, diameters, laws.
+def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: str, view: View) -> int:
+    """Summarise a deck: sections, keywords, sets, curves, diameters, laws, and the sheet of its elements.
 
-    A deck with errors is shown as far as it can be read; the exit code is then 1.
+    CSV and workbooks hold the sheet; -o writes it into a file, which a workbook needs. A deck with errors is shown as
+    far as it can be read; the exit code is then 1.
     """
+    form = _form(output, output_format)
+    if form == "xlsx" and not has_library("xlsx"):
+        return WRONG_USAGE
     context = LintContext(deck.load())
     scene = context.scene
     summary = summarise(scene)
+    found = sheet_of(scene)
     errors = [*errors_of(all_findings(context)), *(one for one in scene.errors() if of_base(context.deck, one))]
-    if output_format == "json":
+    if output is not None:
+        write_tables(sheet_data(found, scene.units), Path(output))
+    elif form == "csv" or (form == "json" and sheet):
+        write_text(sheet_data(found, scene.units), form, emit, "sheet")
+    elif form == "json":
         emit_json(summary)
     else:
-        _print_summary(summary, view)
+        if not sheet:
+            _print_summary(summary, view)
+        tables = sheet_tables(found, scene.units)
+        if sheet and not tables:
+            notify(f"{scene.deck.file}: the deck shows no elements, which a sheet is of")
+        for table in tables:
+            view.printer().table(table.first(None if view.verbose else SHOWN_ROWS, "more rows: -v shows all"))
     if errors:
         counts = Counter(diagnostic.file for diagnostic in scene.deck.diagnose(errors))
         for file, count in counts.items():
             notify(f"{file} has {counted(count, 'error')}: see mudline lint")
     return FOUND if errors else DONE
+
+
+def _form(output: str | None, output_format: str) -> str:
+    """The form to write or print: that of the file, if there is one."""
+    if output is None:
+        if output_format == "xlsx":
+            raise click.UsageError("--output-format xlsx: give the file of the workbook with -o FILE.xlsx")
+        return output_format
+    form = options.form_of_file(output, ("csv", "json", "xlsx"))
+    if output_format not in ("text", form):
+        raise click.UsageError(f"{output} is no {output_format}: give a file .{output_format}, or leave out the format")
+    return form
 
 
 def _print_summary(summary: dict[str, Any], view: View) -> None:
@@ -66,7 +104,7 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
         "laws": _laws,
         "bed": _resistance,
         "extensions": _extensions,
-        "static_embedment": _static,
+        "static_embedment": partial(_static, left_out=summary["weights_without"]),
     }
     for key, table in tables.items():
         if rows := summary[key]:
@@ -192,7 +230,7 @@ def _extensions(blocks: Rows, _: UnitNames) -> DisplayTable:
     return DisplayTable("Extensions", columns, blocks)
 
 
-def _static(rows: Rows, names: UnitNames) -> DisplayTable:
-    alike = len({(row["set"], row["law"]) for row in rows}) < len(rows)
-    found = static_table(rows, names, first=alike)
+def _static(rows: Rows, names: UnitNames, left_out: Sequence[str]) -> DisplayTable:
+    alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
+    found = static_table(rows, names, left_out, first=alike)
     return replace(found, columns=[*found.columns, text("extrapolated", "extrapolated", optional=True)])

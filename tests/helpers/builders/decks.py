@@ -44,6 +44,13 @@ CLEAN_WARNING = (
 )
 """What evaluating it as deck.keyxm warns of: the steel weighs 2322.52 N/m and displaces water of 1974.34 N/m."""
 
+STEPS_WARNING = (
+    "mudline: warning: deck.keyxm:1: RUN003 the positions are in the mean of all steps far from equilibrium: total "
+    "reaction 17504 N on 2 elements in contact, their submerged weight 5224.06 N, ratio 3.35; check their datum and "
+    "units, and the weights\n"
+)
+"""The same at its own coordinates and then 0.05 deep: 15000 N on 3481.78 N, and 20008 N on 6966.33 N."""
+
 BAD_NUMBER = CLEAN.replace(" 2, -0.1, 10.0\n", " 2, -0.1, ten\n")
 """A SYN002 at 6:11, and nothing else."""
 

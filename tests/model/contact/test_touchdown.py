@@ -157,7 +157,7 @@ def test_lines_apart_have_rows_of_their_own() -> None:
 
 def test_json_has_no_value_for_what_overflowed() -> None:
     found = LineSummary(
-        None, 1, 1, 1, np.inf, (TouchdownPoint(np.inf, 0.0, 0.0, 0.0, "after"),), 0.0, None, None, 1.0, None, None
+        None, 1, 1, 1, np.inf, (TouchdownPoint(np.inf, 0.0, 0.0, 0.0, "after"),), 0.0, None, None, 1.0, None, None, None
     )
     row = found.row()
     assert row["length"] is None

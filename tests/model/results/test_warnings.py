@@ -236,11 +236,21 @@ def test_far_from_equilibrium_is_a_third_or_three_times_the_weight(stiffness: in
 def test_weight_with_coatings_is_not_known() -> None:
     found, note = watched(pipe(LAW.replace("50000", "90000") + "*COATINGS\n 1\n"))
     assert found == []
-    assert "N without coatings and contents, ratio 3.84" in note
+    assert "N without *COATINGS, ratio 3.84" in note
 
 
-def test_positions_of_a_file_are_not_judged() -> None:
-    assert watched(pipe(LAW), heights(-0.2, -0.3)) == ([], "")
+def test_positions_of_a_file_are_judged_in_the_mean_of_their_steps() -> None:
+    """Embedments of 0.02 and 0.04 m are 1.5 and 3 times the weight at 35,000 N/m2: 2.24 in the mean."""
+    law = LAW.replace("50000", "35000")
+    assert watched(pipe(law), heights(-0.02, -0.04)) == ([], "")
+    (found,), note = watched(pipe(law), heights(-0.2, -0.3))
+    assert (found.diagnostic.code, note) == ("RUN003", "")
+    ratio = 0.25 * 35000.0 * 100.0 / WEIGHT
+    assert found.diagnostic.message == (
+        "the positions are in the mean of all steps far from equilibrium: total reaction 875000 N on 10 elements in "
+        f"contact, their submerged weight {WEIGHT:.6g} N, ratio {ratio:.3g}; check their datum and units, and the "
+        "weights"
+    )
 
 
 def test_floating_pipe() -> None:
@@ -248,7 +258,27 @@ def test_floating_pipe() -> None:
     assert brief(text) == [("RUN004", 18, 10, 1)]
     weight = np.pi / 4 * 9.81 * (7850.0 * (0.3239**2 - 0.3139**2) - 1025.0 * 0.3239**2)
     assert f"10 elements (first: 1) float: submerged weight {weight:.6g} N/m without" in message(text, "RUN004")
-    assert brief(text + "$LOAD CASE\n*INTERNAL FLUID\n 30.0, 900.0\n") == []
+    filled = text + "$LOAD CASE\n*INTERNAL FLUID\n 30.0, 900.0\n"
+    assert "RUN004" not in [code for code, *_ in brief(filled)]
+
+
+def test_a_pipe_that_floats_in_one_load_case_only() -> None:
+    """It is filled with gas first, and with oil then."""
+    cases = "$LOAD CASE\n*INTERNAL FLUID\n 30.0, 50.0\n$LOAD CASE\n*INTERNAL FLUID\n 30.0, 900.0\n"
+    text = pipe(LAW.replace("50000", "30000"), di=0.3139) + cases
+    assert [code for code, *_ in brief(text)] == ["RUN004"]
+    bore = np.pi / 4 * 0.3139**2
+    weight = 9.81 * (np.pi / 4 * (7850.0 * (0.3239**2 - 0.3139**2) - 1025.0 * 0.3239**2) + 50.0 * bore)
+    line = text.count("\n", 0, text.index("$LOAD CASE")) + 1
+    assert f"submerged weight {weight:.6g} N/m with the contents of load case 1 (line {line});" in message(
+        text, "RUN004"
+    )
+
+
+def test_contents_above_their_level_do_not_weigh() -> None:
+    """The oil stands 1 m below the line: it is empty, and floats."""
+    text = pipe(LAW, di=0.3139) + "$LOAD CASE\n*INTERNAL FLUID\n -1.0, 900.0\n"
+    assert [code for code, *_ in brief(text)] == ["RUN004"]
 
 
 def test_what_springs_of_the_soil_hold_may_float() -> None:
@@ -370,7 +400,7 @@ def test_curve_that_the_unknown_keyword_would_use() -> None:
 def test_pieces_give_what_the_whole_series_gives() -> None:
     scene, places = legal_scene(pipe("")), heights(0.5, 0.2, -0.01, 0.1)
     result = scene.contact().evaluate(places)
-    watch = ContactWatch(scene, result.evaluated, places[0], own=False)
+    watch = ContactWatch(scene, result.evaluated, places[0], "file")
     for start in range(4):
         watch.take(Part(start, result.steps(start, start + 1)))
     assert watch.warnings() == contact_warnings(scene, result, places)
@@ -381,7 +411,8 @@ def test_from_python_without_positions_are_the_decks_own() -> None:
     scene = legal_scene(pipe(LAW.replace("50000", "90000")))
     result = scene.contact().evaluate()
     assert [one.diagnostic.code for one in contact_warnings(scene, result)] == ["RUN003"]
-    assert contact_warnings(scene, result, scene.coordinates) == []
+    (given,) = contact_warnings(scene, result, scene.coordinates)
+    assert given.diagnostic.message.startswith("the positions are far from equilibrium: total reaction 180000 N")
 
 
 def test_caption_is_one_short_line() -> None:

@@ -366,6 +366,7 @@ def test_linear_laws_and_curves() -> None:
     assert row == {
         "set": "ALL",
         "element": 1,
+        "filled": False,
         "weight": pytest.approx(WEIGHT),
         "law": "linear",
         "ratio": pytest.approx(WEIGHT / 50000.0 / 0.25),

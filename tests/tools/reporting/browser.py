@@ -63,7 +63,8 @@ def take_pictures() -> None:
 
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, chdir(SAMPLES.parent):
         target = Path(folder) / "scr-vessel.html"
-        words = ("-o", str(target), "--sections", "verdict,findings,model,contact")
+        block = ("--title", "Riser in the extreme sea", "--document", "RP-0042", "--revision", "B")
+        words = ("-o", str(target), *block)
         run("report", f"{SAMPLES.name}/scr-vessel.keyxm", *words)
         browser = playwright.chromium.launch(executable_path=program(), args=["--no-sandbox"])
         sizes: tuple[tuple[Scheme, int, int], ...] = (("light", 900, 1500), ("dark", 360, 900))

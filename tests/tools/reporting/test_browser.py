@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,7 +34,7 @@ def browser() -> Iterator[Browser]:
 def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder = tmp_path_factory.mktemp("pages")
     decks = [str(SAMPLES / name) for name in ("broken.keyxm", "scr-vessel.keyxm")]
-    run("report", *decks, "-o", str(folder), "--sections", "verdict,findings,model,curves,contact,plan", "-q")
+    run("report", *decks, "-o", str(folder), "-q")
     return sorted(folder.glob("*.html"))
 
 
@@ -47,6 +48,8 @@ def test_pages_are_shown_as_they_are_meant(browser: Browser, pages: list[Path], 
     page = browser.new_page()
     page.goto(pages[-1].as_uri())
     assert page.pdf(path=tmp_path / "page.pdf", format="A4").startswith(b"%PDF")
+    page.add_style_tag(content="#appendix { display: none }")
+    assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) <= 6
 
 
 def test_the_index_shows_the_decks_of_a_verdict(browser: Browser, pages: list[Path]) -> None:

@@ -4,78 +4,16 @@ from __future__ import annotations
 
 import json
 import re
-from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mudline.cli import DONE, FOUND, WRONG_USAGE
 from tests.cli.runner import run
 from tests.helpers.samples import FAULTY, SAMPLES
+from tests.tools.reporting.pages import CSP, NO_STUDY, ON_SOIL, Page, checked, content, made, row_of
 
-NO_STUDY = "verdict,findings,model,curves,contact,plan"
-ACTING = {"script", "iframe", "object", "embed", "base", "form", "link", "a:http"}
-CSP = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 CHOSEN = ("broken.keyxm", "scr-vessel.keyxm", "scr-soil.keyxm", "lines-deck.keyxm", "imperial-riser.keyxi")
-
-
-class Page(HTMLParser):
-    """Elements, ids, references and texts of a page."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.tags: list[str] = []
-        self.ids: list[str] = []
-        self.references: list[str] = []
-        self.policy = self.text = ""
-        self.headings: list[int] = []
-        self.attributes: list[tuple[str, str | None]] = []
-        self.feed(text)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append(tag)
-        given = dict(attrs)
-        self.attributes += attrs
-        if re.fullmatch(r"h[1-6]", tag):
-            self.headings.append(int(tag[1]))
-        if given.get("http-equiv") == "Content-Security-Policy":
-            self.policy = given["content"] or ""
-        self.ids += [value for name, value in attrs if name == "id" and value]
-        self.references += [value for name, value in attrs if name in {"href", "src", "xlink:href"} and value]
-
-    def handle_data(self, data: str) -> None:
-        self.text += data
-
-
-def checked(text: str) -> Page:
-    """A page that stands alone, with one policy, unique ids and references that lead somewhere."""
-    page = Page(text)
-    assert page.policy == CSP
-    assert not ACTING & {*page.tags}
-    assert not [name for name, _ in page.attributes if name.startswith("on")]
-    assert not re.search(r"https?:|//[a-z]", re.sub('base64,[^"]*', "", text))
-    assert sorted(page.ids) == sorted({*page.ids})
-    inside = [one[1:] for one in page.references if one.startswith("#")]
-    assert {*inside} <= {*page.ids}
-    assert all(one.startswith(("#", "data:image/")) for one in page.references)
-    assert page.headings[0] == 1
-    assert all(after - before <= 1 for before, after in zip(page.headings, page.headings[1:], strict=False))
-    return page
-
-
-def made(tmp_path: Path, *words: str, sections: str = NO_STUDY, code: int = DONE) -> str:
-    target = tmp_path / "out.html"
-    outcome = run("report", *words, "-o", str(target), "--sections", sections, "-q")
-    assert (outcome.code, outcome.err) == (code, "")
-    return target.read_text(encoding="utf-8")
-
-
-def content(*words: str, sections: str = NO_STUDY) -> dict[str, Any]:
-    outcome = run("report", *words, "--output-format", "json", "--sections", sections)
-    (found,) = json.loads(outcome.out)["reports"]
-    assert isinstance(found, dict)
-    return found
 
 
 @pytest.mark.parametrize("name", CHOSEN)
@@ -83,7 +21,18 @@ def test_a_sample_has_a_page_that_stands_alone(tmp_path: Path, name: str) -> Non
     text = made(tmp_path, str(SAMPLES / name), code=FOUND if name in FAULTY else DONE)
     page = checked(text)
     assert len(text.encode()) < 1_500_000
-    assert {"verdict", "findings", "model", "curves", "contact", "plan", "interpretation", "sign"} <= {*page.ids}
+    assert {
+        "verdict",
+        "findings",
+        "inputs",
+        "model",
+        "curves",
+        "contact",
+        "plan",
+        "interpretation",
+        "sign",
+        "appendix",
+    } <= {*page.ids}
     assert all(role in page.text for role in ("Prepared", "Checked", "Approved"))
     assert name != "scr-vessel.keyxm" or {"law-1", "curve-1", "picture-model-1"} <= {*page.ids}
     assert "table" in page.tags
@@ -116,52 +65,6 @@ def test_the_content_is_what_the_other_commands_say() -> None:
         ("resistance", 295),
     }
     assert any(one["keyword"] == "SEABED STIFFNESS" for one in found["inferred"])
-
-
-ON_SOIL = """$MODEL
-*NODE
- 1, -0.01, 0, 0
- 2, -0.01, 5, 0
- 3, -0.01, 10, 0
- 4, 7.0, 15, 0
-*ELEMENT
- 1, 1, 2
- GEN=1, 2
- 11, 3, 4
-*ELEMENT SETS
- SET=Laid
- 1, 2
- SET=Free
- 11
-*GEOMETRIC SETS
- OPTION=RIGID
- SET=ALL
- 2.07E11, 7.96E10, 0.3, 0.27, 7850
-*SEABED PROPERTIES
- TYPE=ELASTIC
- SET=Laid
- STIFFNESS=Clay
- SET=Free
- STIFFNESS=Clay
-*SEABED STIFFNESS
- CURVE=Clay
- 0, 0
- 0.5, 900
-*SEABED FRICTION
- SET=Laid
- COEFFICIENTS=0.4, 0.7
- STIFFNESS=40000, 60000
- LATERAL=PEAK-RESIDUAL
- PEAK=1.3, 0.03
- RESIDUAL=0.6, 0.5
-"""
-
-
-def row_of(text: str, first: str) -> str:
-    """The text of the row of a table that begins with a cell."""
-    row = re.search(rf"<tr[^>]*><td[^>]*>{re.escape(first)}</td>.*?</tr>", text, re.DOTALL)
-    assert row is not None, first
-    return " | ".join(re.findall(r"<td[^>]*>(.*?)</td>", row[0]))
 
 
 def test_values_are_written_for_people(tmp_path: Path) -> None:
@@ -207,6 +110,8 @@ def test_a_faulty_deck_gets_a_page_that_says_what_is_missing(tmp_path: Path) -> 
     page = checked(made(tmp_path, str(SAMPLES / "broken.keyxm"), code=FOUND))
     assert "illegal" in page.text
     assert page.text.count("This could not be computed: line") == 4
+    assert "The plan could not be computed: line" in page.text
+    assert "No contact was computed: line" in page.text
     assert "finding-1" in page.ids
     assert "rule-SYN011" in page.ids
 
@@ -342,7 +247,7 @@ def test_a_company_has_its_own_template_and_logo(tmp_path: Path) -> None:
     deck = str(SAMPLES / "legacy-flowline.keyxm")
     words = ("--template", str(tmp_path / "ours.html"), "--logo", str(tmp_path / "logo.svg"), "--date", "1 May 2026")
     page = checked(made(tmp_path, deck, *words, sections="verdict"))
-    assert f"Check of {deck}" in page.text
+    assert "Check of legacy-flowline.keyxm" in page.text
     assert "1 May 2026" in page.text
     assert any(one.startswith("data:image/svg+xml;base64,") for one in page.references)
 

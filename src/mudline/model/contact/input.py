@@ -148,6 +148,9 @@ class Names(Protocol):
         """(m,) the set through which each element got its law."""
 
 
+_WEIGHTS = ("weight", "empty_weight")
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ContactInput:
     """Nodes (n), elements (m) and their laws. The arrays are not copied; do not change them.
@@ -166,6 +169,7 @@ class ContactInput:
         tension: what happens where a curve pulls: "keep" its negative force, or "cut" force and stiffness to 0.
         seabed: its shape; None for a flat one at X = 0.
         weight: (m,) submerged weights per unit length, NaN where unknown; None when none is. Forces do without them.
+        empty_weight: (m,) the same without contents and without masses at nodes; None where that is the same.
         left_out: reasons, by stage of the plan, why something the scene asks for is not evaluated.
         names: what the laws, sets and units are called; None where nobody said.
 
@@ -186,6 +190,7 @@ class ContactInput:
     tension: Tension = "keep"
     seabed: Seabed | None = None
     weight: FloatArray | None = None
+    empty_weight: FloatArray | None = None
     left_out: Mapping[str, str] = field(default_factory=dict)
     names: Names | None = None
     _lines: list[Lines] = field(init=False, repr=False, default_factory=list)
@@ -195,8 +200,9 @@ class ContactInput:
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        for name in ("node_ids", "coordinates", "element_ids", "element_nodes", "length", "diameter", "weight"):
-            if (array := getattr(self, name)) is not None or name != "weight":
+        arrays = ("node_ids", "coordinates", "element_ids", "element_nodes", "length", "diameter")
+        for name in (*arrays, *_WEIGHTS):
+            if (array := getattr(self, name)) is not None or name not in _WEIGHTS:
                 expect(array, name, np.ndarray, "an array")
                 object.__setattr__(self, name, read_only(array))
         for name, kind in (("laws", LawAssignment), ("curves", object), ("tables", np.ndarray)):
@@ -210,8 +216,9 @@ class ContactInput:
         _expect(self.element_nodes, "element_nodes", "iu", (elements, 2))
         for name in ("length", "diameter"):
             _expect(getattr(self, name), name, "f", (elements,))
-        if self.weight is not None:
-            _expect(self.weight, "weight", "f", (elements,))
+        for name in _WEIGHTS:
+            if (given := getattr(self, name)) is not None:
+                _expect(given, name, "f", (elements,))
         expect_word(self.tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         self._check_elements(nodes)
         names = dict.fromkeys(assignment.law for assignment in self.laws)

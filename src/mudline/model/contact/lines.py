@@ -160,7 +160,8 @@ class LineSummary:
         largest_uplift: where the seabed pulls most, by suction or a curve; its force is negative. None without a pull.
         reaction: total normal force on its nodes; a node of several lines counts for the first of them. None on a rigid
             seabed, whose force is not known.
-        submerged_weight: of its elements in contact with a law that carries; None where it is not known.
+        submerged_weight: of its elements in contact with a law that carries, with contents and masses at nodes; None
+            where it is not known. empty_weight: the same without these.
         ratio: reaction / submerged weight; None where that is not above 0.
     """
 
@@ -175,6 +176,7 @@ class LineSummary:
     largest_uplift: ElementForce | None
     reaction: float | None
     submerged_weight: float | None
+    empty_weight: float | None
     ratio: float | None
 
     def row(self) -> dict[str, object]:

@@ -49,6 +49,7 @@ class LineSeries:
     contact_length: FloatArray
     reaction: FloatArray
     weight: FloatArray
+    empty: FloatArray
     force: FloatArray
     force_at: IndexArray
     uplift: FloatArray
@@ -67,6 +68,7 @@ class Touchdown:
         self._carries = given.law != LawKind.NONE
         with np.errstate(over="ignore", invalid="ignore"):
             self._weights = None if given.weight is None else given.weight * given.length
+            self._empty = self._weights if given.empty_weight is None else given.empty_weight * given.length
 
     def length(self, line: int) -> float:
         """Length of a line; infinite where it overflows."""
@@ -106,9 +108,10 @@ class Touchdown:
         first[step[::-1]], last[step] = at[::-1], at
         force = result.force[:, elements]
         held = result.contact[:, elements] & self._carries[elements]
-        weight = np.full(steps, np.nan)
-        if self._weights is not None:
-            weight = np.where(held, self._weights[elements], 0.0).sum(axis=1)
+        weight, empty = (
+            np.full(steps, np.nan) if of is None else np.where(held, of[elements], 0.0).sum(axis=1)
+            for of in (self._weights, self._empty)
+        )
         own = self._own_nodes[line]
         pushes, pulls = _extreme(force, elements, 1.0), _extreme(force, elements, -1.0)
         counts = np.bincount(step, minlength=steps)
@@ -120,6 +123,7 @@ class Touchdown:
             lies,
             total_normal_force(result, own),
             weight,
+            empty,
             *pushes,
             *pulls,
             points,
@@ -163,6 +167,7 @@ class Touchdown:
             largest_uplift=self._place(float(one.uplift[step]), int(one.uplift_at[step]), result, step),
             reaction=finite(reaction),
             submerged_weight=finite(weight),
+            empty_weight=finite(float(one.empty[step])),
             ratio=finite(ratio),
         )
 
@@ -233,6 +238,7 @@ class LineTable(Table):
             "largest_uplift_arc_length": arcs[one.uplift_at],
             "reaction": one.reaction,
             "submerged_weight": one.weight,
+            "empty_weight": one.empty,
             "ratio": np.where(one.weight > 0.0, one.reaction / np.where(one.weight > 0.0, one.weight, 1.0), np.nan),
         }
         steps = np.arange(len(one.points))

@@ -22,6 +22,7 @@ from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.positions import Positions, StepFile
+from mudline.model.scene.weights import left_out
 
 Tension = Literal["keep", "cut"]
 PositionSource = Literal["deck", "file", "rest shape"]
@@ -96,6 +97,13 @@ class Evaluation:
     def evaluated(self) -> Mask:
         """The elements (m,) that are evaluated."""
         return np.asarray(self.present[self.scene.element_nodes].all(axis=1))
+
+    @cached_property
+    def weights_without(self) -> list[str]:
+        """What weighs in the deck and has no part in weights here; a resting shape has no masses at its nodes."""
+        found = left_out(self.scene)
+        masses = self.source == "rest shape" and "MASS" in self.scene.deck.keywords()
+        return [*found, "*MASS"] if masses and "*MASS (in part)" not in found else found
 
     @cached_property
     def nodes(self) -> Indices:

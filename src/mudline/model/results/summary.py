@@ -21,6 +21,9 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, summed
 from mudline.model.scene.resolved import LawArrays
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
+from mudline.model.scene.sections import surroundings
+from mudline.model.scene.sheet import sheet_of
+from mudline.model.scene.weights import contents
 
 CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
 """Where a value lies beyond the points of its curve."""
@@ -28,7 +31,7 @@ CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
 
 def summarise(scene: Scene) -> dict[str, Any]:
     """Sections, keywords, counts, sets, curves, diameters and laws of a deck."""
-    deck, known = scene.deck, scene.length[~np.isnan(scene.length)]
+    deck, known, sheet = scene.deck, scene.length[~np.isnan(scene.length)], sheet_of(scene)
     return {
         "file": deck.file,
         "units": deck.units,
@@ -53,6 +56,8 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "bed": bed_summary(scene),
         "extensions": extension_summary(scene),
         "static_embedment": static_embedment(scene),
+        "sheet": list(sheet.rows),
+        "weights_without": list(sheet.left_out),
     }
 
 
@@ -191,6 +196,7 @@ class _Case(NamedTuple):
     law: str
     weight: float
     element: int
+    filled: bool
 
 
 def static_embedment(scene: Scene) -> list[dict[str, Any]]:
@@ -198,15 +204,24 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
 
     `element` is the first of them; of a row for a node, the first that ends there.
     `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
-    Of a curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
+    Where the last load case fills pipes there are rows without and with the contents (`filled`). Of a curve that does
+    so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
     the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
     """
-    weight = scene.submerged_weight
-    known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
+    weights = [scene.submerged_weight]
+    if (inside := contents(scene)) and inside[-1].mass.any():
+        weights.append(scene.submerged_weight + inside[-1].mass * surroundings(scene.deck).gravity)
+    own = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
     smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
     arrays, zones = scene.law_arrays(), _Zones.of(smoothing, len(scene.element_ids))
-    rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]
-    return [*rows, *_of_nodes(scene, weight)][:_TABLE_ROWS]
+    rows = []
+    for filled, weight in enumerate(weights):
+        known = np.flatnonzero((weight > 0.0) & own)
+        rows += [
+            _of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known, filled=bool(filled))
+        ]
+        rows += _of_nodes(scene, weight, filled=bool(filled))
+    return rows[:_TABLE_ROWS]
 
 
 class _Zones(NamedTuple):
@@ -225,7 +240,7 @@ class _Zones(NamedTuple):
         return cls(half_width, one_sided)
 
 
-def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[_Case]:
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_Case]:
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
@@ -233,7 +248,7 @@ def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> li
     keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
     firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_TABLE_ROWS]
     found = elements[firsts].tolist()
-    return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at) for at in found]
+    return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in found]
 
 
 def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> dict[str, Any]:
@@ -256,7 +271,7 @@ def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> 
         return _row(scene, case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
 
 
-def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
+def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, Any]]:
     """The least and the most that a node with a spring of its own carries, by set."""
     if not scene.nodal.any() or (scene.element_nodes < 0).any():
         return []
@@ -277,7 +292,7 @@ def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
         order = usable[np.argsort(depth[usable], kind="stable")]
         for node in dict.fromkeys([*order[:1].tolist(), *order[-1:].tolist()]):
             at = int(elements[(ends[elements] == node).any(axis=1)][0])
-            case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at)
+            case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at, filled)
             ratio = float(np.divide(depth[node], scene.diameter[at]))
             rows.append(_row(scene, case, ratio, float(depth[node]), float(slope[node]), None))
     return rows
@@ -289,6 +304,7 @@ def _row(
     return {
         "set": case.set_name,
         "element": int(scene.element_ids[case.element]),
+        "filled": case.filled,
         "weight": case.weight,
         "law": case.law,
         "ratio": finite(ratio),

@@ -36,18 +36,24 @@ def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> Disp
     return DisplayTable("External diameters", columns, diameters)
 
 
-def static_table(rows: Rows, names: UnitNames, *, first: bool, stiffness: str = "") -> DisplayTable:
-    """Return the table of static embedment; `first` adds the first element of a row; `stiffness` is its unit."""
+def static_table(rows: Rows, names: UnitNames, left_out: Sequence[str], *, first: bool) -> DisplayTable:
+    """Return the table of static embedment; `first` adds the first element of a row.
+
+    `left_out` is not in the weights. Of springs of nodes the stiffness is that of a node, and has no unit here.
+    """
+    several = any(row["filled"] for row in rows)
+    unit = "" if any(row["law"] == "nodal" for row in rows) else names.stiffness
     columns = (
         text("set", "set"),
         *([number("first\nelement", "element")] if first else []),
         text("law", "law"),
+        *([text("contents", lambda row: "with" if row["filled"] else "without")] if several else []),
         number("weight", "weight", names.line_force),
         number("ratio", "ratio"),
         number("penetration", "penetration", names.length),
-        number("stiffness", "stiffness", stiffness),
+        number("stiffness", "stiffness", unit),
     )
-    return DisplayTable("Static embedment", columns, rows)
+    return DisplayTable("Static embedment", columns, rows, weight_note(left_out))
 
 
 def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> DisplayTable:
@@ -61,3 +67,8 @@ def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> Disp
         number(reaction, "reaction", names.force),
     )
     return DisplayTable(title, columns, totals)
+
+
+def weight_note(left_out: Sequence[str]) -> str:
+    """Return what the weights of a table leave out, "" for nothing."""
+    return f"weights without {', '.join(left_out)}" if left_out else ""

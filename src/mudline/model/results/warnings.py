@@ -27,16 +27,18 @@ from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.sections import surroundings
 from mudline.model.scene.vertical_axis import height_along_z
+from mudline.model.scene.weights import Contents, attached, contents, left_out, operating_weight
 
 BALANCED = (1.0 / 3.0, 3.0)
-"""Total reaction over submerged weight of the deck's own positions, beyond which they are far from equilibrium."""
+"""Total reaction over submerged weight, beyond which positions are far from equilibrium."""
 
 NEAR = (0.9, 1.1)
 """The same, beyond which there is something to be said for a resting shape."""
 
-_MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
-"""Keywords that are not read, and make the weight another one than that of the sections."""
+_ADDED = {"INTERNAL FLUID": "contents", "MASS": "masses"}
+"""Keywords that make the weight another one than that of the sections."""
 _TOUCHING = 1e-3
 """Clearance over diameter of a line that touches the seabed: its datum is right."""
 _CAPTION = 90
@@ -78,14 +80,15 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
 
     `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
-    coordinates, whose reaction is compared with the submerged weight.
+    coordinates.
     """
     places = as_array(scene.coordinates if positions is None else positions, "positions")
     if places.dtype.kind not in "iuf" or places.ndim not in {2, 3} or places.shape[-2:] != (len(scene.node_ids), 3):
         raise ValueError(f"positions must be numbers (nodes, 3) or (steps, nodes, 3), not of shape {places.shape}")
     if not len(places):
         raise ValueError("positions must have one step or more")
-    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
+    source = "deck" if positions is None else "file"
+    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], source)
     watch.take(Part(0, result.as_series()))
     return watch.warnings()
 
@@ -128,11 +131,17 @@ class _Clearance(NamedTuple):
 
 
 class _Balance(NamedTuple):
-    """Total reaction and submerged weight (NaN where it is not known) of the elements (indices) in contact by a law."""
+    """Total reaction and submerged weight (NaN where it is not known) of the elements (indices) in contact by a law.
+
+    `empty` is the weight without contents and masses at nodes. Of several steps they are sums, of all elements that are
+    in contact at one of them.
+    """
 
     reaction: float
     weight: float
+    empty: float
     elements: Indices
+    steps: int = 1
 
     @property
     def ratio(self) -> float:
@@ -143,18 +152,28 @@ class _Balance(NamedTuple):
 class ContactWatch:
     """Takes the results of a few steps at a time, and keeps what the warnings need.
 
-    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions; `own` says that these are the
-    deck's coordinates.
+    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions, which are those of `source`:
+    "deck", "file" or "rest shape", which is in equilibrium. `weight` (m,) is the submerged weight per length, None for
+    the operating one.
     """
 
     def __init__(
-        self, scene: Scene, evaluated: Mask, places: Floats, *, own: bool, times: Floats | None = None
+        self,
+        scene: Scene,
+        evaluated: Mask,
+        places: Floats,
+        source: str,
+        times: Floats | None = None,
+        weight: Floats | None = None,
     ) -> None:
-        self._scene, self._places, self._own, self._times = scene, places, own, times
+        self._scene, self._places, self._source, self._times = scene, places, source, times
+        self._own, self._weight = source == "deck", operating_weight(scene) if weight is None else weight
         self._elements = np.flatnonzero(evaluated)
+        self._rows = self._elements if len(self._elements) < len(evaluated) else slice(None)
         self._nodes = np.unique(scene.element_nodes[self._elements])
         self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
-        self._judged = bool((evaluated & ((scene.law == LawKind.NONE) | (scene.submerged_weight < 0.0))).any())
+        self._lightest, self._case = self._least_weight()
+        self._judged = bool((evaluated & ((scene.law == LawKind.NONE) | (self._lightest < 0.0))).any())
         self._touched = np.zeros(len(evaluated), dtype=np.bool_)
         self._restrained = np.zeros(len(scene.nodes), dtype=np.bool_)
         self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
@@ -167,8 +186,8 @@ class ContactWatch:
     def of(cls, evaluation: Evaluation) -> ContactWatch:
         """What watches an evaluation."""
         places = np.asarray(evaluation.positions[0], dtype=np.float64)
-        own = evaluation.own_positions
-        return cls(evaluation.scene, evaluation.evaluated, places, own=own, times=evaluation.time)
+        weight = evaluation.model.input.weight
+        return cls(evaluation.scene, evaluation.evaluated, places, evaluation.source, evaluation.time, weight)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
@@ -183,8 +202,7 @@ class ContactWatch:
             self._acts |= self._sprung and bool(result.normal_force[:, self._columns].any())
             if not self._acts:
                 self._measure(part.start, result.gap[:, self._columns])
-        if self._own and part.start == 0:
-            self.balance = self._weigh(result.contact[0], result.normal_force[0])
+        self.balance = self._weigh(result.contact, result.normal_force, self.balance)
 
     def _measure(self, start: int, gap: Floats) -> None:
         """Keep the smallest distance of the nodes above the seabed; NaN is where there is none."""
@@ -195,14 +213,38 @@ class ContactWatch:
             step, column = np.argwhere(gap == least)[0].tolist()
             self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
 
-    def _weigh(self, contact: Mask, normal_force: Floats) -> _Balance:
+    def _least_weight(self) -> tuple[Floats, Contents | None]:
+        """The least submerged weight per length (m,) over the load cases, and the first case in which one floats."""
+        scene = self._scene
+        gravity, masses = surroundings(scene.deck).gravity, attached(scene).weighing
+        own = scene.submerged_weight + masses * gravity if masses.any() else scene.submerged_weight
+        with np.errstate(over="ignore", invalid="ignore"):
+            cases = [(own + one.mass * gravity, one) for one in contents(scene)]
+        if not cases:
+            return own, None
+        floating = next((case for weight, case in cases if (weight[self._elements] < 0.0).any()), None)
+        return np.minimum.reduce([weight for weight, _ in cases]), floating
+
+    def _weigh(self, contact: Mask, normal_force: Floats, before: _Balance | None) -> _Balance:
+        """Reaction and weights of some steps, (steps, m) and (steps, n), added to those before them."""
         scene = self._scene
         law = scene.law[self._elements]
-        held = self._elements[contact[self._elements] & (law != LawKind.NONE)]
+        held = contact[:, self._rows] & (law != LawKind.NONE)
+        times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
+        times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
-            weight = float((scene.submerged_weight[held] * scene.length[held]).sum())
-            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[self._nodes].sum())
-            return _Balance(reaction, weight, held)
+            weight, empty = (float((times * per[here]).sum()) for per in (self._weight, scene.submerged_weight))
+            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[:, self._columns].sum())
+            found = _Balance(reaction, weight, empty, here, len(contact))
+            if before is None:
+                return found
+            return _Balance(
+                before.reaction + reaction,
+                before.weight + weight,
+                before.empty + empty,
+                np.union1d(before.elements, here),
+                before.steps + found.steps,
+            )
 
     # ----------------------------------------------------------------------------------------------- what it found
 
@@ -286,49 +328,57 @@ class ContactWatch:
         return f"; {hint}: X is up here, the height is the first coordinate" if hint else ""
 
     def _unbalanced(self) -> Iterator[ContactWarning]:
-        """The deck's own positions where they are far from equilibrium."""
+        """Positions that are far from equilibrium: the deck's own, or those of a file in the mean of its steps."""
         balance = self.balance
         if balance is None or not self._is_unbalanced(balance):
             return
-        message = f"the positions are the deck's own, far from equilibrium: {self._balanced(balance)}"
-        advice = self._turned() or "; give a solved shape with --positions, or try --rest-shape"
+        whose = "the deck's own, " if self._own else "" if balance.steps == 1 else "in the mean of all steps "
+        message = f"the positions are {whose}far from equilibrium: {self._balanced(balance)}"
+        solved = "give a solved shape with --positions, or try --rest-shape"
+        advice = self._turned() or (f"; {solved}" if self._own else "; check their datum and units, and the weights")
         brief = f"reaction / submerged weight {shown(balance.ratio, 3)}"
         yield self._warning(RUN003, message + advice, None, balance.elements, brief)
 
     def _is_unbalanced(self, balance: _Balance) -> bool:
-        return not self._weighs_more and (balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1])
+        known = self._source != "rest shape" and not self._left_out
+        return known and (balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1])
 
     @cached_property
-    def _weighs_more(self) -> bool:
-        """Whether contents or coatings, which are not read, belong to the weight."""
-        deck = self._scene.deck
-        return not {*deck.keywords(), *deck.keywords("LOAD CASE")}.isdisjoint(_MORE_WEIGHT)
+    def _left_out(self) -> list[str]:
+        return left_out(self._scene)
 
     def _balanced(self, balance: _Balance) -> str:
         behind = unit_names(self._scene.units).behind("force")
         elements = counted(len(balance.elements), "element")
-        reaction = "not known" if math.isnan(balance.reaction) else f"{shown(balance.reaction)}{behind}"
-        carried = f"total reaction {reaction} on {elements} in contact"
-        if math.isnan(balance.weight):
+        reaction, weight, empty = (each / balance.steps for each in (balance.reaction, balance.weight, balance.empty))
+        total = "not known" if math.isnan(reaction) else f"{shown(reaction)}{behind}"
+        carried = f"total reaction {total} on {elements} in contact"
+        if math.isnan(weight):
             return f"{carried}, whose submerged weight is not known"
-        more = " without coatings and contents" if self._weighs_more else ""
+        given = self._scene.deck.keywords() | self._scene.deck.keywords("LOAD CASE")
+        what = " and ".join(word for name, word in _ADDED.items() if name in given)
+        more = "" if weight == empty else f" with {what} ({shown(empty)}{behind} empty)"
+        more += f" without {', '.join(self._left_out)}" if self._left_out else ""
         ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
-        return f"{carried}, their submerged weight {shown(balance.weight)}{behind}{more}{ratio}"
+        return f"{carried}, their submerged weight {shown(weight)}{behind}{more}{ratio}"
 
     def _floating(self) -> Iterator[ContactWarning]:
         """Elements in contact that float; where nothing is in contact, all of them if they do."""
         scene = self._scene
-        floats = scene.submerged_weight[self._elements] < 0.0
+        floats = self._lightest[self._elements] < 0.0
         if any(map(holds_in_soil, scene.deck.keywords())):  # springs of the soil hold what has no law of the seabed
             floats &= scene.law[self._elements] != LawKind.NONE
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
-        if not light.size or self._weighs_more:
+        if not light.size or self._left_out:
             return
         behind = unit_names(scene.units).behind("line_force") or " per length"
-        least = float(scene.submerged_weight[light].min())
+        least, how = float(self._lightest[light].min()), "without contents"
+        if self._case is not None:
+            line = scene.deck.place(Problem(RUN004, "", where=self._case.where)).line
+            how = f"with the contents of load case {self._case.number} (line {line})"
         message = (
-            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(least)}{behind} without "
-            "contents; check diameters and densities"
+            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(least)}{behind} {how}; "
+            "check diameters and densities"
         )
         where = scene.section_table.sections[int(scene.section_table.of_element[light[0]])].where
         yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")

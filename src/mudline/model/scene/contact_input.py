@@ -20,6 +20,7 @@ from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.seabed import SeabedKind, made_seabed
+from mudline.model.scene.weights import operating_weight
 
 if TYPE_CHECKING:
     from mudline.model.contact.seabed import Seabed
@@ -51,7 +52,8 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
             tables=tuple(tables),
             tension=tension,
             seabed=_seabed(scene),
-            weight=scene.submerged_weight,
+            weight=operating_weight(scene),
+            empty_weight=scene.submerged_weight,
             left_out=_left_out(scene, [law.law for law in laws]),
             names=scene,
         )

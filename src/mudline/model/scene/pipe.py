@@ -12,10 +12,10 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, picked
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.sections import stiffnesses, surroundings
+from mudline.model.scene.weights import contents
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
-    from mudline.language.keywords.library.loads import InternalFluid
 
 _DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
 """Coefficients of an element without any in the deck, and those that a line may leave out."""
@@ -25,9 +25,9 @@ class Pipe(NamedTuple):
     """Elements (m,) of a deck, per unit length and in its units; NaN where a value is not known.
 
     weight: submerged weight with contents.
-    mass: of the pipe alone. contents: mass of what flows in it. added_mass: Ca rho pi D^2 / 4.
+    mass: of the pipe alone. contents: mass of what flows in it in the last load case. added_mass: Ca rho pi D^2 / 4.
     drag: Cd rho D / 2, the force of water across at a velocity of 1.
-    drag_coefficient: Cd. has_coefficients: False where Cd and Ca are assumed.
+    drag_coefficient, added_mass_coefficient: Cd and Ca. has_coefficients: False where these are assumed.
     bending, axial: EI and EA, of curves their slope at 0; 0 for sections that do not bend.
     """
 
@@ -37,6 +37,7 @@ class Pipe(NamedTuple):
     added_mass: Floats
     drag: Floats
     drag_coefficient: Floats
+    added_mass_coefficient: Floats
     has_coefficients: Mask
     bending: Floats
     axial: Floats
@@ -45,7 +46,8 @@ class Pipe(NamedTuple):
 def pipe_of(scene: ResolvedDeck) -> Pipe:
     """Return the elements of a scene with the contents of its load case and its hydrodynamic coefficients."""
     table, around = scene.section_table, surroundings(scene.deck)
-    contents = _contents(scene)
+    filled = contents(scene)
+    inside = filled[-1].mass if filled else np.zeros(len(scene.element_ids))
     added, drag, given, with_buoyancy = _coefficients(scene)
     entries = [section.entry.section for section in table.sections]
     outer = picked((number(each, "do", number(each, "dd")) for each in entries), table.of_element)
@@ -56,34 +58,17 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     with np.errstate(all="ignore"):
         of_sections = [stiffnesses(scene.deck, section) for section in table.sections]
         return Pipe(
-            weight=scene.submerged_weight + contents * around.gravity,
+            weight=scene.submerged_weight + inside * around.gravity,
             mass=scene.mass_per_length,
-            contents=contents,
+            contents=inside,
             added_mass=added * around.density * math.pi / 4.0 * size * size,
             drag=0.5 * drag * around.density * drag_diameter,
             drag_coefficient=drag,
+            added_mass_coefficient=added,
             has_coefficients=given,
             bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
             axial=picked((each.axial for each in of_sections), table.of_element),
         )
-
-
-def _contents(scene: ResolvedDeck) -> Floats:
-    """Mass per length (m,) of what is in the elements whose middle is not above the level of the fluid."""
-    entries = [section.entry.section for section in scene.section_table.sections]
-    inner = picked((number(each, "di", 0.0) for each in entries), scene.section_table.of_element)
-    area = np.nan_to_num(math.pi / 4.0 * inner * inner)
-    ends = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]
-    density = np.zeros(len(area))
-    for _, block in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE"):
-        for entry in cast("InternalFluid", block).sets:
-            name = known_name(entry.set_name) if entry.set_name else "ALL"
-            holder = None if name is None else scene.set_table.find(name)
-            given, level = number(entry, "density", 0.0), number(entry, "level", math.inf)
-            if holder is not None:
-                rows = holder.elements
-                density[rows] = np.where(ends[rows].mean(axis=1) > level, 0.0, given)
-    return density * area
 
 
 def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask]:

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass, field
-from datetime import UTC, datetime
+from functools import reduce
 from hashlib import sha256
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,26 +39,39 @@ from mudline.model.results.totals import line_steps, reaction, states, totals
 from mudline.model.results.warnings import ContactWatch, caption
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Mask
+from mudline.model.scene.sheet import Sheet, sheet_of
 from mudline.tools.reporting.inferred import inferences
+from mudline.tools.reporting.inputs import inputs_of
 from mudline.tools.touchdown_study.rest_shape import rest_shape
 from mudline.tools.touchdown_study.study import Study, study
 
 FORMAT = "mudline-report/1"
-SECTIONS = ("verdict", "findings", "model", "curves", "contact", "study", "plan")
+SECTIONS = ("verdict", "findings", "inputs", "model", "curves", "contact", "study", "plan")
+BY_DEFAULT = tuple(name for name in SECTIONS if name != "study")
+"""A study takes seconds, and measures run times, which differ from run to run."""
 
 _NO_DECK = "the file holds no deck"
 
 
 class Given(NamedTuple):
-    """A file: its content, its name in messages, where files are that it names, and the time of its last change.
-
-    `modified` is in ns since 1970, None where that is not known.
-    """
+    """A file: its content, its name in messages, and where files are that it names."""
 
     data: bytes
     name: str
     folder: Path | None
-    modified: int | None
+
+
+class Document(NamedTuple):
+    """What a company calls a page: title (None for that of the deck), number, revision, date, and further fields."""
+
+    title: str | None = None
+    number: str | None = None
+    revision: str | None = None
+    date: str | None = None
+    fields: tuple[tuple[str, str], ...] = ()
+
+
+NO_DOCUMENT = Document()
 
 
 class Look(NamedTuple):
@@ -85,21 +98,27 @@ class Report:
     drawn: PlotData | None = None
     doubt: str = ""
     study: Study | None = None
+    sheet: Sheet | None = None
     at_rest: bool = False
     named: dict[str, str] = field(default_factory=dict)
     """The titles of the rules behind the findings, by code."""
 
 
 def report_on(
-    given: Given, settings: LintSettings, wanted: Collection[str], date: str | None = None, *, rest_shape: bool = False
+    given: Given,
+    settings: LintSettings,
+    wanted: Collection[str],
+    document: Document = NO_DOCUMENT,
+    *,
+    rest_shape: bool = False,
 ) -> Report:
-    """Read, judge and evaluate a deck as far as the wanted sections need it; `date` is written on the page.
+    """Read, judge and evaluate a deck as far as the wanted sections need it; `document` is written on the page.
 
     Never raises for content. With `rest_shape` contact is that of the resting shape, else of the deck's own
-    coordinates.
+    coordinates. Folders of this computer do not stand in it.
     """
     verdict, deck, context = _judged(given, settings)
-    head = _head(given, deck, verdict, date)
+    head = _head(given, deck, verdict, document)
     head["shown"] = [name for name in SECTIONS if name in wanted]
     made = Report(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
     found = head["sections"]
@@ -107,7 +126,9 @@ def report_on(
         found["findings"] = _findings(given, settings, context)
         made.named = _titles([one["code"] for one in (*found["findings"]["reported"], *found["findings"]["hidden"])])
     of_scene = [name for name in SECTIONS[2:] if name in wanted]
-    made.scene, missing = _scene(deck) if of_scene else (None, "")
+    made.scene, missing = _scene(deck) if of_scene or "verdict" in wanted else (None, "")
+    if made.scene is not None:
+        head["continues"] = [base.deck.file for base in made.scene.deck.bases]
     for name in of_scene:
         why = missing
         try:
@@ -120,7 +141,53 @@ def report_on(
     for one in (found.get("plan") or {}).get("stages", ()):
         if one["active"] and "(inferred)" in one["why"]:
             head["inferred"].append({"keyword": "", "fields": [one["stage"]], "inferred": one["why"], "blocks": 1})
+    if "verdict" in wanted:
+        head["figures"] = _figures(made, found.get("contact"), missing)
+    made.json = _without_folders(head, given)
     return made
+
+
+def _figures(made: Report, contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
+    """The five numbers of the contact that stand beside the verdict; `missing` says why there are none."""
+    if contact is None and made.scene is not None:
+        try:
+            contact = _as_json(_contact(made.scene, made))
+        except DeckError as error:
+            missing = _reason(error)
+    if contact is None:
+        return {"missing": missing}
+    lines = contact["lines"]
+    return {
+        "touchdown": [point["arc_length"] for line in lines for point in line["touchdown"]],
+        "contact_length": finite(sum(line["contact_length"] or 0.0 for line in lines)),
+        "length": finite(sum(line["length"] or 0.0 for line in lines)),
+        "depth": None if contact["deepest"] is None else contact["deepest"]["depth"],
+        "reaction": contact["reaction"],
+        "ratio": contact["ratio"],
+        "weights_without": contact["weights_without"],
+        "warnings": sorted({one["code"] for one in contact["warnings"]}),
+        "missing": "",
+    }
+
+
+def _without_folders(value: Any, given: Given) -> Any:  # noqa: ANN401 - whatever JSON holds
+    """A value in which files stand by their names alone: where they are differs from computer to computer."""
+    words = {given.name: PurePath(given.name).name}
+    if given.folder is not None and given.folder.name:
+        whole = given.folder.absolute().as_posix()
+        words |= {f"{whole}/": "", whole: "the folder of the deck", f"{given.folder.as_posix()}/": ""}
+    longest_first = sorted(words.items(), key=lambda one: -len(one[0]))
+
+    def plain(each: Any) -> Any:  # noqa: ANN401 - as above
+        if isinstance(each, dict):
+            return {key: plain(one) for key, one in each.items()}
+        if isinstance(each, list):
+            return [plain(one) for one in each]
+        if isinstance(each, str):
+            return reduce(lambda text, one: text.replace(*one), longest_first, each)
+        return each
+
+    return plain(value)
 
 
 def _as_json(value: Any) -> Any:  # noqa: ANN401 - whatever JSON holds
@@ -138,6 +205,10 @@ def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:
     if name == "study":
         made.study = study(scene)
         return made.study.json() | {"notes": made.study.notes}
+    if name == "inputs":
+        made.sheet = sheet_of(scene)
+        rows, without = list(made.sheet.rows), list(made.sheet.left_out)
+        return {"inputs": inputs_of(scene), "sheet": rows, "weights_without": without}
     return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
 
 
@@ -150,17 +221,19 @@ def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None,
     return judge(context).verdict, deck, context
 
 
-def _head(given: Given, deck: Deck | None, verdict: Verdict, date: str | None) -> dict[str, Any]:
+def _head(given: Given, deck: Deck | None, verdict: Verdict, document: Document) -> dict[str, Any]:
     """Which deck, in which state, by which program."""
-    when = None if given.modified is None else datetime.fromtimestamp(given.modified // 10**9, UTC)
     return {
         "format": FORMAT,
         "deck": given.name,
         "sha256": sha256(given.data).hexdigest(),
         "bytes": len(given.data),
-        "modified": None if when is None else when.strftime("%Y-%m-%d %H:%M:%S UTC"),
         "version": __version__,
-        "date": date,
+        "document": document._asdict()
+        | {
+            "title": document.title or ("" if deck is None else _title(deck)),
+            "fields": [{"name": name, "value": value} for name, value in document.fields],
+        },
         "units": None if deck is None else deck.units,
         "continues": [] if deck is None else [base.deck.file for base in deck.bases],
         "verdict": asdict(verdict) | {"sentence": verdict.keywords.sentence()},
@@ -168,6 +241,13 @@ def _head(given: Given, deck: Deck | None, verdict: Verdict, date: str | None) -
         "sections": {},
         "missing": {},
     }
+
+
+def _title(deck: Deck) -> str:
+    """The first line of a `*TITLE`; "" without one."""
+    blocks = (block for section in deck.own_sections for block in section.blocks if block.keyword == "TITLE")
+    lines = (line.strip() for block in blocks for line in getattr(block, "lines", ()))
+    return next(filter(None, lines), "")
 
 
 def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
@@ -236,7 +316,7 @@ def _titles(codes: Collection[str]) -> dict[str, str]:
 def _model(scene: Scene) -> dict[str, Any]:
     found = summarise(scene)
     names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions")
-    return {name: found[name] for name in names} | {"keywords": found["sections"]}
+    return {name: found[name] for name in (*names, "weights_without")} | {"keywords": found["sections"]}
 
 
 def _curves(scene: Scene) -> dict[str, Any]:
@@ -307,10 +387,12 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "laws": [each._asdict() for each in totals(evaluation, part)],
         "reaction": finite(reaction(evaluation, result)),
         "weight": None if watch.balance is None else finite(watch.balance.weight),
+        "empty_weight": None if watch.balance is None else finite(watch.balance.empty),
+        "weights_without": evaluation.weights_without,
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
         "positions": evaluation.source,
-        "notes": list(evaluation.notes),
+        "notes": [*evaluation.notes, *filter(None, [watch.note()])],
         "lines": [row.row() for row in line_steps(evaluation, part)],
         "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
         "warnings": [one.row() for one in warnings],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,12 +12,20 @@ import jinja2
 from jinja2.sandbox import SandboxedEnvironment
 from markupsafe import Markup
 
-from mudline.basics.quantities import shown, unit_names
+from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.output import visible
 from mudline.tools.reporting.content import Look, Report
 from mudline.tools.reporting.pictures import Picture
-from mudline.tools.reporting.tables import LONGEST, TABLES, study_tables
+from mudline.tools.reporting.tables import (
+    DETAILS,
+    LONGEST,
+    TABLES,
+    figure_table,
+    four_digits,
+    input_tables,
+    study_tables,
+)
 from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
@@ -36,7 +44,13 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
     given = report.json
     sections = given["sections"]
     names = unit_names(given["units"])
-    tables = {name: list(shape(sections[name], names)) for name, shape in TABLES.items() if sections.get(name)}
+    tables, details = (
+        {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
+        for each in (TABLES, DETAILS)
+    )
+    if found := sections.get("inputs"):
+        tables["inputs"] = list(input_tables(found, report.sheet, given["deck"], given["units"]))
+    figures = given.get("figures")
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(
@@ -44,14 +58,35 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
         "page.html",
         report=given,
         tables=tables,
+        details=details,
+        figures=figure_table(figures, names) if figures and not figures["missing"] else None,
+        head=_css_text(_head_words(given)),
+        hash=_css_text(f"SHA-256 {given['sha256'][:_SHORT_HASH]}"),
         study_texts=_study_texts(report),
-        findings=_groups(report, "reported"),
+        findings=_groups(report, "reported", lambda severity: severity != "info"),
+        infos=_groups(report, "reported", lambda severity: severity == "info"),
         hidden=_groups(report, "hidden"),
         rules=report.named,
         pictures=[one._replace(markup=Markup(one.markup)) for one in pictures],  # noqa: S704 - made from our figures
         pictures_left=left_out,
         most=MOST_FINDINGS,
     )
+
+
+_SHORT_HASH = 16
+
+
+def _head_words(given: dict[str, Any]) -> str:
+    """Document, revision and deck, as they stand at the head of every page in print."""
+    document = given["document"]
+    revision = f"revision {document['revision']}" if document["revision"] else None
+    return ", ".join(filter(None, [document["number"], revision, given["deck"]]))
+
+
+def _css_text(text: str) -> Markup:
+    """A text in quotes for the style of a page, in which only letters and digits stand for themselves."""
+    plain = (one if one.isascii() and one.isalnum() else f"\\{ord(one):x} " for one in visible(text))
+    return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and numbers of others
 
 
 def _study_texts(report: Report) -> list[str]:
@@ -97,8 +132,8 @@ def _finalized(value: object) -> object:
     return visible(value) if type(value) is str else "" if value is None else value
 
 
-def _number(value: str | float | None) -> str:
-    return value if isinstance(value, str) else shown(value)
+def _number(value: object) -> str:
+    return four_digits(value) if isinstance(value, float) else "" if value is None else str(value)
 
 
 _LOGOS = {".svg": ("image/svg+xml", (b"<",)), ".png": ("image/png", (b"\x89PNG",))}
@@ -132,12 +167,13 @@ class Shown(NamedTuple):
     lines: Sequence[tuple[int, str]]
 
 
-def _groups(report: Report, kind: str) -> list[tuple[str, list[Shown]]]:
-    """The first findings by section of the deck."""
+def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _: True) -> list[tuple[str, list[Shown]]]:
+    """The first findings by section of the deck, of the severities that are wanted."""
     found = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
     rows = [
         Shown(number, one | {"message": cut(one["message"], LONGEST)}, _lines(report, one["line"]))
         for number, one in enumerate(found, 1)
+        if wanted(one["severity"])
     ]
     return [(name, list(group)) for name, group in groupby(rows, key=lambda one: str(one.found["section"]))]
 

@@ -9,9 +9,19 @@ from mudline.basics.display import Cell, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, labelled, shown
 from mudline.basics.short_repr import counted, cut
-from mudline.model.results.summary_tables import OPEN, diameter_table, elements_of, law_table, set_table, static_table
+from mudline.model.results.sheet_tables import sheet_tables
+from mudline.model.results.summary_tables import (
+    OPEN,
+    diameter_table,
+    elements_of,
+    law_table,
+    set_table,
+    static_table,
+    weight_note,
+)
 from mudline.model.results.totals import NOT_KNOWN, touchdown_words
 from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.sheet import Sheet
 from mudline.tools.touchdown_study.screen import TABLES as STUDY_TABLES
 from mudline.tools.touchdown_study.study import Study
 
@@ -45,6 +55,7 @@ def _on_page(
     numeric: Collection[int] = (),
 ) -> Table:
     """A table of at most so many rows, of which each has an anchor if wanted; longer texts are cut."""
+    table = table.filled()
     rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
     note = " ".join(filter(None, (_more(len(rows) - most, "row"), table.note)))
     names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
@@ -56,14 +67,60 @@ def _more(count: int, what: str) -> str:
     return f"{counted(count, f'more {what}')}: the JSON of this report has all" if count > 0 else ""
 
 
+def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
+    """Return the five numbers beside the verdict as a table of one row."""
+    places = [float(four_digits(place)) for place in found["touchdown"]]
+    words = touchdown_words(places, found["contact_length"], found["length"], _MOST_TOUCHDOWNS)
+    doubt = f"warnings about these numbers: {', '.join(found['warnings'])}" if found["warnings"] else ""
+    notes = filter(None, [weight_note(found["weights_without"]), doubt])
+    columns = (
+        number("touchdown at arc length", lambda _: words, names.length),
+        number("length in contact", "contact_length", names.length),
+        number("largest penetration", "depth", names.length),
+        number("total reaction", lambda _: _known(found["reaction"]), names.force),
+        number("reaction over submerged weight", "ratio"),
+    )
+    table = DisplayTable("Contact in five numbers", columns, [found], "; ".join(notes))
+    return _on_page(table, numeric=range(5))
+
+
+def four_digits(value: float | None) -> str:
+    """Return a number with four significant digits, without an exponent below ten million; "" for None."""
+    text = shown(value, 4)
+    return f"{float(text):.0f}" if "e+" in text and value is not None and abs(value) < _PLAIN else text
+
+
+_PLAIN = 1e7
+
+
+def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[Table]:
+    """Yield the inputs of a deck and of those that it continues, and the sheet of the elements."""
+    columns = (
+        text("section", "section"),
+        text("keyword", lambda one: f"*{one['keyword']}"),
+        text("values", "values"),
+        text("line", lambda one: str(one["line"]) if one["file"] == deck else f"{one['line']} of {one['file']}"),
+    )
+    yield _on_page(
+        DisplayTable("Water, conditions, loads, vessels and times", columns, found["inputs"]),
+        MOST_CURVES,
+        longest=LONGEST,
+    )
+    for table in () if sheet is None else sheet_tables(sheet, units):
+        yield _on_page(table, 2 * SHOWN_ROWS)
+
+
 def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    yield _on_page(static_table(found["static_embedment"], names, found["weights_without"], first=False))
+
+
+def _model_details(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
     counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
     yield _on_page(DisplayTable("Size", _FIGURES, counts), numeric={1})
     yield _on_page(set_table(found["sets"], names), MOST_CURVES, numeric={1})
     yield _on_page(diameter_table(found["diameters"], names))
-    yield _on_page(static_table(found["static_embedment"], names, first=False, stiffness=names.stiffness))
     keywords = [(section["name"], one) for section in found["keywords"] for one in section["keywords"]]
     columns = (
         text("section", lambda row: f"${row[0]}"),
@@ -80,7 +137,7 @@ def _extent(keyword: dict[str, Any]) -> str:
     return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
 
 
-def _curves(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     columns = (
         text("law", lambda one: cut(one["law"], LONGEST_NAME)),
         text("set", lambda one: cut(one["set"], LONGEST_NAME)),
@@ -91,15 +148,22 @@ def _curves(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     note = OPEN if any(one["open"] for one in found["laws"]) else ""
     laws = DisplayTable("Laws and resistance by set", columns, found["laws"], note)
     yield _on_page(laws, MOST_CURVES, "law", LONGEST, numeric={2})
+
+
+def _curve_points(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     for place, row in enumerate(found["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [one["slope"] for one in row["segments"]]
         points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
         caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
+        of_seabed = row["kind"] == OF_SEABED
         ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
-        unit = names.line_force if row["kind"] == OF_SEABED else ""
-        of_points = (number(over, 0), number(value, 1, unit), number("slope to the next", 2, unit))
-        yield _on_page(DisplayTable(caption + ends, of_points, points))._replace(anchor=f"curve-{place}")
+        own = ["", names.line_force] if of_seabed else [one.replace("-", "") for one in row.get("units", ["", ""])]
+        slope = [number("slope to the next", 2, own[1])] if of_seabed else []
+        of_points = (number(over, 0, own[0]), number(value, 1, own[1]), *slope)
+        yield _on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
+            anchor=f"curve-{place}"
+        )
     yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
 
 
@@ -119,14 +183,19 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     figures = [
         (labelled("total reaction", names.force), _known(found["reaction"])),
-        (labelled("submerged weight of the elements in contact", names.force), found["weight"]),
-        ("reaction over weight", found["ratio"]),
+        (
+            labelled("submerged weight of the elements in contact, with contents and masses", names.force),
+            found["weight"],
+        ),
+        (labelled("the same, empty", names.force), found["empty_weight"]),
+        ("reaction over weight with contents", found["ratio"]),
     ]
     if deepest := found["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
     shape = "the resting shape" if found["positions"] == "rest shape" else "the deck's own coordinates"
-    yield _on_page(DisplayTable(f"Equilibrium of {shape}", _FIGURES, figures, " ".join(found["notes"])))
+    notes = [weight_note(found["weights_without"]), *found["notes"]]
+    yield _on_page(DisplayTable(f"Equilibrium of {shape}", _FIGURES, figures, "; ".join(filter(None, notes))))
     yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
@@ -135,14 +204,19 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         number("length in contact", "contact_length", names.length),
         number("largest force", lambda one: (one["largest_force"] or {}).get("force"), names.line_force),
         number("reaction", lambda one: _known(one["reaction"]), names.force),
-        number("over weight", "ratio"),
+        number("weight", "submerged_weight", names.force),
+        number("weight, empty", "empty_weight", names.force),
+        number("ratio", "ratio"),
     ]
-    yield _on_page(DisplayTable("Touchdown", columns, found["lines"]))
-    columns = [text("law", "law"), text("state", "state"), number("count", "count")]
-    yield _on_page(DisplayTable("States", columns, found["states"]))
+    yield _on_page(DisplayTable("Touchdown", columns, found["lines"], weight_note(found["weights_without"])))
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = found["warnings"][:SHOWN_ROWS]
     yield _on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
+
+
+def _states(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+    columns = [text("law", "law"), text("state", "state"), number("count", "count")]
+    yield _on_page(DisplayTable("States", columns, found["states"]))
 
 
 def _known(reaction: float | None) -> float | str:
@@ -180,6 +254,13 @@ TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
     "model": _model,
     "curves": _curves,
     "contact": _contact,
-    "plan": _plan,
 }
 """What makes the tables of a section."""
+
+DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+    "model": _model_details,
+    "curves": _curve_points,
+    "contact": _states,
+    "plan": _plan,
+}
+"""What makes the tables of a section that stand in the appendix."""

@@ -1,0 +1,69 @@
+"""The sheet of a deck as tables for people, and as data for CSV, JSON and workbooks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mudline.basics.display import Cell, DisplayColumn, DisplayTable, text
+from mudline.model.contact.columns import Column
+from mudline.model.results.forms import Tables
+from mudline.model.results.summary_tables import weight_note
+from mudline.model.scene.sheet import AROUND, PIPE, RUN, WEIGHTS, Sheet, SheetColumn
+
+SHEET_FORMAT = "mudline-sheet/1"
+
+_UNKNOWN = {"mass", "filled_mass", "empty_weight", "filled_weight"}
+_GAPS = {**dict.fromkeys(("section", "drag", "added_mass", "law"), "none"), **dict.fromkeys(_UNKNOWN, "unknown")}
+"""Columns of the sheet where no value is a gap of the deck, and what stands there."""
+_WORDS = {"section", "law"}
+
+
+def sheet_tables(sheet: Sheet, units: str) -> list[DisplayTable]:
+    """Return the sheet for people: pipe, weights, what is around it, and other load cases if there are any."""
+    spare = [one for one in sheet.columns if one not in (*RUN, *PIPE, *WEIGHTS, *AROUND)]
+    parts = {
+        "pipe": PIPE,
+        "mass and submerged weight": WEIGHTS,
+        "stiffness, water and seabed": AROUND,
+        "other load cases": spare,
+    }
+    tables = []
+    for title, part in parts.items():
+        columns = [text("elements", _elements), *(_sheet_column(one, units) for one in part)]
+        tables += [DisplayTable(f"Sheet: {title}", columns, sheet.rows)] if part and sheet.rows else []
+    if tables:
+        tables[1] = replace(tables[1], note=weight_note(sheet.left_out))
+    return tables
+
+
+def _elements(row: dict[str, Any]) -> str:
+    first, last = row["first_element"], row["last_element"]
+    return str(first) if first == last else f"{first} to {last}"
+
+
+def _sheet_column(one: SheetColumn, units: str) -> DisplayColumn:
+    def cell(row: dict[str, Any]) -> Cell:
+        value: Cell = row[one.key]
+        return (_GAPS[one.key], "bold yellow") if value is None and one.key in _GAPS else value
+
+    is_bare = one.key in {"masses_at_nodes", "stiffness"}
+    return DisplayColumn(one.heading, cell, one.unit(units), left=one.key in _WORDS, optional=is_bare)
+
+
+def sheet_data(sheet: Sheet, units: str) -> Tables:
+    """Return the sheet as a table for files, whose `left_out` and `unit_of` are beside it in JSON."""
+    columns = [_data(one, [row[one.key] for row in sheet.rows], units) for one in sheet.columns]
+    unit_of = {one.name: one.unit or None for one in columns}
+    return Tables({"sheet": columns}, SHEET_FORMAT, units, {"left_out": list(sheet.left_out), "unit_of": unit_of})
+
+
+def _data(one: SheetColumn, values: list[Any], units: str) -> Column:
+    if one.key in _WORDS:
+        names = tuple(dict.fromkeys(value for value in values if value is not None))
+        codes = [-1 if value is None else names.index(value) for value in values]
+        return Column(one.key, np.array(codes, np.int32), (*names, None))
+    dtype = np.int64 if one in RUN else np.float64  # None is NaN, which is no value
+    return Column(one.key, np.array(values, dtype), unit=one.unit(units))

@@ -1,0 +1,164 @@
+"""The sheet of a deck: a row for each run of elements with the same section, water, seabed and contents."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import finite
+from mudline.language.keywords.format import unit_text
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.numbering import Floats, Indices, picked
+from mudline.model.scene.pipe import pipe_of
+from mudline.model.scene.resolved import ResolvedDeck
+from mudline.model.scene.sections import stiffnesses, surroundings
+from mudline.model.scene.weights import attached, contents, left_out
+
+Value = str | int | float | None
+
+
+class SheetColumn(NamedTuple):
+    """A column: its key, its heading for people, and the dimension of its values as that of a field, "" for none."""
+
+    key: str
+    heading: str
+    dimension: str = ""
+
+    def unit(self, units: str) -> str:
+        """The unit in a deck's units; "" in the user's own, and where there is none."""
+        return unit_text(self.dimension, units) if self.dimension and units != "user" else ""
+
+
+class Sheet(NamedTuple):
+    """Columns, a value for each in every row (None where the deck gives none), and what is left out of the weights."""
+
+    columns: Sequence[SheetColumn]
+    rows: Sequence[dict[str, Value]]
+    left_out: Sequence[str]
+
+
+PIPE = (
+    SheetColumn("section", "section"),
+    SheetColumn("length", "length", "L"),
+    SheetColumn("outer_diameter", "outer\ndiameter", "L"),
+    SheetColumn("inner_diameter", "inner\ndiameter", "L"),
+    SheetColumn("diameter_over_wall", "D/t"),
+)
+"""Columns of the sheet about the pipe."""
+WEIGHTS = (
+    SheetColumn("mass", "mass,\nempty", "M/L"),
+    SheetColumn("contents", "contents", "M/L3"),
+    SheetColumn("filled_mass", "mass,\nfilled", "M/L"),
+    SheetColumn("masses_at_nodes", "masses\nat nodes", "M"),
+    SheetColumn("empty_weight", "weight,\nempty", "F/L"),
+    SheetColumn("filled_weight", "weight,\nfilled", "F/L"),
+)
+"""Columns about mass and submerged weight; contents are those of the last load case."""
+AROUND = (
+    SheetColumn("bending", "EI", "FL2"),
+    SheetColumn("axial", "EA", "F"),
+    SheetColumn("drag", "Cd"),
+    SheetColumn("added_mass", "Ca"),
+    SheetColumn("law", "seabed law"),
+    SheetColumn("stiffness", "stiffness", "F/L2"),
+    SheetColumn("axial_friction", "friction\nalong"),
+    SheetColumn("lateral_friction", "friction\nacross"),
+)
+"""Columns about stiffness, water and seabed; `stiffness` is that of a linear law."""
+RUN = (
+    SheetColumn("first_element", "first\nelement"),
+    SheetColumn("last_element", "last\nelement"),
+    SheetColumn("elements", "elements"),
+)
+"""Columns of each run: the elements at its ends, and how many there are."""
+
+
+def sheet_of(scene: ResolvedDeck) -> Sheet:
+    """Return the sheet of a deck, in its units, in the order of its elements.
+
+    A run ends where a value changes, and where an element is not joined to the one before. Of load cases in which the
+    contents are others than in the last one there are two more columns each.
+    """
+    table = scene.section_table
+    with np.errstate(all="ignore"):  # values of a deck may overflow, which is no value
+        numbers, others = _numbers(scene)
+        masses = attached(scene).mass * scene.length
+        kinds = np.column_stack([table.of_element, scene.law, scene.laws.of_element, scene.replacing])
+        rows = []
+        for first, end in _runs(scene, np.column_stack([kinds, *numbers.values()])):
+            section = int(table.of_element[first])
+            rows.append(
+                {
+                    "first_element": int(scene.element_ids[first]),
+                    "last_element": int(scene.element_ids[end - 1]),
+                    "elements": end - first,
+                    "section": table.sections[section].name if section >= 0 else None,
+                    "length": finite(float(scene.length[first:end].sum())),
+                    "masses_at_nodes": finite(float(masses[first:end].sum())) or None,
+                    "law": None if scene.law[first] == LawKind.NONE else scene.law_names[first],
+                }
+                | {key: finite(float(values[first])) for key, values in numbers.items()}
+            )
+    columns = [*RUN, *PIPE, *WEIGHTS, *AROUND, *others]
+    ordered = [{column.key: row[column.key] for column in columns} for row in rows]
+    return Sheet(columns, ordered, left_out(scene))
+
+
+def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]:
+    """The values (m,) of all elements by column, and the columns of other load cases."""
+    table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
+    entries = [section.entry.section for section in table.sections]
+    inner = picked((number(each, "di") or np.nan for each in entries), table.of_element)
+    own = [stiffnesses(scene.deck, section) for section in table.sections]
+    friction = _friction(scene)
+    last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
+    found = {
+        "outer_diameter": scene.diameter,
+        "inner_diameter": inner,
+        "diameter_over_wall": 2.0 * scene.diameter / (scene.diameter - inner),
+        "mass": scene.mass_per_length,
+        "empty_weight": scene.submerged_weight,
+        "contents": last,
+        "filled_mass": scene.mass_per_length + pipe.contents,
+        "filled_weight": pipe.weight,
+        "bending": picked((each.bending for each in own), table.of_element),
+        "axial": picked((each.axial for each in own), table.of_element),
+        "drag": np.where(pipe.has_coefficients, pipe.drag_coefficient, np.nan),
+        "added_mass": np.where(pipe.has_coefficients, pipe.added_mass_coefficient, np.nan),
+        "stiffness": np.where(scene.law == LawKind.LINEAR, scene.law_arrays().linear_stiffness, np.nan),
+        "axial_friction": friction[:, 0],
+        "lateral_friction": friction[:, 1],
+    }
+    others = []
+    for one in filled[:-1]:
+        if (one.density != last).any():
+            case = f"load case {one.number}"
+            dense = SheetColumn(f"contents_load_case_{one.number}", f"contents,\n{case}", "M/L3")
+            heavy = SheetColumn(f"weight_load_case_{one.number}", f"weight,\n{case}", "F/L")
+            others += [dense, heavy]
+            found[dense.key] = one.density
+            found[heavy.key] = scene.submerged_weight + one.mass * surroundings(scene.deck).gravity
+    return found, others
+
+
+def _friction(scene: ResolvedDeck) -> Floats:
+    """Coefficients along and across (m, 2): those of `*SEABED FRICTION`, else of the seabed's properties."""
+    found = scene.resistance.column("friction")
+    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
+        own = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
+        found = np.where((extension.of_element >= 0)[:, None], np.column_stack(own), found)
+    return found
+
+
+def _runs(scene: ResolvedDeck, values: Floats) -> list[tuple[int, int]]:
+    """First elements and ends of the runs of rows (m, k) that are the same and follow each other along a line."""
+    if not len(values):
+        return []
+    same = (values[1:] == values[:-1]) | (np.isnan(values[1:]) & np.isnan(values[:-1]))
+    ends: Indices = scene.element_nodes
+    joined = (ends[1:, :, None] == ends[:-1, None, :]).any(axis=(1, 2)) & (np.diff(scene.element_ids) > 0)
+    starts = np.flatnonzero(np.append(True, ~(same.all(axis=1) & joined)))
+    return list(zip(starts.tolist(), [*starts.tolist()[1:], len(values)], strict=True))

@@ -1,0 +1,140 @@
+"""What weighs beside the sections of a deck: contents by load case, masses at nodes, and what no figure has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.language.deck.parameters import bare, folded
+from mudline.language.diagnostics import Where
+from mudline.language.keywords.unknown import known_name
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.numbering import Floats, picked
+from mudline.model.scene.sections import surroundings
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.attachments import Masses, PointMass
+    from mudline.language.keywords.library.loads import InternalFluid
+    from mudline.language.keywords.library.mesh import Labels
+    from mudline.model.scene.resolved import ResolvedDeck
+
+
+class Contents(NamedTuple):
+    """What is in the elements (m,) in a load case, in the deck's units; 0 where nothing is.
+
+    `number` counts the load cases of the file from 1. `mass` is per length of pipe. What an earlier load case fills
+    stays as it is until a later one fills it anew.
+    """
+
+    number: int
+    where: Where
+    density: Floats
+    mass: Floats
+
+
+def contents(scene: ResolvedDeck) -> list[Contents]:
+    """Return the contents in each load case of the deck itself; none where `*INTERNAL FLUID` fills no pipe.
+
+    An element is full or empty: full where its middle is not above the level of the fluid.
+    """
+    if not any(True for _ in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE")):
+        return []
+    entries = [section.entry.section for section in scene.section_table.sections]
+    inner = picked((number(each, "di", 0.0) for each in entries), scene.section_table.of_element)
+    area = np.nan_to_num(math.pi / 4.0 * inner * inner)
+    middle = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes].mean(axis=1)
+    density = np.zeros(len(area))
+    found: list[Contents] = []
+    for index, section in enumerate(scene.deck.own_sections):
+        if section.name != "LOAD CASE":
+            continue
+        density = density.copy()
+        for where, block in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE"):
+            if where.section == index:
+                _fill(scene, cast("InternalFluid", block), middle, density)
+        with np.errstate(over="ignore"):
+            found.append(Contents(len(found) + 1, Where(index), density, density * area))
+    return found
+
+
+def _fill(scene: ResolvedDeck, fluid: InternalFluid, middle: Floats, density: Floats) -> None:
+    for entry in fluid.sets:
+        name = known_name(entry.set_name) if entry.set_name else "ALL"
+        holder = None if name is None else scene.set_table.find(name)
+        given, level = number(entry, "density", 0.0), number(entry, "level", math.inf)
+        if holder is not None:
+            density[holder.elements] = np.where(middle[holder.elements] > level, 0.0, given)
+
+
+class Attached(NamedTuple):
+    """Masses of `*MASS` at the nodes of elements (m,), per length of them; `weighing` without those of no weight."""
+
+    weighing: Floats
+    mass: Floats
+
+
+def attached(scene: ResolvedDeck) -> Attached:
+    """Return the masses at nodes, each shared by the elements that end there in equal parts; inertia is none."""
+    at_nodes = np.zeros((2, len(scene.node_ids) + 1))
+    for one, node in _masses(scene):
+        if node is not None:
+            at_nodes[one.type_ == "NO WEIGHT MASS" :, node] += number(one, "mass", 0.0)
+    if not at_nodes.any():
+        nothing = np.zeros(len(scene.element_ids))
+        return Attached(nothing, nothing)
+    ends = np.where(scene.element_nodes < 0, len(scene.node_ids), scene.element_nodes)
+    with np.errstate(all="ignore"):
+        shares = at_nodes / np.bincount(ends.ravel(), minlength=at_nodes.shape[1])
+        per_length = np.where(scene.length > 0.0, shares[:, ends].sum(axis=2) / scene.length, 0.0)
+    return Attached(*np.nan_to_num(per_length, posinf=0.0))
+
+
+def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
+    """Yield each mass that is no rotary inertia, with the index of its node; None where that is not known."""
+    labels = {
+        folded(bare(line.label)): line.node.number
+        for _, block in scene.deck.blocks("LABEL")
+        for line in cast("Labels", block).labels
+        if line.node is not None and line.label
+    }
+    for _, block in scene.deck.blocks("MASS"):
+        for one in cast("Masses", block).masses:
+            if one.type_ != "ROTARY INERTIA":
+                given = labels.get(folded(bare(one.node))) if isinstance(one.node, str) else one.node
+                known = scene.nodes.indices(np.array([given]))[0] if isinstance(given, int) else -1
+                yield one, int(known) if known >= 0 else None
+
+
+def operating_weight(scene: ResolvedDeck) -> Floats:
+    """Submerged weight per length (m,) with the contents of the last load case and with masses at nodes.
+
+    In the deck's units; NaN where it is not known.
+    """
+    mass = attached(scene).weighing
+    for one in contents(scene)[-1:]:
+        mass = mass + one.mass
+    with np.errstate(over="ignore", invalid="ignore"):
+        return (
+            scene.submerged_weight + mass * surroundings(scene.deck).gravity if mass.any() else scene.submerged_weight
+        )
+
+
+_WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS")
+"""Keywords whose weight or lift no figure has: what public pages say of them is not enough."""
+
+
+def left_out(scene: ResolvedDeck) -> list[str]:
+    """Return what the deck has that weighs or lifts, and that has no part in `operating_weight`, as `*NAME`."""
+    deck, unread = scene.deck, scene.context.unread
+    given = deck.keywords() | deck.keywords("LOAD CASE")
+    found = [f"*{name}" for name in _WEIGHING if name in given]
+    found += [f"*{name} (in part)" for name in ("MASS", "INTERNAL FLUID") if name in unread]
+    if "*MASS (in part)" not in found and any(node is None for _, node in _masses(scene)):
+        found.append("*MASS (in part)")
+    before = {base.deck.file for base in deck.bases if "INTERNAL FLUID" in base.deck.keywords("LOAD CASE")}
+    if before and "INTERNAL FLUID" not in given:
+        found.append("*INTERNAL FLUID of the deck that it continues")
+    return found

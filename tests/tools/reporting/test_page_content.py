@@ -1,0 +1,108 @@
+"""The page to sign: its document block, inputs and numbers, and what it says beside them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from tests.cli.runner import run
+from tests.helpers.samples import SAMPLES
+from tests.tools.reporting.pages import ON_SOIL, Page, checked, made, row_of
+
+
+def test_the_document_block_and_its_place_in_print(tmp_path: Path) -> None:
+    words = (
+        "--title",
+        "Riser <A>",
+        "--document",
+        "P-001",
+        "--revision",
+        "B",
+        "--field",
+        "Client=A = B",
+        "--field",
+        "Job=7",
+    )
+    text = made(tmp_path, str(SAMPLES / "legacy-flowline.keyxm"), *words, sections="verdict")
+    page = checked(text)
+    assert "<h1>Riser &lt;A&gt;</h1>" in text
+    block = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", text)
+    assert block[:4] == [("Document", "P-001"), ("Revision", "B"), ("Client", "A = B"), ("Job", "7")]
+    (head,) = re.findall(r'@top-left \{ content: "(.*?)"; \}', text)
+    assert (
+        re.sub(r"\\([0-9a-f]+) ", lambda code: chr(int(code[1], 16)), head)
+        == "P-001, revision B, legacy-flowline.keyxm"
+    )
+    assert page.ids.index("verdict") < page.ids.index("sign") < page.ids.index("interpretation")
+    assert "--field 'Client'" in run("report", "x.keyxm", "-o", "x.html", "--field", "Client").err
+
+
+def test_the_title_of_a_deck_is_that_of_its_page(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text("$MODEL\n*TITLE\n Deep riser\n" + ON_SOIL.removeprefix("$MODEL\n"), encoding="utf-8")
+    assert "<h1>Deep riser</h1>" in made(tmp_path, str(deck), sections="verdict")
+
+
+def test_folders_of_this_computer_do_not_stand_on_the_page(tmp_path: Path) -> None:
+    deck = tmp_path / "decks" / "deck.keyxm"
+    deck.parent.mkdir()
+    deck.write_text(ON_SOIL + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n", encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert "'none.txt' was not found (looked in the folder of the deck)" in Page(text).text
+    assert str(tmp_path) not in text
+
+
+def test_a_deck_that_continues_another_says_so_and_has_its_inputs(tmp_path: Path) -> None:
+    (tmp_path / "base.keyxm").write_text(ON_SOIL + "*OCEAN\n 120.0, 1025.0, 9.81\n", encoding="utf-8")
+    deck = tmp_path / "next.keyxm"
+    case = "$LOAD CASE\n*RESTART\n LAST=base\n TYPE=STATIC\n*WAVE-REGULAR\n 6.0, 10.0, 180.0\n"
+    deck.write_text(case, encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert "<dt>Continues</dt><dd>base.keyxm</dd>" in text
+    assert row_of(text, "$LOAD CASE").endswith("*RESTART | LAST=base; TYPE=STATIC | 2")
+    assert "<td>amplitude 6 m, period 10 s, direction 180 deg</td><td>5</td>" in text
+    assert "<td>depth 120 m; density 1025 kg/m3; gravity 9.81 m/s2</td><td>37 of base.keyxm</td>" in text
+
+
+def test_the_page_has_the_qualifications_of_evaluate(tmp_path: Path) -> None:
+    deck = str(SAMPLES / "scr-vessel.keyxm")
+    said = run("evaluate", deck).err.removeprefix("mudline: ").strip()
+    text = made(tmp_path, deck)
+    assert said in Page(text).text
+    assert (
+        Page(text).text.count("weights without *DRAG CHAIN") == 5
+    )  # figures, sheet, embedment, equilibrium, touchdown
+    assert '<td>the same, empty [N]</td><td class="number">283600</td>' in text
+
+
+def test_five_numbers_beside_the_verdict(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="verdict")
+    assert row_of(text, "305.1") == "305.1 | 305.1 | 0.0366 | 283300 | 0.7325"
+    text = made(tmp_path, str(SAMPLES / "full-cycle.keyxm"), sections="verdict")
+    (codes,) = re.findall("warnings about these numbers: (.*?)</p>", text)
+    warned = run("evaluate", str(SAMPLES / "full-cycle.keyxm")).err
+    assert all(code in warned for code in codes.split(", "))
+    laid = tmp_path / "deck.keyxm"
+    laid.write_text(ON_SOIL.replace(" 11, 3, 4\n", "").replace(" SET=Free\n 11\n", " SET=Free\n"), encoding="utf-8")
+    assert "all on the seabed | 10 | 0.01 |" in row_of(
+        made(tmp_path, str(laid), sections="verdict"), "all on the seabed"
+    )
+
+
+def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="inputs")
+    assert "TYPE=VESSEL, not read: 157, Semi" in text
+    assert "elevation [m], velocity [m/s], direction [deg]: 0, 0.1, 180 / 400, 0.25, 180 / 800, 1.1, 180" in text
+    assert row_of(text, "41 to 110") == "41 to 110 | Touchdown | 300 | 0.2731 | 0.2223 | 10.75"
+    weights = text[text.index("Sheet: mass and submerged weight") :]
+    assert row_of(weights, "41 to 110") == "41 to 110 | 155.1 | 820 | 186.9 |  | 932.7 | 1245"
+    assert '<td class="gap">none</td>' in text
+
+
+def test_findings_that_inform_stand_in_the_appendix(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(ON_SOIL.replace("*SEABED STIFFNESS", "*seabed stiffness"), encoding="utf-8")
+    page = checked(made(tmp_path, str(deck), sections="findings"))
+    number = next(one for one in page.ids if one.startswith("finding-"))
+    assert page.ids.index("appendix") < page.ids.index("infos") < page.ids.index(number)
+    assert page.headings.count(4) == 1
