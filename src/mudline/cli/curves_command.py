@@ -141,8 +141,8 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
             _print_static(printer, row, names)
     for row in rows:
         if row["kind"] != OF_SEABED:
-            ends = _OF_WATER if row["kind"] == OF_CURRENT else ENDS[row["ends"]]
-            title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points, {ends}"
+            beyond = _OF_WATER if row["kind"] == OF_CURRENT else ENDS[row["ends"]]
+            title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points, {beyond}"
             units = [unit if names.length and unit != "-" else "" for unit in row["units"]]
             axes = zip(row["axes"], units, strict=True)
             heads = [(f"{end}\n{axis}", unit) for axis, unit in axes for end in ("from", "to")]

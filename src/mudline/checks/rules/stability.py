@@ -101,7 +101,8 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     damp. This rule, off unless it is selected, is about such a mass, without bending, tension and water, which soften
     the landing of a line: whether the step of a deck is short enough for its touchdown zone is what `mudline study`
     measures. The mass is that of the section without contents and added water; friction with a mobilisation length has
-    its spring under the static normal force. Give the step that the message names where `mudline study` finds the deck's own too long.
+    its spring under the static normal force. Give the step that the message names where `mudline study` finds the
+    deck's own too long.
 
     Example on pipe:
           STIFFNESS=50000.0
