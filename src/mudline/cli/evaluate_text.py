@@ -119,21 +119,22 @@ def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
         printer.table(DisplayTable("States", of_state, found))
     if screen.which == "elements":
         acts = (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
-        near = _from_touchdown(screen)[evaluation.elements[acts]]
+        distance = _from_touchdown(screen)[evaluation.elements[acts]]
         columns, rows = _touching(evaluation.element_table(), first, acts, _OF_ELEMENT, every=screen.every)
     else:
         acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
-        near = np.zeros(int(acts.sum()))
-        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE, every=screen.most is None)
-    every = screen.every if screen.which == "elements" else screen.most is None
-    shown_rows = [(each, 0.0) for each in rows] if every else list(_joined(rows, near.tolist()))
-    if shown_rows:
-        nearest = sorted(range(len(shown_rows)), key=lambda row: shown_rows[row][1])
-        kept = sorted(nearest if every else nearest[: screen.most])
-        note = f"{left} {_MORE_OF[screen.which]}" if (left := len(shown_rows) - len(kept)) else ""
-        title = f"{screen.which.capitalize()} in contact"
-        printer.table(DisplayTable(title, columns, [shown_rows[row][0] for row in kept], note))
-    elif screen.which == "elements" and any(row.contact_length for row in screen.lines.rows):
+        distance = np.zeros(int(acts.sum()))
+        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE, every=screen.every)
+    note, listed = "", list(rows)
+    if not screen.every:
+        joined = list(_joined(listed, distance.tolist()))
+        nearest = sorted(range(len(joined)), key=lambda row: joined[row][1])[:SHOWN_ROWS]
+        note = f"{left} {_MORE_OF[screen.which]}" if (left := len(joined) - len(nearest)) else ""
+        listed = [joined[row][0] for row in sorted(nearest)]
+    in_part = any(row.contact_length for row in screen.lines.rows) and not result.contact.any()
+    if listed:
+        printer.table(DisplayTable(f"{screen.which.capitalize()} in contact", columns, listed, note))
+    elif screen.which == "elements" and in_part:
         printer.line("No element is in contact in the mean of its nodes")
     else:
         printer.line(f"No {screen.which} in contact")
