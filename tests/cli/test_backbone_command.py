@@ -40,7 +40,7 @@ def test_a_deck_reads_the_points_of_the_model(model: str, legacy: bool) -> None:
     name = "ALL" if legacy else "Clay"
     outcome = run("backbone", model, *CLAY, "--name", name, *["--legacy"] * legacy)
     assert (outcome.code, outcome.err) == (0, "")
-    points = Backbone(MODELS[model], Soil(0.3, 5000.0, 1500.0)).points(MODELS[model].published, 0.005)
+    points = Backbone(MODELS[model], Soil(0.3, 5000.0, 1500.0)).points(MODELS[model].published, 0.005, 0.001)
     assert curve(DECK.format(bed=(OLD if legacy else NEW) + outcome.out)).tolist() == points.tolist()
 
 
@@ -95,6 +95,7 @@ def test_beyond_the_published_range() -> None:
         (("--diameter", "1", "--strength", "a"), "'a': expected su0 > 0"),
         ((*CLAY, "--weight", "-1"), "--weight -1: expected a submerged weight per volume, 0 or more"),
         ((*CLAY, "--depth", "-1"), "--depth -1: expected a ratio z/D above 0"),
+        ((*CLAY, "--first", "0.5"), "--first 0.5: expected a ratio z/D from 0 to below 0.5"),
         ((*CLAY, "--name", "a, b"), "a deck does not read this as a name"),
         ((*CLAY, "--tolerance", "1"), "1.0 is not in the range"),
         (("--diameter", "1e200", "--strength", "1e200"), "the force is too large or too small for a float64"),
@@ -106,8 +107,31 @@ def test_wrong_usage(given: tuple[str, ...], says: str) -> None:
     assert says in outcome.err
 
 
+def test_the_first_point_is_one_that_an_analysis_can_use() -> None:
+    outcome = run("backbone", "aubeny", "--diameter", "0.27305", "--strength", "1200,1500")
+    points = [line for line in outcome.out.splitlines() if line.startswith(" 0.")]
+    assert points[1].startswith(" 0.001, ")
+    # The model is 332.6 there; the chord is farthest below at x = 0.23^(1/0.77), by x^0.23 - x = 0.4965 of that.
+    assert "bound 0.5 %; below z/D = 0.001 10 %\n" in outcome.out
+    nearer = run("backbone", "aubeny", *CLAY, "--first", "0.00001").out
+    assert " 0.00001, " in nearer
+    assert "below z/D" not in run("backbone", "randolph-quiggin", *CLAY).out  # it is not steep at 0
+
+
 def test_a_first_point_that_is_too_near_to_zero_is_refused() -> None:
-    soil = ("--diameter", "0.5", "--strength", "1e300", "--extend", "--depth", "1e9", "--tolerance", "1e-5")
+    soil = (
+        "--diameter",
+        "0.5",
+        "--strength",
+        "1e300",
+        "--extend",
+        "--depth",
+        "1e9",
+        "--tolerance",
+        "1e-5",
+        "--first",
+        "0",
+    )
     outcome = run("backbone", "aubeny", *soil)
     assert (outcome.code, outcome.out) == (2, "")
     assert "the curve is too steep for a float64 from z/D = 0 on" in outcome.err

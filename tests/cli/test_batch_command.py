@@ -143,6 +143,27 @@ def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
     assert state["a"]["reason"] == "--summary-only is for time steps: state.npy is one state"
 
 
+def test_what_no_law_of_the_seabed_holds_is_not_in_contact(place: Place) -> None:
+    bare = CLEAN.partition("*SEABED PROPERTIES")[0]
+    place(bare, "in/conductor.keyxm")
+    place(f"{bare}*RIGID SURFACE\n 0.0\n".replace(", -0.1, ", ", 0.0, "), "in/rigid.keyxm")
+    rows = {Path(row["deck"]).stem: row for row in batch("in", "--output-format", "json").json()}
+    figures = ("in_contact", "touchdown_from", "contact_length", "reaction")
+    assert [rows["conductor"][name] for name in figures] == [0, None, 0.0, None]
+    assert rows["rigid"]["in_contact"] == 1
+    assert rows["rigid"]["contact_length"] == pytest.approx(10.0)
+
+
+def test_columns_are_those_of_evaluate(place: Place) -> None:
+    row = batch(place(), "--output-format", "json").json()[0]
+    evaluated = run("evaluate", "deck.keyxm", "--output-format", "json").json()["summary"][0]
+    for name in ("contact_length", "reaction", "submerged_weight", "ratio"):
+        assert row[name] == pytest.approx(evaluated[name])
+    text = batch("deck.keyxm").out
+    assert " subm." in text
+    assert " length" in text
+
+
 def test_units_that_differ_are_shown_and_compared() -> None:
     found = batch(SAMPLES / "imperial-riser.keyxi", SAMPLES / "scr-touchdown.keyxm", "-q")
     lines = found.out.splitlines()

@@ -23,7 +23,7 @@ ratio  ratio  [N/m]  [N/m]  [N/m]     [N/m2]
     0    0.1      0   1000  10000      20000
   0.1    0.5   1000   3000   5000      10000
 
-Below its first and above its last point a curve goes on with the slope of its end segment.
+Below its first and above its last point a force-embedment curve goes on with the slope of its end segment.
 """
 
 VALUES = """\
@@ -45,6 +45,7 @@ ratio       [m]    [m]     [N/m2]  extrapolated
 """
 
 SEABED = "force-embedment curve"
+AXES = [SEABED, "ratio [-]", "force [N/m]"]
 OTHERS = (
     "*MOMENT-CURVATURE\n CURVE=Bend\n 5.0, 2.0\n 0.0, 0.0\n 4.0, 1.0\n"
     "*P-Y\n SET=Pipe\n DEPTH=1.0\n 0.0, 0.0\n 3.0, 2.0\n"
@@ -82,6 +83,9 @@ def test_json(place: Place) -> None:
             "kind": "force-embedment curve",
             "keyword": "SEABED STIFFNESS",
             "axes": ["ratio", "force"],
+            "units": ["-", "N/m"],
+            "ends": "slope",
+            "reach": [None, None],
             "points": [[0.0, 0.0], [0.1, 1000.0], [0.5, 3000.0]],
             "segments": [{"from": 0.0, "to": 0.1, "slope": 10000.0}, {"from": 0.1, "to": 0.5, "slope": 5000.0}],
             "at": [
@@ -110,20 +114,20 @@ def test_static_embedment_in_json(place: Place) -> None:
 
 def test_csv_holds_the_points(place: Place) -> None:
     assert rows(run("curves", place(UNUSED), "--output-format", "csv").out) == [
-        ["curve", "ratio", "force", "slope", "kind"],
-        ["Clay", "0.0", "0.0", "10000.0", SEABED],
-        ["Clay", "0.1", "1000.0", "5000.0", SEABED],
-        ["Clay", "0.5", "3000.0", "", SEABED],
-        ["Sand", "0.0", "0.0", "10.0", SEABED],
-        ["Sand", "0.1", "1.0", "", SEABED],
+        ["curve", "ratio", "force", "slope", "kind", "abscissa", "ordinate"],
+        ["Clay", "0.0", "0.0", "10000.0", *AXES],
+        ["Clay", "0.1", "1000.0", "5000.0", *AXES],
+        ["Clay", "0.5", "3000.0", "", *AXES],
+        ["Sand", "0.0", "0.0", "10.0", *AXES],
+        ["Sand", "0.1", "1.0", "", *AXES],
     ]
 
 
 def test_csv_holds_the_values_asked_for(place: Place) -> None:
     assert rows(run("curves", place(), "--at", "0.2", "--at", "0.6", "--output-format", "csv").out) == [
-        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "kind"],
-        ["Clay", "0.2", "1500.0", "5000.0", "1", "", SEABED],
-        ["Clay", "0.6", "3500.0", "5000.0", "1", "above", SEABED],
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "kind", "abscissa", "ordinate"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", "", *AXES],
+        ["Clay", "0.6", "3500.0", "5000.0", "1", "above", *AXES],
     ]
 
 
@@ -330,16 +334,66 @@ def test_curves_of_every_kind_are_listed(place: Place) -> None:
     assert found[2]["points"] == [[0.0, 0.0], [1.0, 4.0], [2.0, 5.0]]
     assert found[2]["at"] == [{"ratio": 1.5, "force": 4.5, "slope": 1.0, "segment": 1, "extrapolated": None}]
     text = run("curves", name, "--weight", "700").out
-    assert "moment-curvature curve Bend (*MOMENT-CURVATURE): 3 points\n" in text
+    assert "moment-curvature curve Bend (*MOMENT-CURVATURE): 3 points, its end sections go on beyond them\n" in text
     assert text.count("static embedment") == 1
     assert len(rows(run("curves", name, "--weight", "700", "--output-format", "csv").out)) == 2
-    assert {row[-1] for row in rows(run("curves", name, "--output-format", "csv").out)[1:]} >= {
-        "current profile",
-        SEABED,
+    assert {tuple(row[-3:]) for row in rows(run("curves", name, "--output-format", "csv").out)[1:]} == {
+        tuple(AXES),
+        ("current profile", "elevation [m]", "velocity [m/s]"),
+        ("moment-curvature curve", "curvature [1/m]", "moment [N m]"),
+        ("soil spring curve", "displacement [m]", "resistance [N/m]"),
     }
+
+
+def values_beyond(place: Place, deck: str, at: str) -> list[tuple[str, float | None, str | None]]:
+    outcome = run("curves", place(deck), "--at", at, "--output-format", "json")
+    assert_fits(outcome.json(), "curves")
+    return [(row["name"], row["at"][0]["force"], row["at"][0]["extrapolated"]) for row in outcome.json()[1:]]
+
+
+def test_ends_are_continued_only_where_a_page_says_so(place: Place) -> None:
+    deck = CLEAN + OTHERS.replace(" 3.0, 2.0\n", " 3.0, 2.0\n 4.0, 3.0\n")
+    assert values_beyond(place, deck, "400") == [
+        ("PIECEWISE LINEAR", None, "above"),  # 100 m above its last point
+        ("Bend", 403.0, "above"),
+        ("Pipe, DEPTH=1.0", 4.0, "above"),  # a soil yields
+    ]
+    assert values_beyond(place, deck, "-1") == [
+        ("PIECEWISE LINEAR", None, "below"),
+        ("Bend", -4.0, "below"),
+        ("Pipe, DEPTH=1.0", None, "below"),
+    ]
+    text = run("curves", place(LINEAR + OTHERS)).out
+    assert "beyond the last it keeps its value (inferred)" in text
+    assert "goes on with the slope" not in text
+    assert "[m/s per m]" in text
+
+
+@pytest.mark.parametrize(
+    ("option", "points", "inside", "above"),
+    [
+        ("", " 0.0, 0.1\n 2000.0, 2.1\n", "1000", "1300"),
+        (",OPTION=DESCEND", " -800.0, 2.1\n 1200.0, 0.1\n", "200", "-9"),
+    ],
+)
+def test_a_current_ends_at_the_surface(place: Place, option: str, points: str, inside: str, above: str) -> None:
+    water = "*OCEAN\n 1200.0, 1025.0, 9.81\n"
+    deck = f"{CLEAN}{water}$LOAD CASE\n*CURRENT\n TYPE=PIECEWISE LINEAR{option}\n{points}"
+    ((name, velocity, side),) = values_beyond(place, deck, inside)
+    assert (name, side) == ("PIECEWISE LINEAR", None)
+    assert velocity == pytest.approx(1.1)
+    assert values_beyond(place, deck, above)[0][1] is None
+    assert "above the surface" in run("curves", place(deck)).out
 
 
 def test_every_kind_has_axes_of_its_own(place: Place) -> None:
     texts = drawn(place, CLEAN + OTHERS)
-    for words in ("Force-embedment curves", "Moment-curvature curves", "curvature", "moment", "Bend", "Clay"):
+    for words in (
+        "Force-embedment curves",
+        "Moment-curvature curves (*MOMENT-CURVATURE)",
+        "curvature",
+        "moment",
+        "Bend",
+        "Clay",
+    ):
         assert words in texts

@@ -187,10 +187,31 @@ def test_like_elements_are_told_together(place: Place) -> None:
     deck = f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS{rest}"
     lines = run("evaluate", place(deck)).out.splitlines()
     assert sum(line.startswith("1 to 59 ") for line in lines) == 1
-    assert "22 more lines: -v shows all, -o writes all" in lines
-    every = run("evaluate", place(deck), "-v").out.partition("Elements in contact")[2].splitlines()
-    assert sum("curve:Clay" in line for line in every) == 120
-    assert not any(" to " in line for line in every)
+    assert "22 more lines, farther from touchdown: --table elements shows all, -o writes all" in lines
+    for option in (["-v"], ["--table", "elements"]):
+        every = run("evaluate", place(deck), *option).out.partition("Elements in contact")[2].splitlines()
+        assert sum("curve:Clay" in line for line in every) == 120
+        assert not any(" to " in line for line in every)
+
+
+def test_of_many_rows_those_near_touchdown_are_shown(place: Place) -> None:
+    """Elements in contact that all differ, up to a touchdown point far from the first; rounding is one row."""
+    nodes = "".join(
+        f" {n}, {-0.2 - 1e-9 * n if n <= 60 else -0.2 + 0.0021 * (n - 60):.12f}, {n}.0\n" for n in range(1, 171)
+    )
+    elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 170))
+    rest = CLEAN.partition("*ELEMENT SETS")[2].replace(" 1, 2\n", " GEN=1, 169\n")
+    name = place(f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS{rest}")
+    table = run("evaluate", name).out.partition("Elements in contact")[2].splitlines()
+    first = [line.split()[0] for line in table if "curve:Clay" in line]
+    assert first == [str(element) for element in range(115, 155)]  # node 155 is the last one below 0
+    assert any(line.startswith("56 more lines, farther") for line in table)  # elements 1 to 59 in one, 60 to 114
+
+
+def test_a_node_in_the_seabed_is_no_element_in_contact(place: Place) -> None:
+    out = run("evaluate", place(CLEAN.replace(" 2, -0.1, ", " 2, 0.3, "))).out
+    assert "No element is in contact in the mean of its nodes" in out
+    assert " 2.502 " in out  # a quarter of element 1, whose ends are 0.1 m below and 0.3 m above
 
 
 def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> None:

@@ -26,6 +26,18 @@ def test_a_sample_is_written_with_its_list(target: str, tmp_path: Path) -> None:
     assert "25.51 kN/m2" in head
 
 
+@pytest.mark.parametrize("target", ["moordyn", "orcaflex"])
+def test_the_resting_shape_on_request(target: str, tmp_path: Path) -> None:
+    out = tmp_path / "model.txt"
+    outcome = run("export", str(SAMPLES / "scr-vessel.keyxm"), "--to", target, "--rest-shape", "-o", str(out))
+    assert outcome.code == 0
+    assert "resting shape of line 1: horizontal tension" in outcome.err
+    head, *rows = (tmp_path / "model-rest.csv").read_text(encoding="ascii").splitlines()
+    assert head == "node,x (m),y (m),z (m)"
+    assert len(rows) == 157
+    assert float(rows[0].split(",")[3]) == pytest.approx(-800.0 - 0.0894, abs=1e-4)  # at static embedment
+
+
 def test_json_has_what_is_carried_too(tmp_path: Path) -> None:
     out = tmp_path / "model.yml"
     arguments = ("--to", "orcaflex", "-o", str(out), "--output-format", "json")
@@ -35,7 +47,10 @@ def test_json_has_what_is_carried_too(tmp_path: Path) -> None:
     assert (found["target"], found["exact"], found["files"]) == ("orcaflex", False, [out.as_posix()])
     curves = [entry for entry in found["entries"] if entry["keyword"] == "*SEABED STIFFNESS"]
     assert [(entry["line"], entry["status"]) for entry in curves] == [(310, "approximated"), (323, "approximated")]
-    assert curves[1]["effect"] == "curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2"
+    assert curves[1]["effect"] == (
+        "curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2; sinks 36.6 mm here, as "
+        "the target has one stiffness"
+    )
     assert {"carried", "approximated", "left out"} == {entry["status"] for entry in found["entries"]}
 
 

@@ -84,6 +84,39 @@ def test_a_new_error_is_shown(place: Place) -> None:
     assert "error: GEO001" in ran.err
 
 
+STORM = "$LOAD CASE\n*CURRENT\n TYPE=UNIFORM\n 1.0, 0.0\n"
+DENSITY = "density of sea water is 1026.0 slug/ft3, expected 1.75 to 4.85 slug/ft3"
+
+
+def test_a_value_that_is_unusual_in_the_units_of_the_deck_is_refused(place: Place) -> None:
+    imperial = CLEAN.replace(" 100.0, 1025.0, 9.81", " 300.0, 1.99, 32.2")
+    for name, written in (("deck.keyxi", imperial), ("deck.keyxm", CLEAN)):
+        ran = run("set", "OCEAN.density=1026", place(written, name))
+        assert ran.code == (1 if name == "deck.keyxi" else 0)
+    assert text("deck.keyxi") == imperial
+    assert text("deck.keyxm") == CLEAN.replace("1025.0", "1026")
+    ran = run("set", "OCEAN.density=1026", "deck.keyxi")
+    refusal = "mudline: deck.keyxi:3: OCEAN.density would be unusual in the units of the deck: correct the value"
+    assert ran.err.startswith(refusal)
+    assert f"\ndeck.keyxi:3:9: error: UNT004 {DENSITY}" in ran.err
+    forced = run("set", "OCEAN.density=1026", "deck.keyxi", "--force")
+    assert forced.code == 0
+    assert f"deck.keyxi:3:9: warning: UNT004 {DENSITY}" in forced.err
+    assert "\n 300.0, 1026, 32.2\n" in text("deck.keyxi")
+    assert run("set", "OCEAN.density=1027", "deck.keyxi").code == 1  # as unusual as before
+
+
+def test_a_remarkable_value_and_new_warnings_are_shown(place: Place) -> None:
+    ran = run("set", "CURRENT.uniform.velocity=3.5", place(CLEAN + STORM))
+    assert ran.code == 0
+    assert "info: UNT008" in ran.err
+    ran = run("set", "SEABED STIFFNESS[name=Clay][ratio=0.1].force=4000", "deck.keyxm")
+    assert ran.code == 0
+    assert "warning: CRV012" in ran.err
+    assert "UNT008" not in ran.err  # it was there before
+    assert run("set", "-q", "SEABED STIFFNESS[name=Clay][ratio=0.1].force=4100", "deck.keyxm").err == ""
+
+
 def test_faults_elsewhere_in_a_deck_do_not_matter(place: Place) -> None:
     assert run("set", "OCEAN.depth=200.0", place(BAD_NUMBER)).code == 0
     assert text("deck.keyxm") == BAD_NUMBER.replace(" 100.0,", " 200.0,")

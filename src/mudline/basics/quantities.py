@@ -222,7 +222,7 @@ CASES = _by_name(
     Quantity("in_contact", "largest number of elements in contact", label="in\ncontact"),
     Quantity("touchdown_from", "least arc length of a touchdown point", "length"),
     Quantity("touchdown_to", "largest arc length of a touchdown point", "length"),
-    Quantity("contact_length", "largest length below the seabed", "length", label="length in\ncontact"),
+    Quantity("contact_length", "largest length below the seabed", "length", label="contact\nlength"),
     Quantity(
         "largest_force",
         "largest push of the seabed on an element, per unit length",
@@ -232,7 +232,7 @@ CASES = _by_name(
     Quantity("largest_force_element", "the element", label="element"),
     Quantity("largest_force_time", "when; `null` for one state"),
     Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force", label="largest\nuplift"),
-    Quantity("largest_uplift_element", "the element"),
+    Quantity("largest_uplift_element", "the element", label="element"),
     Quantity("largest_uplift_time", "when; `null` for one state"),
     Quantity(
         "reaction",
@@ -240,7 +240,8 @@ CASES = _by_name(
         "force",
         label="total\nreaction",
     ),
-    Quantity("ratio", "this reaction / submerged weight of the elements in contact at that step", label="ratio"),
+    Quantity("submerged_weight", "of the elements in contact at that step", "force", label="subm.\nweight"),
+    Quantity("ratio", "this reaction / this weight", label="ratio"),
     Quantity("warnings", "number of warnings about the results", label="warn-\nings"),
     Quantity("warning_codes", "their codes, separated by spaces"),
     Quantity("result", "the file with its results, below the folder of `-o`"),

@@ -45,12 +45,14 @@ class Wanted(NamedTuple):
     Attributes:
         name: of the curve, or of the set of `*EMBEDMENT`.
         depth: the largest ratio z/D.
+        first: the smallest ratio above 0.
         tolerance: share of the largest force.
         legacy: whether to write `*EMBEDMENT`.
     """
 
     name: str
     depth: float
+    first: float
     tolerance: float
     legacy: bool
 
@@ -75,6 +77,14 @@ class Wanted(NamedTuple):
     metavar="SHARE",
     help="Largest error of the interpolation, as a share of the largest force.",
 )
+@options.option(
+    "--first",
+    type=float,
+    default=0.001,
+    show_default=True,
+    metavar="RATIO",
+    help="Smallest ratio z/D of a point above 0; below it a straight line replaces the model, steep as it is there.",
+)
 @options.option("--name", metavar="NAME", help="Name of the curve, or of the set with --legacy (default: MODEL).")
 @options.flag("--legacy", help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
 @options.flag("--extend", help="Go on beyond the ratios for which the model is published.")
@@ -87,6 +97,7 @@ def command(
     strength: tuple[float, float],
     weight: float,
     depth: float | None,
+    first: float,
     name: str | None,
     plot: Plot,
     extend: bool,
@@ -108,11 +119,14 @@ def command(
     wanted = Wanted(
         name if name is not None else model,
         chosen.published if depth is None else depth,
+        first,
         tolerance,
         legacy,
     )
     if not 0.0 < wanted.depth < math.inf:
         raise click.UsageError(f"--depth {wanted.depth:g}: expected a ratio z/D above 0")
+    if not 0.0 <= first < wanted.depth:
+        raise click.UsageError(f"--first {first:g}: expected a ratio z/D from 0 to below {wanted.depth:g}")
     if wanted.depth > chosen.published and not extend:
         end = f"{model} ends at z/D = {shown(chosen.published)}: {chosen.range_note}"
         notify(f"{end}. Give --extend to go on to {wanted.depth:g}")
@@ -122,7 +136,7 @@ def command(
         if not 0.0 < backbone.largest(wanted.depth) < math.inf:
             raise click.UsageError("the force is too large or too small for a float64: check the units of the numbers")
         try:
-            points = backbone.points(wanted.depth, wanted.tolerance)
+            points = backbone.points(wanted.depth, wanted.tolerance, first)
         except OverflowError as error:
             raise click.UsageError(f"{error}: check the units of the numbers, --depth and --tolerance") from error
     text = _text(backbone, wanted, points)
@@ -161,15 +175,19 @@ def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
     """Source, parameters, error and range, as comments."""
     model, soil = backbone.model, backbone.soil
     largest = backbone.largest(wanted.depth)
-    error = backbone.deviation(points) / largest
     bound = 100.0 * wanted.tolerance
+    steep = backbone.deviation(points[:2]) > wanted.tolerance * largest
+    error = 100.0 * backbone.deviation(points[1:] if steep else points) / largest
+    below = (
+        f"; below z/D = {shown(wanted.first)} {100.0 * backbone.deviation(points[:2]) / largest:.2g} %" if steep else ""
+    )
     weight = f", submerged weight of soil w {shown(soil.weight)}" if model.weighs else ""
     beyond = "; the last points are beyond it" if wanted.depth > model.published else ""
     return [
         f"{model.title}",
         f"Force per unit length: {model.formula}, r = z/D",
         f"D {shown(soil.diameter)}, s_u {shown(soil.strength)} + {shown(soil.gradient)} z{weight}",
-        f"Error of interpolation: {100.0 * error:.2g} % of the largest force {shown(largest)}, bound {bound:g} %",
+        f"Error of interpolation: {error:.2g} % of the largest force {shown(largest)}, bound {bound:g} %{below}",
         f"Published for z/D from 0 to {shown(model.published)}: {model.range_note}{beyond}",
         "Ratios are z/D: penetration of the invert",
     ]

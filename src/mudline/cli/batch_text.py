@@ -13,6 +13,17 @@ from mudline.cli.view import View
 from mudline.model.results.cases import CaseSummary
 
 _DIGITS = 5
+_SHORT = 24
+"""Letters of a name that is not folded."""
+_OF_FORCES = (
+    "largest_force",
+    "largest_force_element",
+    "largest_uplift",
+    "largest_uplift_element",
+    "reaction",
+    "submerged_weight",
+    "ratio",
+)
 _LARGE = 1e7
 """Numbers from here on have an exponent."""
 
@@ -24,7 +35,8 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
     evaluated = ranked[len(failed) :]
     most = None if view.verbose else SHOWN_ROWS
     where = f" in {inside}" if (inside := _inside(folder)) else ""
-    deck = text("deck", lambda row: names[row.deck])
+    short = all(len(names[row.deck]) <= _SHORT for row in ranked)
+    deck = text("deck", lambda row: names[row.deck], whole=short)
     if failed:
         columns = [deck, text("reason", "reason")]
         printer.table(DisplayTable(f"Failed{where}", columns, failed[:most], _more(failed, most)))
@@ -70,8 +82,9 @@ def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
     if any(row.steps != 1 for row in listed):
         yield column("steps")
     yield column("in_contact")
-    yield column("touchdown_from", "touchdown\nat", _touchdown)
-    for name in ("largest_force", "largest_force_element", "largest_uplift", "reaction", "ratio"):
+    yield column("touchdown_from", "TDP\nat", _touchdown)
+    yield column("contact_length", value=lambda row: _number(row.contact_length) if row.contact_length else "")
+    for name in _OF_FORCES:
         yield column(name)
     yield column("warnings", value=lambda row: row.warnings or "")
 

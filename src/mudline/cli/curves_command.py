@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.quantities import UnitNames, csv_lines, shown, unit_names
+from mudline.basics.quantities import UnitNames, csv_lines, labelled, shown, unit_names
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
-from mudline.model.results.curve_rows import curve_rows, curve_units, diameters_on, used_curves
+from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
 from mudline.model.results.summary import followers
-from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.deck_curves import ENDS, OF_CURRENT, OF_SEABED
 from mudline.model.scene.model import Scene, resolve
 
 if TYPE_CHECKING:
@@ -25,8 +25,10 @@ if TYPE_CHECKING:
 
 _SHOWN_DIAMETERS = 3
 _AT = ("ratio", "force", "slope", "segment", "extrapolated")
+_KIND = ("kind", "abscissa", "ordinate")
 _OF_DIAMETER = ("diameter", "depth", "stiffness")
-_GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
+_GOES_ON = "Below its first and above its last point a force-embedment curve goes on with the slope of its end segment."
+_OF_WATER = "without values beyond them and above the surface"
 _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper sinks on to the next stable embedment"
 
 
@@ -73,7 +75,7 @@ def command(
         rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    plot.write(lambda plots: plots.curves_figure(rows, scene.units, curve_units(scene)))
+    plot.write(lambda plots: plots.curves_figure(rows, scene.units))
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":
@@ -93,8 +95,8 @@ def _csv_rows(
 ) -> Iterator[Sequence[object]]:
     """One table of all curves under its heading: values at ratios, static embedments by diameter, or points."""
     if ratios:
-        yield ("curve", *_AT, "kind")
-        yield from ((row["name"], *value.values(), row["kind"]) for row in rows for value in row["at"])
+        yield ("curve", *_AT, *_KIND)
+        yield from ((row["name"], *value.values(), *_kind(row)) for row in rows for value in row["at"])
     elif weight is not None:
         yield ("curve", *_AT, "stable", *_OF_DIAMETER)
         for row in rows:
@@ -102,11 +104,16 @@ def _csv_rows(
                 *values, sizes = static.values()
                 yield from ((row["name"], *values, *each.values()) for each in sizes or [dict.fromkeys(_OF_DIAMETER)])
     else:
-        yield ("curve", "ratio", "force", "slope", "kind")
+        yield ("curve", "ratio", "force", "slope", *_KIND)
         for row in rows:
             slopes = [*(segment["slope"] for segment in row["segments"]), None]
             points = zip(row["points"], slopes, strict=True)
-            yield from ((row["name"], *point, slope, row["kind"]) for point, slope in points)
+            yield from ((row["name"], *point, slope, *_kind(row)) for point, slope in points)
+
+
+def _kind(row: dict[str, Any]) -> list[str]:
+    """What a curve is, and its abscissa (below `ratio`) and ordinate (below `force`) with their units."""
+    return [row["kind"], *(labelled(*one) for one in zip(row["axes"], row["units"], strict=True))]
 
 
 # ---------------------------------------------------------------------------------------------------------- output
@@ -129,26 +136,36 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
         ]
         columns = [*ends, number("slope", 4, names.line_force), *stiffnesses]
         printer.table(DisplayTable(title, columns, _segments(row, drawn), note))
-        _print_values(printer, row, names.line_force)
+        _print_values(printer, row, ["", names.line_force])
         if "static" in row:
             _print_static(printer, row, names)
     for row in rows:
         if row["kind"] != OF_SEABED:
-            title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points"
-            heads = [f"{end}\n{axis}" for axis in row["axes"] for end in ("from", "to")]
-            columns = [number(head, place) for place, head in enumerate([*heads, "slope"])]
+            beyond = _OF_WATER if row["kind"] == OF_CURRENT else ENDS[row["ends"]]
+            title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points, {beyond}"
+            units = [unit if names.length and unit != "-" else "" for unit in row["units"]]
+            axes = zip(row["axes"], units, strict=True)
+            heads = [(f"{end}\n{axis}", unit) for axis, unit in axes for end in ("from", "to")]
+            columns = [number(head, place, unit) for place, (head, unit) in enumerate([*heads, ("slope", _per(units))])]
             printer.table(DisplayTable(title, columns, _segments(row, [])))
-            _print_values(printer, row, "")
-    printer.line((_GOES_ON, "dim"))
+            _print_values(printer, row, units)
+    if any(row["kind"] == OF_SEABED for row in rows):
+        printer.line((_GOES_ON, "dim"))
 
 
-def _print_values(printer: Printer, row: dict[str, Any], unit: str) -> None:
+def _per(units: Sequence[str]) -> str:
+    """The unit of a slope."""
+    over, value = units
+    return f"{value or '1'} per {over}" if over else value
+
+
+def _print_values(printer: Printer, row: dict[str, Any], units: Sequence[str]) -> None:
     """Print the values of a curve for --at."""
     over, value = row["axes"]
     columns = [
-        number(over, "ratio"),
-        number(value, "force", unit),
-        number("slope", "slope", unit),
+        number(over, "ratio", units[0]),
+        number(value, "force", units[1]),
+        number("slope", "slope", _per(units)),
         number("segment", "segment"),
         number("extrapolated", "extrapolated"),
     ]

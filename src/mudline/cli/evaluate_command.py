@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import click
+from click.core import ParameterSource
 
 from mudline.basics.files import suffix_of
 from mudline.basics.limits import SHOWN_ROWS
@@ -32,12 +33,13 @@ from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
 class Wanted(NamedTuple):
-    """Where results go: into the file `output`, else to standard output, in `form` and of `table`."""
+    """Where results go: into the file `output`, else to standard output, in `form` and of `table`, or `every` row."""
 
     output: str | None
     form: str
     table: str
     view: View
+    every: bool
 
 
 @options.command("evaluate")
@@ -63,7 +65,8 @@ class Wanted(NamedTuple):
     type=click.Choice(["elements", "nodes", "summary"]),
     default="elements",
     show_default=True,
-    help="Show these rows in text and CSV on standard output; a line at a step is a row of the summary.",
+    help="Show these rows in text and CSV on standard output; a line at a step is a row of the summary. Without this "
+    "option rows of elements that show the same are one row, and of many those near touchdown are shown.",
 )
 @evaluate_inputs.summary_only
 @evaluate_inputs.fail_on
@@ -113,7 +116,9 @@ def command(
     if plan_only:
         _show_plan(inputs.prepared(deck), output_format, view)
         return DONE
-    evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view)
+    source = click.get_current_context().get_parameter_source("table")
+    every = table == "elements" and source is not ParameterSource.DEFAULT
+    evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view, every)
     if summary_only:
         if evaluation.time is None:
             raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
@@ -148,7 +153,7 @@ def _evaluate_one(
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form
-    screen = Screen(evaluation, wanted.table, view) if shown == "text" else None
+    screen = Screen(evaluation, wanted.table, view, every=wanted.every) if shown == "text" else None
     lines = all_lines(evaluation, shown or suffix_of(output or ""))
     slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
     consumers: list[ResultConsumer | None] = [comparison, drawing, lines, slow, watch]
@@ -171,7 +176,7 @@ def _evaluate_one(
 
 def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarning]:
     """Summarise a series, print or write the summary; returns what is doubtful. Raises what `_evaluate_one` does."""
-    output, form, table, view = wanted
+    output, form, table, view, _ = wanted
     if not view.quiet:
         _notify_before(evaluation, None)
     summary, watch = series_summary(evaluation, "suction"), ContactWatch.of(evaluation)

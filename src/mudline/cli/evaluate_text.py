@@ -16,7 +16,6 @@ from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import Plan
 from mudline.model.contact.columns import Column, Table
-from mudline.model.contact.input import LawKind
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import Part
 from mudline.model.results.against import Comparison, Extreme
@@ -27,6 +26,7 @@ from mudline.model.results.totals import (
     NOT_KNOWN,
     First,
     acted_on,
+    carried,
     line_steps,
     reaction,
     states,
@@ -34,12 +34,18 @@ from mudline.model.results.totals import (
     totals,
     touchdown_words,
 )
-from mudline.model.scene.numbering import Mask
+from mudline.model.scene.numbering import Floats, Mask
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
 Cells = tuple[str, ...]
+_MORE_OF = {
+    "elements": "more lines, farther from touchdown: --table elements shows all, -o writes all",
+    "nodes": "more lines: -v shows all, -o writes all",
+}
+_DIGITS = 4
+"""Of the largest number of a column; the others have as many decimals."""
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
@@ -54,9 +60,10 @@ def print_plan(plan: Plan, view: View) -> None:
 class Screen:
     """Keeps of the results what the terminal shows: the first state, rows of steps and lines, extremes of a series."""
 
-    def __init__(self, evaluation: Evaluation, which: str, view: View) -> None:
+    def __init__(self, evaluation: Evaluation, which: str, view: View, *, every: bool) -> None:
         self.evaluation, self.which = evaluation, which
         self.most = None if view.verbose else SHOWN_ROWS
+        self.every = every or view.verbose
         self.first = First(lambda part: iter([Part(part.start, part.result.steps(0, 1))]), 1)
         self.steps = First(partial(step_totals, evaluation, of_nodes=which == "nodes"), self.most)
         self.lines = First(partial(line_steps, evaluation), self.most)
@@ -70,10 +77,7 @@ def print_evaluation(screen: Screen, view: View) -> None:
     Where no element has a law, a line says so in their place; `view.verbose` shows them too.
     """
     printer, evaluation = view.printer(), screen.evaluation
-    scene = evaluation.scene
-    lawless = scene.law[evaluation.elements] == LawKind.NONE
-    springs = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
-    if lawless.size and lawless.all() and not springs:
+    if not evaluation.has_seabed_law:
         elements = counted(len(evaluation.elements), "element")
         printer.line(f"{_title(evaluation)}: none of {elements} has a seabed law, so there are no forces")
         if not view.verbose:
@@ -114,16 +118,37 @@ def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
         of_state = (text("law", "law"), text("state", "state"), number("count", "number"))
         printer.table(DisplayTable("States", of_state, found))
     if screen.which == "elements":
-        acts = result.contact | (np.nan_to_num(result.force) != 0.0)
-        columns, rows = _touching(evaluation.element_table(), first, acts[evaluation.elements], _OF_ELEMENT)
+        acts = (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
+        distance = _from_touchdown(screen)[evaluation.elements[acts]]
+        columns, rows = _touching(evaluation.element_table(), first, acts, _OF_ELEMENT, every=screen.every)
     else:
         acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
-        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE)
-    if rows := list(rows if screen.most is None else _joined(rows)):
-        table = DisplayTable(f"{screen.which.capitalize()} in contact", columns, rows)
-        printer.table(table.first(screen.most, _MORE_LINES))
+        distance = np.zeros(int(acts.sum()))
+        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE, every=screen.every)
+    note, listed = "", list(rows)
+    if not screen.every:
+        joined = list(_joined(listed, distance.tolist()))
+        nearest = sorted(range(len(joined)), key=lambda row: joined[row][1])[:SHOWN_ROWS]
+        note = f"{left} {_MORE_OF[screen.which]}" if (left := len(joined) - len(nearest)) else ""
+        listed = [joined[row][0] for row in sorted(nearest)]
+    in_part = any(row.contact_length for row in screen.lines.rows) and not result.contact.any()
+    if listed:
+        printer.table(DisplayTable(f"{screen.which.capitalize()} in contact", columns, listed, note))
+    elif screen.which == "elements" and in_part:
+        printer.line("No element is in contact in the mean of its nodes")
     else:
         printer.line(f"No {screen.which} in contact")
+
+
+def _from_touchdown(screen: Screen) -> Floats:
+    """The distances (m,) of elements from a touchdown point of their line along it; infinite without one."""
+    lines = screen.evaluation.model.input.lines
+    found = np.full(len(lines.element_arc), np.inf)
+    for row in screen.lines.rows:
+        elements = lines.elements[row.line - 1]
+        for point in row.touchdown:
+            found[elements] = np.minimum(found[elements], np.abs(lines.element_arc[elements] - point.arc_length))
+    return found
 
 
 _OF_ELEMENT = {name: name for name in ("element", "law", "depth", "ratio", "force", "stiffness", "length", "state")}
@@ -138,7 +163,7 @@ _OF_NODE = {
 
 
 def _touching(
-    table: Table, first: Part, acts: Mask, headings: Mapping[str, str]
+    table: Table, first: Part, acts: Mask, headings: Mapping[str, str], *, every: bool
 ) -> tuple[list[DisplayColumn], Iterable[Cells]]:
     """Columns of the elements or nodes on which the seabed acts, at the first step of a part, and their rows."""
     lacking = {"state"} if first.result.state is None else set()
@@ -147,13 +172,18 @@ def _touching(
     found = {column.name: column for each in table.columns(first) for column in each.flat()}
     chosen = [found[name] for name in headings if name not in lacking]
     columns = [number(headings[one.name], at, one.unit, left=bool(one.names)) for at, one in enumerate(chosen)]
-    return columns, zip(*(_texts(one, acts) for one in chosen), strict=True)
+    return columns, zip(*(_texts(one, acts, every=every) for one in chosen), strict=True)
 
 
-def _texts(column: Column, acts: Mask) -> list[str]:
+def _texts(column: Column, acts: Mask, *, every: bool) -> list[str]:
+    """The cells of a column, with all digits where `every` row is shown, else with those that matter in the column."""
     values = column.cut(0, 1)[0, acts].tolist()
     if column.names:
         return [column.names[code] or "" for code in values]
+    sizes = [abs(value) for value in values if isinstance(value, float) and 0.0 < abs(value) < math.inf]
+    if sizes and not every:
+        decimals = _DIGITS - 1 - math.floor(math.log10(max(sizes)))
+        values = [round(value, decimals) + 0.0 if isinstance(value, float) else value for value in values]
     return [str(value) if isinstance(value, int) else shown(value) for value in values]
 
 
@@ -169,18 +199,18 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
 
 
-def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:
-    """Rows that show the same, with numbers one after the other, as one row."""
-    first = last = 0
+def _joined(rows: Iterable[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float]]:
+    """Rows that show the same, with numbers one after the other, as one row; with the least of their distances."""
+    first, last, least = 0, 0, math.inf
     same: Cells | None = None
-    for own, *rest in rows:
+    for (own, *rest), distance in zip(rows, near, strict=True):
         if same != tuple(rest) or int(own) != last + 1:
             if same is not None:
-                yield (_span(first, last), *same)
-            first, same = int(own), tuple(rest)
-        last = int(own)
+                yield (_span(first, last), *same), least
+            first, same, least = int(own), tuple(rest), math.inf
+        last, least = int(own), min(least, distance)
     if same is not None:
-        yield (_span(first, last), *same)
+        yield (_span(first, last), *same), least
 
 
 def _span(first: int, last: int) -> str:

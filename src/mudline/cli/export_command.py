@@ -8,14 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+import numpy as np
 
 from mudline.basics.display import DisplayColumn, DisplayTable
+from mudline.basics.quantities import csv_lines
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
-from mudline.model.scene.model import resolve
+from mudline.model.scene.model import Scene, resolve
+from mudline.model.scene.numbering import Floats
 from mudline.tools.exporting.line_model import build
 
 if TYPE_CHECKING:
@@ -34,10 +37,22 @@ _TARGETS = ("moordyn", "orcaflex")
     metavar="OUT",
     help="Write to this file, and others beside it.",
 )
+@options.flag(
+    "--rest-shape", help="Export the resting shape, not the deck's own coordinates; it is written to OUT-rest.csv."
+)
 @options.flag("--strict", help="Exit with 1 if anything was approximated or left out.")
 @options.output_format("text", "json")
 @takes_deck
-def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_format: str, view: View) -> int:
+def command(
+    *,
+    deck: GivenDeck,
+    target: str,
+    output: str,
+    rest_shape: bool,
+    strict: bool,
+    output_format: str,
+    view: View,
+) -> int:
     """Export seabed, line and soil of a deck as the input of another program, and list what does not carry over."""
     path = Path(output)
     if output == STDIN:
@@ -45,8 +60,12 @@ def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_f
     read = deck.load()
     with naming_causes(read):
         scene = resolve(read).require_evaluable()
-    model = build(scene)
+    model = build(scene, _at_rest(scene) if rest_shape else None)
     files = import_module(f"mudline.tools.exporting.{target}").write(model, path.name)
+    if rest_shape:
+        rows = np.column_stack([scene.node_ids.astype(np.int64), model.places])[model.line_nodes()].tolist()
+        lines = csv_lines([("node", "x (m)", "y (m)", "z (m)"), *((int(row[0]), *row[1:]) for row in rows)])
+        files = {**files, f"{path.stem}-rest.csv": "".join(lines)}
     for name, text in files.items():
         write_text(path.with_name(name), [text])
     if not view.quiet:
@@ -60,6 +79,16 @@ def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_f
     else:
         _print(model.report, view)
     return FOUND if strict and not model.report.is_exact else DONE
+
+
+def _at_rest(scene: Scene) -> Floats:
+    """The positions (n, 3) of the resting shape; those of the deck for lines that have none."""
+    from mudline.tools.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - few runs ask for it
+
+    found = rest_shape(scene)
+    for sentence in found.sentences(scene.units):
+        notify(sentence)
+    return np.where(found.positions.present[:, None], found.positions.values[0], scene.coordinates)
 
 
 def _print(report: Report, view: View) -> None:

@@ -10,6 +10,9 @@ from dataclasses import dataclass, field
 import click
 
 from mudline.basics.short_repr import counted
+from mudline.checks.engine import covered_findings
+from mudline.checks.registry import rules
+from mudline.checks.rules.unusual import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, takes_decks
@@ -20,6 +23,7 @@ from mudline.editing.assignment.fields import ConditionError, DeckCondition, Tar
 from mudline.editing.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes
+from mudline.language.diagnostics import Diagnostic, Severity
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.source import Source
 
@@ -35,6 +39,7 @@ _UNWRITTEN = "not written"
     metavar="CONDITION",
     help="Change only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
 )
+@options.flag("--force", help="Also set a value that is far outside of what is usual, in the units of the deck.")
 @options.check
 @options.diff
 @takes_decks()
@@ -43,6 +48,7 @@ def command(
     assignment: str,
     decks: GivenDecks,
     condition: str | None,
+    force: bool,
     check: bool,
     diff: bool,
     view: View,
@@ -51,7 +57,8 @@ def command(
 
     The field is given as in TIME.step=0.05, that of one record as in SEABED PROPERTIES[set=TDZ].stiffness=50000. PATHS
     are decks, directories, or - for standard input, whose deck is printed. Where the value of a deck is given by an
-    equation, is not the only one, or is refused by the checks, no deck is changed, and the exit code is 1.
+    equation, is not the only one, is refused by the checks, or the new one is far outside of what is usual in the units
+    of the deck, no deck is changed, and the exit code is 1. New warnings are shown.
     """
     try:
         change = parse_assignment(assignment)
@@ -59,7 +66,7 @@ def command(
         where = None if condition is None else DeckCondition.of(parse_condition(condition))
     except PathError as error:
         raise click.UsageError(str(error)) from error
-    run = _Run(change, target, where, decks.units, view, decks.collect())
+    run = _Run(change, target, where, decks.units, force, view, decks.collect())
     run.plan(check=check, diff=diff)
     if not (check or diff):
         run.write()
@@ -83,6 +90,7 @@ class _Run:
     target: Target
     condition: DeckCondition | None
     units: str | None
+    force: bool
     view: View
     inputs: Inputs
     planned: list[tuple[Input, int, tuple[TextEdit, ...]]] = field(default_factory=list)
@@ -109,6 +117,8 @@ class _Run:
     def _outcome(self, file: Input, data: bytes) -> tuple[str, Assigned | None]:
         try:
             found = self._assigned(file, data)
+            if isinstance(found, Assigned) and found.edits:
+                self._judge(file, data, found)
         except (AssignmentError, ConditionError) as error:
             line = getattr(error, "line", None)
             notify(f"{file.name}{f':{line}' if line else ''}: {error}")
@@ -131,6 +141,24 @@ class _Run:
             return _UNMET
         found = assigned(deck, self.assignment, self.target, self.units)
         return _WITHOUT if found is None else found
+
+    def _judge(self, file: Input, data: bytes, found: Assigned) -> None:
+        """Show the warnings that a deck has only with its new value; raises AssignmentError for an unusual value."""
+        after = self._findings(file, _edited(file, data, found.edits))
+        if not after:
+            return
+        before = {(one.code, one.line, one.message) for one in self._findings(file, data)}
+        new = [one for one in after if (one.code, one.line, one.message) not in before]
+        unusual = [one for one in new if one.code in CODES and one.line == found.line]
+        if unusual and not self.force:
+            what = f"{self.target.path} would be unusual in the units of the deck"
+            raise AssignmentError(f"{what}: correct the value, or give --force", found.line, unusual)
+        if not self.view.quiet:
+            remarks = [one for one in new if one.code == UNT008.code and one.line == found.line]
+            notify_diagnostics([one for one in new if one.severity is not Severity.INFO] + remarks, refused=False)
+
+    def _findings(self, file: Input, data: bytes) -> list[Diagnostic]:
+        return covered_findings(data, file.name, rules(), units=self.units, folder=file.folder)[0]
 
     def write(self) -> None:
         """Write the files, each in one step, unless a deck was refused or a file cannot be written."""

@@ -88,13 +88,15 @@ def notify(message: str) -> None:
     click.echo(f"mudline: {visible_lines(message)}", err=True)
 
 
-def notify_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
-    """Print why a deck cannot be used: errors here, also what lint only warns of."""
+def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = True) -> None:
+    """Print why a deck cannot be used, as errors whatever they are to lint; else findings with their severity."""
     for found in diagnostics[:SHOWN_ROWS]:
         place = visible(f"{found.file}:{found.line}:{found.column}")
-        click.echo(f"{place}: error: {found.code} {visible(found.message)}", err=True)
+        severity = "error" if refused else found.severity.value
+        click.echo(f"{place}: {severity}: {found.code} {visible(found.message)}", err=True)
     if len(diagnostics) > SHOWN_ROWS:
-        notify(f"{len(diagnostics) - SHOWN_ROWS} more errors: mudline lint shows all")
+        what = "errors" if refused else "new findings"
+        notify(f"{len(diagnostics) - SHOWN_ROWS} more {what}: mudline lint shows all")
 
 
 def notify_missing(what: str, library: str, extra: str) -> None:

@@ -45,8 +45,14 @@ def test_the_stages_stand_in_order() -> None:
     ("laws", "why"),
     [
         ([CURVE], "1 element on 1 force-embedment curve"),
-        ([CURVE, CURVE, LINEAR], "2 elements on 1 force-embedment curve; 1 element with a linear stiffness"),
-        ([LINEAR, NONE, NONE], "1 element with a linear stiffness; 2 elements without a law"),
+        (
+            [CURVE, CURVE, LINEAR],
+            "2 elements on 1 force-embedment curve; 1 element with a linear stiffness, at the mean depth (inferred)",
+        ),
+        (
+            [LINEAR, NONE, NONE],
+            "1 element with a linear stiffness, at the mean depth (inferred); 2 elements without a law",
+        ),
         ([NONE], "no element has a curve or a linear stiffness; 1 element without a law"),
     ],
 )

@@ -81,6 +81,18 @@ def test_points_hold_the_bound_on_ten_thousand_ratios(name: str, tolerance: floa
         assert np.abs(np.interp(ratios, *points.T) - model).max() <= tolerance * of.force(even).max()
 
 
+@pytest.mark.covered
+@pytest.mark.parametrize("name", NAMES)
+def test_a_fine_bound_holds_for_the_numbers_that_are_printed(name: str) -> None:
+    of = backbone(name, Soil(0.27, 2000.0, 1e7))
+    points = of.points(of.model.published, 1e-5, 0.001)
+    assert points[1, 0] >= 0.001
+    parts = [np.linspace(start, end, 2001) for start, end in pairwise(points[1:, 0].tolist())]
+    ratios = np.concatenate(parts)
+    model = of.force(ratios)
+    assert np.abs(np.interp(ratios, *points.T) - model).max() <= 1e-5 * model.max()
+
+
 @settings(max_examples=20)
 @given(
     name=st.sampled_from(NAMES),

@@ -55,6 +55,7 @@ def test_row_is_the_worst_of_the_lines() -> None:
     assert found.contact_length == max(line.contact_length for line in lines)
     heaviest = max(lines, key=lambda line: line.reaction or 0.0)
     assert (found.reaction, found.ratio) == (heaviest.reaction, heaviest.ratio)
+    assert found.submerged_weight == pytest.approx(heaviest.submerged_weight)
     assert (found.steps, found.in_contact, found.largest_uplift) == (8, 30, None)
 
 
@@ -80,7 +81,8 @@ def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:
             watch.take(part)
     found, single = (case_summary(watch, "deck", [], None) for watch in watches)
     assert found.ratio == pytest.approx(single.ratio, rel=1e-14)  # numpy adds up weights in another order
-    assert replace(found, ratio=None) == replace(single, ratio=None)
+    assert found.submerged_weight == pytest.approx(single.submerged_weight, rel=1e-14)
+    assert replace(found, ratio=None, submerged_weight=None) == replace(single, ratio=None, submerged_weight=None)
 
 
 def test_a_name_that_is_not_utf_8_is_escaped_in_parquet() -> None:

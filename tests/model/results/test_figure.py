@@ -227,9 +227,28 @@ def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
 def test_four_elements_are_marked_and_a_long_line_is_thinned() -> None:
     short = drawn(panel(PlotData.of_result(lines(1)), "force"))[0]
     assert short.get_marker() == "o"
-    long = drawn(panel(PlotData.of_result(lines(1, 9000)), "stiffness"))[0]
+    level = lines(1, 9000)
+    waves = np.array(level.known.coordinates)
+    waves[:, 0] = 0.1 * np.sin(0.7 * np.arange(len(waves)))  # contact changes everywhere
+    long = drawn(panel(PlotData.of_result(ContactModel(level.known).evaluate(waves)), "embedment"))[0]
     assert str(long.get_marker()) in {"", "None"}
     assert len(np.asarray(long.get_xydata())) <= 4002
+
+
+def test_panels_along_the_line_show_where_contact_changes() -> None:
+    flat = np.full(100, -0.1)
+    rise = -0.1 + 0.005 * np.arange(1, 60) ** 2
+    given = lines(1, 158).known
+    positions = np.array(given.coordinates)
+    positions[:, 0] = np.concatenate([flat, rise])
+    data = PlotData.of_result(ContactModel(given).evaluate(positions))
+    stretch = Stretch(data)
+    low, high = stretch.limits  # 500 m lie on the seabed; the depth of element 100 is the first that differs
+    assert 470.0 < low < 495.0
+    assert 515.0 < high < 545.0
+    assert stretch.beyond == f"where contact changes: 0 to {low // 5 * 5:.5g} in contact, not drawn"
+    figure = evaluation_figure(data)
+    assert stretch.beyond in figure.get_suptitle()
 
 
 def test_springs_of_nodes_have_forces_on_nodes() -> None:

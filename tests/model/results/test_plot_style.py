@@ -11,7 +11,7 @@ pytest.importorskip("matplotlib")
 
 from matplotlib.axes import Axes
 
-from mudline.model.results.curve_rows import curve_rows, curve_units
+from mudline.model.results.curve_rows import curve_rows
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.plots import curves_figure, evaluation_figure, model_figure
@@ -40,10 +40,10 @@ def test_many_curves_differ_in_colour_and_marker() -> None:
 
 def test_axes_of_every_kind_have_their_units() -> None:
     scene = resolve(sample("scr-vessel.keyxm"))
-    figure = curves_figure(curve_rows(scene, (), None), scene.units, curve_units(scene))
+    figure = curves_figure(curve_rows(scene, (), None), scene.units)
     assert [(axes.get_xlabel(), axes.get_ylabel().replace("\n", " ")) for axes in figure.axes] == [
         ("embedment ratio, depth / diameter [-]", "seabed reaction per unit length [N/m]"),
-        ("elevation [m]", "velocity [m/s]"),
+        ("velocity [m/s]", "elevation [m]"),
         ("ratio [-]", "coefficient [-]"),
         ("strain [-]", "force [N]"),
         ("curvature [1/m]", "moment [N m]"),

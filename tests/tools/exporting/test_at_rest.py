@@ -28,7 +28,8 @@ COARSE = {"reaction": 0.03, "touchdown": 0.6, "penetration": 0.08}
 def test_reaction_touchdown_and_penetration_agree(name: str, tmp_path: Path) -> None:
     bounds = COARSE if name == "imperial-riser.keyxi" else CLOSE
     found = at_rest(ROOT / "samples" / name, tmp_path, statics=20.0)
-    assert found.change < 0.01
+    # With strakes this sample is two lines, which swing about the point between them: by 0.8 % in a second after 100 s.
+    assert found.change < (0.02 if name == "scr-touchdown.keyxm" else 0.01)
     assert found.same_law == pytest.approx(found.reaction, rel=bounds["reaction"])
     assert found.deck_law == pytest.approx(found.same_law + found.explained, abs=0.002 * found.reaction)
     assert found.touchdown[1] == pytest.approx(found.touchdown[0], abs=bounds["touchdown"])

@@ -8,10 +8,14 @@ from types import ModuleType
 import numpy as np
 import pytest
 
+from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Where
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.model import resolve
 from mudline.tools.exporting import moordyn, orcaflex
+from mudline.tools.exporting.line_model import build
 from mudline.tools.exporting.report import Status
+from mudline.tools.exporting.soil import governing
 from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
 TARGETS = (moordyn, orcaflex)
@@ -50,6 +54,56 @@ def test_a_deck_in_feet_and_pounds_is_written_in_metres_and_newtons() -> None:
     assert model.sections[0].axial == pytest.approx(4.4482216e8)
     (soil,) = model.soils
     assert soil.stiffness == pytest.approx(20000.0 * 47.880259, rel=1e-6)
+
+
+def test_drag_and_added_mass_are_those_of_the_deck() -> None:
+    sets = "*HYDRODYNAMIC SETS\n SET=ALL\n 1.5, 0.1, 2.0, 0.8, 0.05\n"
+    model = model_of(text(bed=ELASTIC + sets))
+    (section,) = model.sections
+    assert (section.drag, section.axial_drag, section.added, section.axial_added) == (1.5, 0.1, 0.8, 0.05)
+    row = next(line for line in moordyn.write(model, "a.txt")["a.txt"].splitlines() if line.startswith("ALL "))
+    assert row.split()[6:] == ["1.5", "0.8", "0.1", "0.05"]
+    content = orcaflex.write(model_of(text(bed=ELASTIC + sets)), "a.yml")["a.yml"]
+    assert "Ca: [0.8, ~, 0.05]" in content
+    assert "Cd: [1.5, ~, 0.1]" in content
+    (entry,) = (entry for entry in model.report.entries if entry.keyword == "*HYDRODYNAMIC SETS")
+    assert (entry.status, entry.effect) == (
+        Status.APPROXIMATED,
+        "drag along as it is written, on an area that the manual does not show",
+    )
+
+
+def test_the_mass_and_the_weight_on_the_seabed_have_the_contents() -> None:
+    wall = " OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.2, 0.16, 7850.0\n"
+    empty, full = (
+        model_of(text(sections=wall, bed=CURVE, held=BOTH + fluid))
+        for fluid in ("", "*INTERNAL FLUID\n SET=ALL\n 300.0, 850.0\n")
+    )
+    fluid = 850.0 * np.pi / 4 * 0.16**2
+    assert full.sections[0].mass - empty.sections[0].mass == pytest.approx(fluid)
+    assert full.soils[0].weight - empty.soils[0].weight == pytest.approx(10.0 * fluid)
+    moordyn.write(full, "a.txt")
+    (entry,) = (entry for entry in full.report.entries if entry.keyword == "*INTERNAL FLUID")
+    assert entry.target == "mass of each line type"
+
+
+def test_the_one_stiffness_is_that_around_touchdown_with_the_range_over_the_line() -> None:
+    """20 m of soft seabed carry the pipe and 15 m of stiff, on which it touches down."""
+    sets = "*ELEMENT SETS\n SET=Soft\n GEN=1, 4\n SET=Stiff\n GEN=5, 10\n"
+    bed = ELASTIC.replace("ALL", "Soft").replace("20000.0", "5000.0") + " SET=Stiff\n STIFFNESS=40000.0\n"
+    scene = resolve(load_bytes(text(sets=sets, bed=bed).encode(), "deck.keyxm")).require_evaluable()
+    lying = np.array(scene.coordinates)
+    order = np.argsort(lying[:, 1])
+    lying[order, 0] = [-0.01] * 8 + [0.2, 0.5, 1.0]
+    model = build(scene, lying)
+    assert governing(model.soils, model.soil_lengths).stiffness == 40000.0
+    moordyn.write(model, "a.txt")
+    (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROPERTIES range")
+    assert entry.target == "one stiffness, 40 kN/m2"
+    assert entry.effect == "that of the elements around touchdown; over the line 5 to 40 kN/m2"
+    lying[order, 0] = -0.01  # no touchdown: that of most of the pipe
+    assert governing((flat := build(scene, lying)).soils, flat.soil_lengths).stiffness == 40000.0
+    assert not flat.at_touchdown
 
 
 def test_a_rigid_section_has_the_stiffness_of_its_wall() -> None:

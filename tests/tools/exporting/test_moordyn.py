@@ -56,10 +56,17 @@ def test_lengths_that_differ_by_rounding_are_as_many_segments() -> None:
 def test_sections_of_the_same_numbers_are_one_line_type() -> None:
     model = sample("scr-touchdown.keyxm")
     found = written(model)
-    assert [row[0] for row in found["LINE TYPES"]] == ["Flowline"]
-    assert [row[1:4] + row[5:] for row in found["LINES"]] == [["Flowline", "1", "2", "400", "p"]]
+    # Strakes give the upper riser another drag: 1.6 of its drag diameter 0.37305 is 2.186 of 0.27305.
+    assert [(row[0], float(row[6])) for row in found["LINE TYPES"]] == [
+        ("Flowline", 1.0),
+        ("Upper_Riser", pytest.approx(1.6 * 0.37305 / 0.27305)),
+    ]
+    assert [row[1:4] + row[5:] for row in found["LINES"]] == [
+        ["Flowline", "1", "3", "251", "p"],
+        ["Upper_Riser", "3", "2", "40", "p"],
+    ]
     lengths = [entry.effect for entry in model.report.entries if entry.keyword == "*ELEMENT lengths"]
-    assert lengths == ["200 elements of 2 to 26 m: 400 segments of 3.85 m"]
+    assert lengths == ["160 elements of 2 to 5 m: 251 segments of 1.99 m"]
 
 
 def test_another_section_is_another_line_behind_a_free_point() -> None:

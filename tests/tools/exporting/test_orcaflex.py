@@ -66,7 +66,7 @@ def test_names_and_lines_of_the_deck_stand_in_comments() -> None:
     assert "    # *GEOMETRIC SETS 'Bare Riser', line 275\n" in content
     assert "    # from node 1, line 37, to node 201, line 237\n" in content
     assert (
-        "  # seabed: curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2, line 296\n"
+        "  # seabed: curve 'Trench Clay': secant 25.51 kN/m2 at W (36.6 mm), tangent there 7.984 kN/m2, line 299\n"
         in content
     )
 

@@ -92,16 +92,17 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     """The fixed time step is coarse for the stiffest contact.
 
     A node on the seabed oscillates with omega, the root of stiffness over the mass that it carries. Every law counts:
-    the normal law, *SEABED UNLOADING, friction that sticks, lateral springs, and suction while it is mobilised.
+    the normal law, *SEABED UNLOADING, *SEABED SOIL where the pipe turns, friction that sticks, lateral springs, and
+    suction while it is mobilised.
     Implicit schemes that are called unconditionally stable are so for linear systems: contact that opens and closes
     adds energy to a bare mass that lands when omega times the step is large; at 0.5 the rebound of Newmark's scheme is
     up to 3 % too fast, above that far more. Only backward Euler never adds energy; generalised-alpha with rho = 0 adds
     1 % of the speed on a clay that softens and 5 % where its force jumps at the mudline, more at other speeds, and both
     damp. This rule, off unless it is selected, is about such a mass, without bending, tension and water, which soften
     the landing of a line: whether the step of a deck is short enough for its touchdown zone is what `mudline study`
-    measures. The mass is that of the section without added water;
-    friction with a mobilisation length has its spring under the static normal force; the third value of *TIME is read
-    as the step (inferred). Give the step that the message names where `mudline study` finds the deck's own too long.
+    measures. The mass is that of the section without contents and added water; friction with a mobilisation length has
+    its spring under the static normal force. Give the step that the message names where `mudline study` finds the
+    deck's own too long.
 
     Example on pipe:
           STIFFNESS=50000.0

@@ -102,7 +102,7 @@ _UNITS = {
 
 
 def unit_text(unit: str, system: str) -> str:
-    """The unit of a field in a unit system, F/L2 as N/m2; what is no dimension as it is."""
+    """The unit of a field in a unit system, F/L2 as N/m2, 1/L as 1/m; what is no dimension as it is."""
     if not re.fullmatch(r"(?:[FLMT]\d?|1/|/)+", unit):
         return unit
     names = _UNITS[system]

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from pydantic import (
     BaseModel,
@@ -57,13 +57,15 @@ class Rows(FieldInfo):
     """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning.
 
     A table that is a curve has an `abscissa`, one of its columns; the first of the others is the ordinate. `curve` says
-    what kind of curve it is, in words. It is linear between its points, its end sections go on beyond them.
+    what kind of curve it is, in words. It is linear between its points; `ends` says what it is beyond them: its end
+    sections go on ("slope"), its last value stays ("value"), or nothing is known of it ("none").
     """
 
     row: type["Row"] | None = None
     unordered: bool = False
     curve: str = ""
     abscissa: str = ""
+    ends: Literal["slope", "value", "none"] = "none"
 
     @property
     def axes(self) -> tuple[int, int]:
@@ -128,10 +130,22 @@ def rows(row: type["Row"], meaning: str, *, unordered: bool = False, inferred: s
 
 
 def curve_points(
-    row: type["Row"], meaning: str, kind: str, *, abscissa: str, inferred: str = "", usual: Expected = ()
+    row: type["Row"],
+    meaning: str,
+    kind: str,
+    *,
+    abscissa: str,
+    ends: Literal["slope", "value", "none"] = "none",
+    usual: Expected = (),
 ) -> Rows:
-    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
-    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, usual=usual)
+    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order.
+
+    `ends` is "slope" only where the keyword's page says that the end sections go on.
+    """
+    inferred = "beyond its last point a curve keeps its value" if ends == "value" else ""
+    return Rows(
+        meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, ends=ends, usual=usual
+    )
 
 
 class Comment(BaseModel):

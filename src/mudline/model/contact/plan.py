@@ -110,7 +110,7 @@ def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> s
         parts.append(f"{elements} on {counted(len(curves), 'force-embedment curve')}{cut}")
     linear = sum(len(rows.rows) for rows in tables.normal if rows.law.name in {"linear", "smoothed"})
     if linear:
-        parts.append(f"{counted(linear, 'element')} with a linear stiffness")
+        parts.append(f"{counted(linear, 'element')} with a linear stiffness, at the mean depth (inferred)")
     parts += [
         f"{counted(len(rows.rows), 'element')} with the law {rows.law.name!r}: {rows.law.summary}"
         for rows in tables.normal

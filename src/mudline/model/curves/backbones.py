@@ -24,6 +24,7 @@ _SAMPLES = 400
 _MARGIN = 0.995
 """Part of the tolerance that is used up: the rest is for rounded points and for what lies between the samples."""
 _DIGITS = 7
+"""Of the numbers of a point, at least: rounding is a hundredth of what `_MARGIN` leaves of a fine tolerance too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,20 +193,22 @@ class Backbone:
         """Force per unit length at ratios z/D >= 0."""
         return self.model.resistance(self.soil, ratio)
 
-    def points(self, depth: float, tolerance: float) -> FloatArray:
+    def points(self, depth: float, tolerance: float, first: float = 0.0) -> FloatArray:
         """Return points (ratio, force) of the model from (0, 0) to `depth`, (n, 2), as few as we know how.
 
-        Linear interpolation between them differs from the model by at most `tolerance` times its largest force. From
+        Linear interpolation between them differs from the model by at most `tolerance` times its largest force, from
+        the ratio `first` on: no point but (0, 0) is nearer to 0, where most models are too steep for an analysis. From
         each point the next is the farthest that holds the tolerance; for a curve that bends to one side only, no other
         points on it are fewer. Raises OverflowError where the first chord that holds the tolerance is steeper than a
         float64 can say.
         """
         allowed = _MARGIN * tolerance * self.largest(depth)
-        ratios = [0.0]
+        digits = max(_DIGITS, 4 - math.floor(math.log10(tolerance)))
+        ratios = [0.0, first] if first and self._chord(0.0, first) > allowed else [0.0]
         while ratios[-1] < depth:
             ratios.append(self._next(ratios[-1], depth, allowed))
-        chosen = np.array([*(_rounded(ratio) for ratio in ratios[:-1]), depth])
-        return np.column_stack((chosen, [_rounded(force) for force in self.force(chosen).tolist()]))
+        chosen = np.array([*(_rounded(ratio, digits) for ratio in ratios[:-1]), depth])
+        return np.column_stack((chosen, [_rounded(force, digits) for force in self.force(chosen).tolist()]))
 
     def largest(self, depth: float) -> float:
         """The largest force down to `depth`."""
@@ -241,5 +244,5 @@ class Backbone:
         return np.unique(ends[:-1, None] + np.diff(ends)[:, None] * share)
 
 
-def _rounded(value: float) -> float:
-    return float(f"{value:.{_DIGITS}g}")
+def _rounded(value: float, digits: int) -> float:
+    return float(f"{value:.{digits}g}")

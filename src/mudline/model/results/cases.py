@@ -38,6 +38,7 @@ class CaseSummary:
     largest_uplift_element: int | None = None
     largest_uplift_time: float | None = None
     reaction: float | None = None
+    submerged_weight: float | None = None
     ratio: float | None = None
     warnings: int | None = None
     warning_codes: str | None = None
@@ -88,6 +89,7 @@ def case_summary(
         largest_uplift_element=series.number(pulled),
         largest_uplift_time=None if pulled is None or times is None else float(times[pulled.step]),
         reaction=_value(reaction),
+        submerged_weight=None if reaction is None else finite(reaction.at),
         ratio=finite(reaction.value / reaction.at) if reaction is not None and reaction.at > 0.0 else None,
         warnings=len(warnings),
         warning_codes=" ".join(sorted({one.diagnostic.code for one in warnings})),

@@ -8,9 +8,10 @@ import numpy as np
 
 from mudline.basics.quantities import finite
 from mudline.language.deck.parameters import folded
+from mudline.language.keywords.format import unit_text
 from mudline.model.curves import ForceCurve
 from mudline.model.results.summary import CURVE_SIDES, followers
-from mudline.model.scene.deck_curves import OF_SEABED, other_curves
+from mudline.model.scene.deck_curves import OF_SEABED, DeckCurve, other_curves
 from mudline.model.scene.force_curves import SceneCurve
 from mudline.model.scene.model import Scene
 
@@ -18,25 +19,27 @@ from mudline.model.scene.model import Scene
 def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) -> list[dict[str, Any]]:
     """Each usable curve with the keys of the contract; `static` only when a weight per unit length is given.
 
+    `units` are those of abscissa and ordinate; `ends` says what the curve is beyond its points, and `reach`
+    between which values of the abscissa it is known, None for no end.
+
     Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
     """
     seabed = [
         _curve_row(entry.name, curve, diameters_on(scene, index), ratios, weight)
         | {"kind": OF_SEABED, "keyword": _keyword(scene, entry), "axes": ["ratio", "force"]}
+        | {"units": ["-", unit_text("F/L", scene.units)], "ends": "slope", "reach": [None, None]}
         for index, entry, curve in used_curves(scene)
     ]
     others = [
-        _curve_row(one.name, made, [], ratios, None)
+        _curve_row(one.name, made, [], (), None)
+        | {"at": [_value_of_other(made, one, ratio) for ratio in ratios]}
         | {"kind": one.kind, "keyword": one.keyword, "axes": list(one.axes)}
-        for one in sorted(other_curves(scene.deck), key=lambda one: one.kind)
+        | {"units": [unit_text(unit, scene.units) for unit in one.units], "ends": one.ends}
+        | {"reach": [finite(end) for end in one.reach]}
+        for one in sorted(other_curves(scene.deck), key=lambda one: (one.kind, one.keyword))
         if (made := one.made())
     ]
     return seabed + others
-
-
-def curve_units(scene: Scene) -> dict[str, tuple[str, str]]:
-    """Return the dimensions of abscissa and ordinate, as `L` and `FL`, by kind of curve, but those of the seabed."""
-    return {one.kind: one.units for one in other_curves(scene.deck)}
 
 
 def _keyword(scene: Scene, entry: SceneCurve) -> str:
@@ -90,6 +93,17 @@ def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
         "segment": int(curve.segment(ratio)),
         "extrapolated": CURVE_SIDES[int(curve.extrapolated(ratio))],
     }
+
+
+def _value_of_other(curve: ForceCurve, given: DeckCurve, ratio: float) -> dict[str, Any]:
+    """The same of a curve that does not go on with its slope: None where it is not known, else its last value."""
+    values = _value_at(curve, ratio)
+    low, high = given.reach
+    if not low <= ratio <= high:
+        return dict.fromkeys(values) | {"ratio": ratio, "extrapolated": CURVE_SIDES[1 if ratio > high else -1]}
+    if values["extrapolated"] is not None and given.ends == "value":
+        values |= {"force": float(curve.forces[0 if values["extrapolated"] == "below" else -1]), "slope": 0.0}
+    return values
 
 
 def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.short_repr import counted, cut, outline, short_repr
 from mudline.language.codes.lines import SYN009
-from mudline.model.contact import ContactModel, ElementError, PositionError
+from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.columns import ElementTable, NodeTable, Others
 from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import LineTable, Touchdown
@@ -109,6 +109,13 @@ class Evaluation:
     def nodes(self) -> Indices:
         """Indices of the nodes that have a position."""
         return np.flatnonzero(self.present)
+
+    @property
+    def has_seabed_law(self) -> bool:
+        """Whether a law of the seabed acts on an evaluated element, or springs of the seabed on nodes."""
+        scene = self.scene
+        lawful = (scene.law[self.elements] != LawKind.NONE).any() or not self.elements.size
+        return bool(lawful or scene.nodal.any() or "SEABED SUCTION" in scene.extensions)
 
     @cached_property
     def lines(self) -> Indices:

@@ -17,7 +17,7 @@ from mudline.model.contact.lines import TouchdownPoint
 from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import Touchdown
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.totals import step_figures
+from mudline.model.results.totals import carried, step_figures
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 _BINS = 2000
@@ -105,7 +105,7 @@ class PlotData:
         looped: indices of the elements whose force-penetration loop is kept.
         largest: the step with the largest total `reaction`; with the largest `pull` of an element and the largest
             `friction` on a node, if there is any.
-        touched: (m,) elements that are in contact at some step.
+        touched: (m,) elements that are in contact with a law of the seabed at some step.
         force, depth: extents of the elements over the steps.
         lines, more_lines: numbers of the evaluated lines, from 0, and how many are not followed.
         reaction, touchdown: extents of the total reaction, and of the arc length of the first and the last touchdown
@@ -186,7 +186,7 @@ class PlotData:
         self._choose("pull", part, of_part["pull"])
         if result.friction is not None:
             self._choose("friction", part, np.nan_to_num(np.abs(result.friction)).max(axis=(1, 2), initial=0.0))
-        self.touched |= result.contact.any(axis=0) & result.evaluated
+        self.touched |= carried(result).any(axis=0) & result.evaluated
         self.force.take(result.force)
         self.depth.take(result.depth)
         for line in self._finder.series(part) if self.touchdown else ():

@@ -19,7 +19,7 @@ from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import LineSeries, LineTable
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import Tables, plan_rows
-from mudline.model.results.totals import HELD, Followed, step_figures
+from mudline.model.results.totals import HELD, Followed, carried, step_figures
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats, Mask
 
@@ -81,12 +81,12 @@ def _side_by_side(lines: Sequence[LineSeries], name: str, part: Part) -> Values:
 
 
 def _of_case(evaluation: Evaluation, part: Part) -> Figures:
-    """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if none may."""
+    """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if only nodes may."""
     law = evaluation.model.input.law
     found = evaluation.touchdown.series(part)
     lying = [line for line in found if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
-    lines = lying or found  # others may be held in soil
-    touching = np.count_nonzero(part.result.contact[:, evaluation.elements], axis=1)
+    lines = lying or (found if evaluation.has_seabed_law else [])
+    touching = np.count_nonzero(carried(part.result)[:, evaluation.elements], axis=1)
     figures = {"in_contact": Followed(touching.astype(np.float64)[:, np.newaxis])}
     if not lines:
         return figures

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import SLIDING, STATES, Names, finite, shown
-from mudline.model.contact import ContactResult
+from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import Part, total_normal_force
 from mudline.model.results.evaluation import Evaluation
@@ -78,16 +78,26 @@ class StepTotal(NamedTuple):
     largest: float | None = None
 
 
+def carried(result: ContactResult) -> Mask:
+    """The elements (..., m) of a result that are in contact with a law of the seabed, or lie on a rigid one."""
+    given = result.known
+    found: Mask = result.contact & (given.law != LawKind.NONE)
+    if result.restrained is not None:
+        found |= result.restrained[..., given.element_nodes].all(axis=-1) & (given.law == LawKind.RIGID)
+    return found
+
+
 def totals(evaluation: Evaluation, part: Part) -> list[Total]:
     """By law and set, in the order of the elements, at the first step of a part."""
     scene, result = evaluation.scene, part.result.step(0)
+    in_contact = carried(result)
     groups: dict[tuple[str, str], list[int]] = {}
     for index in evaluation.elements.tolist():
         groups.setdefault((scene.law_names[index], scene.law_sets[index] or ""), []).append(index)
     rows = []
     with np.errstate(over="ignore", invalid="ignore"):
         for (law, name), members in groups.items():
-            touching, deepest = int(result.contact[members].sum()), _deepest(result.depth[members])
+            touching, deepest = int(in_contact[members].sum()), _deepest(result.depth[members])
             force = float((result.force[members] * evaluation.length[members]).sum())
             rows.append(Total(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
     return rows
@@ -113,7 +123,7 @@ def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -
             gap, largest = None if deepest is None else 0.0 - deepest, _deepest(result.normal_force[nodes])
             yield StepTotal(time, len(acts), *_ends(acts), None, total, None, slipping, gap, largest)
         else:
-            acts = scene.element_ids[elements[result.contact[elements]]]
+            acts = scene.element_ids[elements[carried(result)[elements]]]
             sucked = None if result.state is None else int(np.isin(result.state, HELD).sum())
             yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
 
@@ -194,7 +204,7 @@ def step_figures(part: Part) -> dict[str, Followed]:
         "reaction": Followed(reaction[:, np.newaxis]),
         "force": _largest(force, chosen, by_size=True),
         "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
-        "touching": Followed(result.contact[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
+        "touching": Followed(carried(result)[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
         "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
     }
 

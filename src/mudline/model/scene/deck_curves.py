@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple, cast
+from math import inf
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -20,8 +21,10 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Names
 from mudline.language.keywords.writer import field_text
 from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.force_curves import clashes_and_repeats
 from mudline.model.scene.numbering import Floats, Indices
 
@@ -30,14 +33,28 @@ if TYPE_CHECKING:
 
 OF_SEABED = "force-embedment curve"
 """The kind of curve that elements on the seabed follow."""
+OF_CURRENT = "current profile"
 _CODES = {code.code: code for code in (CRV001, CRV011)}
+_DOWN = ("depth below surface", "L")
+_OF_OPTION = {"DESCEND": _DOWN, "DESCENDING": _DOWN, "XL": ("place over length", "-")}
+"""Abscissa of a current profile and its unit, where OPTION= gives it another than the elevation."""
+
+
+ENDS = {
+    "slope": "its end sections go on beyond them",
+    "value": "beyond the last it keeps its value (inferred)",
+    "none": "no page says what it is beyond them",
+}
+"""What a curve is beyond its points, in words."""
 
 
 class DeckCurve(NamedTuple):
     """A curve: its kind in words, its keyword and name, its points (n, 2), abscissa first, and where they stand.
 
     `rows` (n,) are the places of the points in their table, without those that could not be read; `whole` says that
-    there are none. `axes` names abscissa and ordinate, `units` are theirs, `column` that of the abscissa in the table.
+    there are none. `axes` names abscissa and ordinate, `units` are their dimensions, as `L` and `F/L`. `ends` says what
+    the curve is beyond its points, `reach` between which values of the abscissa it is known: a current profile ends at
+    the surface of the sea.
     """
 
     kind: str
@@ -50,6 +67,8 @@ class DeckCurve(NamedTuple):
     title: Where
     axes: tuple[str, str]
     units: tuple[str, str]
+    ends: Literal["slope", "value", "none"]
+    reach: tuple[float, float]
 
     def __repr__(self) -> str:
         return short_repr(self)
@@ -73,7 +92,20 @@ def other_curves(deck: Deck) -> Iterator[DeckCurve]:
     for i, section in enumerate(deck.sections):
         for j, block in enumerate(section.blocks):
             if type(block) is not Opaque and _has_curves(type(block)):
-                yield from _curves(block, block.keyword, Where(i, j), "", Where(i, j))
+                for curve in _curves(block, block.keyword, Where(i, j), "", Where(i, j)):
+                    yield _below_surface(deck, curve) if curve.kind == OF_CURRENT else curve
+
+
+def _below_surface(deck: Deck, curve: DeckCurve) -> DeckCurve:
+    """A current profile without what it has above the surface of the sea."""
+    low, high = curve.reach
+    if curve.axes[0] == _DOWN[0]:
+        low = max(low, 0.0)
+    elif curve.units[0] == "L":
+        oceans = [block for _, block in deck.blocks("OCEAN")]
+        depth = number(oceans[-1], "depth", inf) if oceans else inf
+        high = min(high, depth) if depth > low else high
+    return curve._replace(reach=(low, high))
 
 
 @cache
@@ -89,14 +121,17 @@ def _has_curves(part: type[Part]) -> bool:
 
 def _curves(part: Part, keyword: str, where: Where, name: str, title: Where) -> Iterator[DeckCurve]:
     if not issubclass(type(part), Block):
-        given = (slot for slot in _settings(type(part)) if getattr(part, slot.name) is not None)
-        if (first := next(given, None)) is not None:
+        given = [slot for slot in _settings(type(part)) if getattr(part, slot.name) is not None]
+        if given:
+            first = min(given, key=lambda slot: slot.about.names is not Names.SET)
             name = ", ".join(filter(None, [name, _written(first, getattr(part, first.name))]))
             title = where.inside(first.json)
     for slot in record_schema(type(part)).slots:
         value = getattr(part, slot.name)
         if isinstance(slot.about, Rows) and slot.about.curve and isinstance(value, Table):
-            yield _curve(slot, value, keyword, name, (where.inside(slot.json), title))
+            own = _curve(slot, value, keyword, name, (where.inside(slot.json), title))
+            over = _OF_OPTION.get(str(getattr(part, "option", None)))
+            yield own._replace(axes=(over[0], own.axes[1]), units=(over[1], own.units[1])) if over else own
         elif slot.record:
             for index, child in enumerate(value):
                 if _has_curves(cast("type[Part]", type(child))):
@@ -105,7 +140,7 @@ def _curves(part: Part, keyword: str, where: Where, name: str, title: Where) -> 
 
 @cache
 def _settings(part: type[Part]) -> list[FieldSpec]:
-    """The fields of which the first that is given tells a record from others of its kind."""
+    """The fields of which the set, or else the first that is given, tells a record from others of its kind."""
     return [slot for slot in record_schema(part).slots if isinstance(slot.about, Setting)]
 
 
@@ -124,6 +159,8 @@ def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple
     both = np.column_stack([table.column(over), table.column(ordinate)])
     rows = np.flatnonzero(~np.isnan(both).any(axis=1))
     axes = (columns[over], columns[ordinate])
+    first, last = both[rows][:, 0].min(initial=inf), both[rows][:, 0].max(initial=-inf)
+    low = -inf if about.ends == "slope" or (about.ends == "value" and first < 0.0) else float(first)
     return DeckCurve(
         about.curve,
         keyword,
@@ -134,6 +171,8 @@ def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple
         *places,
         (axes[0].label, axes[1].label),
         (axes[0].about.unit, axes[1].about.unit),
+        about.ends,
+        (low, float(last) if about.ends == "none" else inf),
     )
 
 

@@ -29,6 +29,7 @@ class Pipe(NamedTuple):
     drag: Cd rho D / 2, the force of water across at a velocity of 1.
     drag_coefficient, added_mass_coefficient: Cd and Ca. has_coefficients: False where these are assumed.
     bending, axial: EI and EA, of curves their slope at 0; 0 for sections that do not bend.
+    axial_drag_coefficient, axial_added_mass: those along, 0 where none is given.
     """
 
     weight: Floats
@@ -41,6 +42,8 @@ class Pipe(NamedTuple):
     has_coefficients: Mask
     bending: Floats
     axial: Floats
+    axial_drag_coefficient: Floats
+    axial_added_mass: Floats
 
 
 def pipe_of(scene: ResolvedDeck) -> Pipe:
@@ -48,7 +51,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     table, around = scene.section_table, surroundings(scene.deck)
     filled = contents(scene)
     inside = filled[-1].mass if filled else np.zeros(len(scene.element_ids))
-    added, drag, given, with_buoyancy = _coefficients(scene)
+    added, drag, given, with_buoyancy, along = _coefficients(scene)
     entries = [section.entry.section for section in table.sections]
     outer = picked((number(each, "do", number(each, "dd")) for each in entries), table.of_element)
     drag_diameter = picked((number(each, "dd", number(each, "do")) for each in entries), table.of_element)
@@ -56,26 +59,33 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     size = np.where(with_buoyancy, buoyancy, drag_diameter)
     size = np.where(size > 0.0, size, outer)
     with np.errstate(all="ignore"):
+        displaced = around.density * math.pi / 4.0 * size * size
         of_sections = [stiffnesses(scene.deck, section) for section in table.sections]
         return Pipe(
             weight=scene.submerged_weight + inside * around.gravity,
             mass=scene.mass_per_length,
             contents=inside,
-            added_mass=added * around.density * math.pi / 4.0 * size * size,
+            added_mass=added * displaced,
             drag=0.5 * drag * around.density * drag_diameter,
             drag_coefficient=drag,
             added_mass_coefficient=added,
             has_coefficients=given,
             bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
             axial=picked((each.axial for each in of_sections), table.of_element),
+            axial_drag_coefficient=along[:, 0],
+            axial_added_mass=along[:, 1] * displaced,
         )
 
 
-def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask]:
-    """Ca and Cd (m,), which elements have them from the deck, and which take the buoyancy diameter for inertia."""
+def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floats]:
+    """Ca and Cd (m,), which elements have them from the deck, and which take the buoyancy diameter for inertia.
+
+    Last Cd and Ca along (m, 2).
+    """
     count = len(scene.element_ids)
     added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
     given, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    along = np.zeros((count, 2))
     for _, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
         hydrodynamic = cast("HydrodynamicSets", block)
         for entry in hydrodynamic.sets:
@@ -87,5 +97,6 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask]:
             inertia = number(row, "normal_inertia", _INERTIA)
             added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
             drag[rows] = number(row, "normal_drag", _DRAG)
+            along[rows] = [number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass")]
             given[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
-    return added, drag, given, with_buoyancy
+    return added, drag, given, with_buoyancy, along

@@ -10,18 +10,21 @@ import math
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.language.codes import RUN001
 from mudline.language.diagnostics import Problem, Where
+from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
+from mudline.model.contact.touchdown import line_summaries
 from mudline.model.scene.boundary import TRANSLATIONS
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses, surroundings
 from mudline.tools.exporting.held import End, read_held, report_inside
@@ -29,16 +32,25 @@ from mudline.tools.exporting.report import Report, Status
 from mudline.tools.exporting.soil import Soil, Units, soils_of
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
     from mudline.model.contact.seabed import Seabed
 
 _ALIKE = 1e-3
 """Part of the longest element by which lengths differ that are alike."""
+_AROUND = 5
+"""Elements in contact next to a touchdown point, whose seabed is that of targets that have but one."""
+_DRAG, _ADDED = 1.2, 1.0
+"""Coefficients where the deck has none."""
 _UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
 
 
 @dataclass(frozen=True, slots=True)
 class PipeSection:
-    """A cross-section; `diameter` is the one of contact, `buoyancy` that of the displaced water."""
+    """A cross-section with its contents and coefficients.
+
+    `diameter` is the one of contact, `buoyancy` that of the displaced water. `mass` includes the `contents`. Drag and
+    added mass, across and along, are coefficients for the buoyancy diameter; `assumed` says that the deck has none.
+    """
 
     name: str
     where: Where
@@ -49,6 +61,12 @@ class PipeSection:
     axial: float
     bending: float
     torsion: float
+    contents: float
+    drag: float
+    axial_drag: float
+    added: float
+    axial_added: float
+    assumed: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,6 +119,7 @@ class LineModel:
     sections: list[PipeSection]
     soils: list[Soil]
     soil_lengths: Floats
+    at_touchdown: bool
     ends: list[End]
     lines: list[ExportLine]
     seabed: Seabed | None
@@ -128,8 +147,8 @@ class LineModel:
         return np.unique(np.concatenate([part.nodes for line in self.lines for part in line.stretches]))
 
 
-def build(scene: Scene) -> LineModel:
-    """Describe the lines of a deck that can be evaluated.
+def build(scene: Scene, positions: Floats | None = None) -> LineModel:
+    """Describe the lines of a deck that can be evaluated, at positions (n, 3) of its nodes or its own coordinates.
 
     Raises DeckError: units that are not known, no elements, no ocean, an element without a section or an axial
     stiffness, an end that nothing holds, a closed line, a seabed that is not known.
@@ -142,10 +161,14 @@ def build(scene: Scene) -> LineModel:
     around, depth = surroundings(scene.deck), _depth(scene)
     sections, of_element = _sections(scene, units)
     soils, soil_of = soils_of(scene, units)
-    places = scene.coordinates[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
+    given = scene.coordinates if positions is None else positions
+    places = given[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
     ends, lines = _lines(scene, report, units, of_element, soil_of)
-    touching = scene.contact().evaluate(scene.coordinates).depth.reshape(-1) > 0.0
-    lengths = np.bincount(soil_of, scene.length * np.where(touching, 1e6, 1.0), len(soils)).astype(np.float64)
+    result = scene.contact().evaluate(given)
+    carried = np.array([each.stiffness > 0.0 for each in soils])[soil_of]
+    near = _around_touchdown(result, (result.depth.reshape(-1) > 0.0) & carried)
+    weights = np.select([near, result.depth.reshape(-1) > 0.0], [1e12, 1e6], 1.0)
+    lengths = np.bincount(soil_of, scene.length * weights, len(soils)).astype(np.float64)
     seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
     density = around.density * units.mass / units.length**3
     si = (depth * units.length, density, around.gravity * units.length)
@@ -159,7 +182,19 @@ def build(scene: Scene) -> LineModel:
         ("ELEMENT SETS", "sections of the lines"),
     ):
         report.claim(keyword, target)
-    return LineModel(scene, report, places, *si, sections, soils, lengths, ends, lines, seabed, units)
+    return LineModel(scene, report, places, *si, sections, soils, lengths, bool(near.any()), ends, lines, seabed, units)
+
+
+def _around_touchdown(result: ContactResult, carried: Mask) -> Mask:
+    """The elements (m,) nearest to each touchdown point of their line, of those that a law carries in contact."""
+    lines, near = result.known.lines, np.zeros(len(carried), np.bool_)
+    for line in line_summaries(result):
+        elements = lines.elements[line.line - 1]
+        elements = elements[carried[elements]]
+        for point in line.touchdown:
+            apart = np.abs(lines.element_arc[elements] - point.arc_length)
+            near[elements[np.argsort(apart, kind="stable")[:_AROUND]]] = True
+    return near
 
 
 def _require_elements(scene: Scene) -> None:
@@ -196,13 +231,15 @@ def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
     if bare.size:
         message = "the element has no section: give one to a set of it in *GEOMETRIC SETS"
         raise scene.refusal(message, scene.table.numbered.where(int(bare[0])))
-    used, of_element = np.unique(table.of_element, return_inverse=True)
-    first = [int(np.argmax(of_element == index)) for index in range(len(used))]
-    pairs = zip(used.tolist(), first, strict=True)
-    return [_pipe(scene, units, table.sections[index], at) for index, at in pairs], of_element.ravel()
+    pipe = pipe_of(scene)
+    own = [pipe.contents, pipe.drag, pipe.added_mass, pipe.axial_drag_coefficient, pipe.axial_added_mass]
+    keys = np.column_stack([table.of_element, *np.nan_to_num(own), pipe.has_coefficients])
+    _, firsts, of_element = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    found = [_pipe(scene, units, table.sections[int(table.of_element[at])], pipe, at) for at in firsts.tolist()]
+    return found, of_element.ravel()
 
 
-def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSection:
+def _pipe(scene: Scene, units: Units, section: Section, pipe: Pipe, element: int) -> PipeSection:
     row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
@@ -213,17 +250,33 @@ def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSec
         raise scene.refusal(f"the section has no {what} above 0, which other programs need: give it", section.where)
     buoyancy = number(row, "db", outer)
     axial, bending, torsion = (0.0 if math.isnan(each) else each for each in stiffness)
+    contents, density = float(pipe.contents[element]), surroundings(scene.deck).density
+    drag, added = float(pipe.drag[element]), float(pipe.added_mass[element])
+    along, axial_added = float(pipe.axial_drag_coefficient[element]), float(pipe.axial_added_mass[element])
+    displaced = density * math.pi / 4.0 * buoyancy**2
+    assumed = not pipe.has_coefficients[element]
     return PipeSection(
         section.name,
         section.where,
         number(row, "dc", outer) * length,
         buoyancy * length,
         inner * length,
-        mass * units.mass / length,
+        (mass + contents) * units.mass / length,
         axial * force,
         bending * force * length**2,
         torsion * force * length**2,
+        contents * units.mass / length,
+        _DRAG if assumed else _plain(2.0 * drag / (density * buoyancy)),
+        _plain(along * number(row, "dd", outer) / buoyancy),
+        _ADDED if assumed else _plain(added / displaced),
+        _plain(axial_added / displaced),
+        assumed,
     )
+
+
+def _plain(coefficient: float) -> float:
+    """A coefficient without the rounding of what it was divided by."""
+    return float(f"{coefficient:.12g}")
 
 
 def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
@@ -234,13 +287,35 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
         status = Status.APPROXIMATED if curved else Status.CARRIED
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
+        effect += f", mass with {shown(section.contents, 4)} kg/m of contents" if section.contents else ""
         model.report.add(section.where, status, f"{target} {name}", effect)
+    _report_water(model, target)
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
         model.report.add(twisted[0].where, Status.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
     for keyword in (BENDING_CURVES, *STIFFNESS_CURVES.values()):
         for where, _ in model.scene.deck.blocks(keyword):
             model.report.add(where, Status.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
+
+
+def _report_water(model: LineModel, target: str) -> None:
+    """Add what became of coefficients and contents."""
+    deck = model.scene.deck
+    for where, block in deck.blocks("HYDRODYNAMIC SETS"):
+        entries = cast("HydrodynamicSets", block).sets
+        plain = all(each.constant is not None and each.constant.drag_lift is None for each in entries)
+        effects = (
+            [] if plain and cast("HydrodynamicSets", block).option is None else ["no drag lift, no types but CONSTANT"]
+        )
+        if any(section.axial_drag for section in model.sections):
+            effects += ["drag along as it is written, on an area that the manual does not show"]
+        if any(section.assumed for section in model.sections):
+            effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
+        status = Status.APPROXIMATED if effects else Status.CARRIED
+        model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
+    for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
+        effect = "its mass at rest; pressure and flow are not written"
+        model.report.add(where, Status.APPROXIMATED, f"mass of each {target}", effect)
 
 
 # ---------------------------------------------------------------------------------------------------------- lines

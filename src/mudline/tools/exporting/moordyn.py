@@ -17,13 +17,20 @@ from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
 from mudline.tools.exporting.line_model import LineModel, PipeSection, Stretch, report_sections
 from mudline.tools.exporting.report import Names, Status
-from mudline.tools.exporting.soil import distance, governing, report_friction, report_resistance, report_stiffness
+from mudline.tools.exporting.soil import (
+    Soil,
+    distance,
+    governing,
+    report_friction,
+    report_governing,
+    report_resistance,
+    report_stiffness,
+)
 
 TITLE = "MoorDyn v2"
 _FINEST = 2
 """Segments are not more than this times the elements."""
 _GRID = 200
-_DRAG, _ADDED = 1.2, 1.0
 
 
 def pieces(model: LineModel) -> list[list[Stretch]]:
@@ -33,7 +40,7 @@ def pieces(model: LineModel) -> list[list[Stretch]]:
 
 def alike(model: LineModel, section: int) -> int:
     """The first section with the numbers of a section, as far as MoorDyn has them."""
-    numbers = [(each.buoyancy, each.mass, each.axial, each.bending) for each in model.sections]
+    numbers = [_numbers(each) for each in model.sections]
     return numbers.index(numbers[section])
 
 
@@ -71,7 +78,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
         ("100.0", "TmaxIC"),
         ("1e-5", "threshIC"),
     ]
-    _report(model, types, stiffness, width, friction)
+    _report(model, types, soil, stiffness, width)
     text = [
         *model.report.comments(TITLE),
         "--- LINE TYPES ---",
@@ -93,9 +100,14 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     return {name: "".join(f"{line}\n" for line in text), **files}
 
 
+def _numbers(section: PipeSection) -> tuple[float, ...]:
+    """What MoorDyn has of a section: diameter, mass, EA, damping, EI, Cd, Ca, CdAx, CaAx."""
+    water = (section.drag, section.added, section.axial_drag, section.axial_added)
+    return (section.buoyancy, section.mass, section.axial, -1.0, section.bending, *water)
+
+
 def _line_type(section: PipeSection, name: str) -> str:
-    numbers = (section.buoyancy, section.mass, section.axial, -1.0, section.bending, _DRAG, _ADDED, 0.0, 0.0)
-    return f"{name} {' '.join(map(repr, numbers))}"
+    return f"{name} {' '.join(map(repr, _numbers(section)))}"
 
 
 def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
@@ -185,14 +197,15 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 # --------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float], friction: float) -> None:
+def _report(model: LineModel, types: list[str], soil: Soil, stiffness: float, width: dict[int, float]) -> None:
     report = model.report
     report_sections(model, "line type", names=types, torsion=False)
     report_ends(report, model.ends, "Fixed", "Coupled")
+    report_governing(report, model.soils, soil, at_touchdown=model.at_touchdown)
     used = [stiffness * width[at] for at in range(len(model.soils))]
     report_stiffness(report, model.soils, f"kBot {shown(stiffness, 4)} Pa/m, here", used)
     target = "FrictionCoefficient, regularised by velocity"
-    report_friction(report, model.soils, target, [(friction, friction)] * len(model.soils))
+    report_friction(report, model.soils, target, [(soil.axial, soil.axial)] * len(model.soils))
     report_resistance(report, "none")
     bed = model.levels(*model.places[:, :2].T)
     for end in model.ends:

@@ -17,7 +17,15 @@ from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
 from mudline.tools.exporting.line_model import LineModel, Stretch, report_sections
 from mudline.tools.exporting.report import Names, Status, one_line, short_name
-from mudline.tools.exporting.soil import Soil, distance, governing, report_friction, report_resistance, report_stiffness
+from mudline.tools.exporting.soil import (
+    Soil,
+    distance,
+    governing,
+    report_friction,
+    report_governing,
+    report_resistance,
+    report_stiffness,
+)
 
 TITLE = "OrcaFlex text data"
 _CONNECTION = (
@@ -125,8 +133,8 @@ def _line_type(model: LineModel, key: Key, name: str) -> Items:
         "EA": section.axial / 1e3,
         "GJ": section.torsion / 1e3,
         "OuterContactDiameter": section.diameter,
-        "Ca": [1.0, None, 0.0],
-        "Cd": [1.2, None, 0.0],
+        "Ca": [section.added, None, section.axial_added],
+        "Cd": [section.drag, None, section.axial_drag],
         "SeabedLateralFrictionCoefficient": key[2],
         "SeabedAxialFrictionCoefficient": key[1],
     }
@@ -234,6 +242,7 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
         _report_soil(model, soil)
     per_area = soil.stiffness / soil.diameter
     others = [each for each in model.soils if soil.kind is not LawKind.SOIL or each.kind is not LawKind.SOIL]
+    report_governing(report, others, soil, at_touchdown=model.at_touchdown)
     report_stiffness(report, others, "SeabedNormalStiffness x D:", [per_area * each.diameter for each in others])
     report_friction(report, model.soils, "friction of line types", [(each.axial, each.lateral) for each in model.soils])
     report_resistance(report, "none")

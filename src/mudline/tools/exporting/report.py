@@ -34,8 +34,6 @@ _UNKNOWN = "mudline does not read this keyword, and passes it over"
 _WORDS = ("none", "fixed", "free", "anchored", "yes", "no", "y", "n", "true", "false", "on", "off", "null", "infinity")
 """Names that mean something else to a target or to YAML."""
 _EFFECTS = {
-    "HYDRODYNAMIC SETS": "drag 1.2 and added mass 1 are written in their place: no effect at rest without current",
-    "INTERNAL FLUID": "contents are not written, as mudline leaves them out of the submerged weight",
     "SEABED SUCTION": "nothing holds the pipe back on the way up: no effect under its own weight",
     "SEABED UNLOADING": "the way up is the way down: no effect at first penetration",
     "SEABED TRENCH": "the walls are left out: friction alone holds the pipe sideways",

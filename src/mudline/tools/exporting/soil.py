@@ -1,8 +1,8 @@
 """What carries the elements of a deck, as other programs take it: a stiffness, and friction along and across.
 
 A stiffness is per length of pipe and of penetration. That of a curve is its secant at the static penetration, where
-the law carries the submerged weight W of the pipe: there, and only there, the reaction is that of the deck. Without a
-weight above 0 it is the secant of the curve's first point with a force.
+the law carries the submerged weight W of the pipe with its contents: there, and only there, the reaction is that of the
+deck. Without a weight above 0 it is the secant of the curve's first point with a force.
 """
 
 from __future__ import annotations
@@ -18,12 +18,15 @@ from mudline.model.contact.laws.soil import initial, lift
 from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.tools.exporting.report import Report, Status, short_name
 
 _RIGID_SHARE = 1e-3
 """Of the diameter: how far a pipe sinks that stands in for one on a rigid seabed."""
 _HALVINGS = 80
+_SAME = 1e-3
+"""Part by which stiffnesses differ that count as one."""
 _SETTINGS = {
     "SEABED CONTACT": {"smoothing": "no effect at rest beyond its zone", "damping": "no effect at rest"},
     "SEABED FRICTION": {
@@ -97,20 +100,20 @@ def kilo(stiffness: float) -> str:
 
 def soils_of(scene: ResolvedDeck, units: Units) -> tuple[list[Soil], Indices]:
     """The different seabeds of the elements, and which of them each element (m,) has."""
-    weight = np.nan_to_num(scene.submerged_weight)
+    weight = np.nan_to_num(pipe_of(scene).weight)
     size = np.nan_to_num(scene.diameter)
-    friction = _friction(scene)
+    friction = _friction(scene, weight)
     blocks = [np.asarray(extension.of_element) for extension in scene.extensions.values()]
     per_node = np.where(scene.law == LawKind.NODAL, scene.length, 0.0)
     own = (scene.laws.of_element, scene.law, scene.resistance.of_element)
     keys = np.column_stack([*own, *blocks, weight, size, per_node, friction])
     _, firsts, of_element = np.unique(np.round(keys, 9), axis=0, return_index=True, return_inverse=True)
     arrays = scene.law_arrays()
-    found = [_soil(scene, units, arrays, int(at), friction[at].tolist()) for at in firsts]
+    found = [_soil(scene, units, arrays, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
     return found, of_element.ravel()
 
 
-def _friction(scene: ResolvedDeck) -> Floats:
+def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
     """Coefficients of friction along and across, and the springs below them, of each element (m, 4).
 
     Below the limit a spring is that of the mobilisation length, or the one of a node over the length of an element.
@@ -120,9 +123,8 @@ def _friction(scene: ResolvedDeck) -> Floats:
     given = table.column("mobilisation")
     longest = np.fmin(table.column("characteristic"), LARGEST_MOBILISATION.get(scene.units, np.inf))
     length = np.where(given > 0.0, given, np.fmin(scene.length[:, None], longest))
-    weight = np.nan_to_num(scene.submerged_weight)[:, None]
     with np.errstate(all="ignore"):
-        spring = np.nan_to_num(coefficient * weight / length)
+        spring = np.nan_to_num(coefficient * weight[:, None] / length)
     coefficient[:, 1] = np.where(table.column("lateral") > 0.0, 0.0, coefficient[:, 1])
     if (keyword := scene.extensions.get("SEABED FRICTION")) is not None:
         at = keyword.of_element
@@ -134,9 +136,8 @@ def _friction(scene: ResolvedDeck) -> Floats:
     return np.column_stack([coefficient, spring])
 
 
-def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, friction: list[float]) -> Soil:
-    kind = LawKind(int(scene.law[at]))
-    weight, diameter = float(np.nan_to_num(scene.submerged_weight[at])), float(np.nan_to_num(scene.diameter[at]))
+def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, weight: float, friction: list[float]) -> Soil:
+    kind, diameter = LawKind(int(scene.law[at])), float(np.nan_to_num(scene.diameter[at]))
     parameters = {}
     if kind is LawKind.SOIL:
         named = soil_parameters(scene.extensions["SEABED SOIL"], np.array([at]))
@@ -206,9 +207,22 @@ def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tu
 
 
 def governing(soils: list[Soil], length: Floats) -> Soil:
-    """The seabed that most of the pipe rests on, of which `length` (k,) is given; for targets that have but one."""
+    """The seabed of most of the pipe around touchdown, by `length` (k,); for targets that have but one."""
     carrying = np.array([each.stiffness > 0.0 for each in soils])
     return soils[int(np.argmax(np.where(carrying, length, -1.0)))]
+
+
+def report_governing(report: Report, soils: list[Soil], one: Soil, *, at_touchdown: bool) -> None:
+    """Add whose stiffness a target with one seabed has, and the range over the line, where that is one."""
+    carrying = [each.stiffness for each in soils if each.stiffness > 0.0]
+    if carrying and max(carrying) > (1.0 + _SAME) * min(carrying):
+        span = f"over the line {shown(min(carrying) / 1e3, 4)} to {kilo(max(carrying))}"
+        what = (
+            "that of the elements around touchdown"
+            if at_touchdown
+            else "that of the elements most of the pipe rests on"
+        )
+        report.add(one.where, Status.APPROXIMATED, f"one stiffness, {kilo(one.stiffness)}", f"{what}; {span}", "range")
 
 
 def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[float]) -> None:

@@ -21,7 +21,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.model.results.summary import followers
-from mudline.model.scene.deck_curves import DeckCurve, other_curves
+from mudline.model.scene.deck_curves import ENDS, DeckCurve, other_curves
 from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.force_curves import SceneCurve
 from mudline.model.scene.model import Scene
@@ -271,7 +271,7 @@ def other_curve_help(entry: DeckCurve) -> str:
         return f"{head}: no curve, see its findings"
     (first, last), (over, value) = (curve.ratios[[0, -1]].tolist(), entry.axes)
     reach = f"{over} from {first:g} to {last:g}, {value} from {curve.forces[0]:g} to {curve.forces[-1]:g}"
-    return f"{head}: {len(curve.ratios)} points, {reach}; its end sections go on beyond them"
+    return f"{head}: {len(curve.ratios)} points, {reach}; {ENDS[entry.ends]}"
 
 
 def curve_help(scene: Scene, entry: SceneCurve) -> str:

@@ -14,7 +14,6 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from mudline.checks.output import visible
-from mudline.model.results.curve_rows import curve_units
 from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
 from mudline.model.scene.deck_curves import OF_SEABED
 from mudline.tools.reporting.content import Report
@@ -64,11 +63,10 @@ def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]
     if study is not None and study.drawable:
         words = "Error of the touchdown zone against run time, with the deck's own time step"
         yield "study", words, study.figure
-    units_of = curve_units(scene)
     for row in (found.get("curves") or {}).get("curves", ()):
         words = f"The {row['kind']} {visible(row['name'])}: {row['axes'][1]} over {row['axes'][0]}"
         section = "curves" if row["kind"] == OF_SEABED else "appendix"
-        yield section, words, partial(curves_figure, [row], scene.units, units_of)
+        yield section, words, partial(curves_figure, [row], scene.units)
 
 
 def _markup(figure: Figure, prefix: str, alternative: str) -> str:

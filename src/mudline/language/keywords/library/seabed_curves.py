@@ -41,7 +41,8 @@ class StiffnessCurve(Record):
     rule = "stiffness_curve"
     name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES", defines=Names.CURVE)]
     points: Annotated[
-        Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", usual=CURVE_FORCE)
+        Table,
+        curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", ends="slope", usual=CURVE_FORCE),
     ]
 
 
@@ -74,7 +75,8 @@ class EmbedmentCurve(Record):
         setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
     points: Annotated[
-        Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", usual=CURVE_FORCE)
+        Table,
+        curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio", ends="slope", usual=CURVE_FORCE),
     ]
 
 

@@ -15,6 +15,7 @@ _CONSTANT_FRICTION = (
     "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
     "friction is computed from it"
 )
+_AT_MEAN_DEPTH = "a number acts at the mean depth of the two nodes of an element, as the manual says of curves"
 _SUCTION_STIFFNESS = (
     "the unit, which the manual does not give: that of the linear stiffness, a force per unit length for each length "
     "that the pipe rises"
@@ -96,6 +97,7 @@ class SeabedSet(Record):
             unit="F/L2",
             at_least=0,
             names=Names.CURVE,
+            inferred=_AT_MEAN_DEPTH,
             usual=BED,
         ),
     ] = None
@@ -213,7 +215,13 @@ class _Stiffness(Row):
 
     stiffness: Annotated[
         Real | None,
-        about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0, usual=BED),
+        about(
+            "stiffness per unit length; without it *EMBEDMENT is required",
+            unit="F/L2",
+            at_least=0,
+            inferred=_AT_MEAN_DEPTH,
+            usual=BED,
+        ),
     ] = None
 
 

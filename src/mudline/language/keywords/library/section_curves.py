@@ -31,6 +31,7 @@ class MomentCurvatureCurve(Record):
             "points in any order; at least two",
             "moment-curvature curve",
             abscissa="curvature",
+            ends="slope",
             usual=(EI_CURVE, BENT),
         ),
     ]
@@ -68,7 +69,12 @@ class TorqueTwistCurve(Record):
     points: Annotated[
         Table,
         curve_points(
-            TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist", usual=EI_CURVE
+            TorqueTwistPoint,
+            "two points or more, in any order",
+            "torque-twist curve",
+            abscissa="twist",
+            ends="slope",
+            usual=EI_CURVE,
         ),
     ]
 
@@ -107,6 +113,7 @@ class ForceStrainCurve(Record):
             "two points or more, in any order",
             "force-strain curve",
             abscissa="strain",
+            ends="slope",
             usual=EA_CURVE,
         ),
     ]
@@ -148,6 +155,7 @@ class StressStrainCurve(Record):
             "points in any order; at least two; without negative strains it is taken to be symmetric",
             "stress-strain curve",
             abscissa="strain",
+            ends="slope",
             usual=E_CURVE,
         ),
     ]

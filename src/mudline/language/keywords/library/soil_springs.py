@@ -47,7 +47,15 @@ class DepthCurve(OpenRecord):
         ),
     ]
     points: Annotated[
-        Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement", usual=SOIL_CURVES)
+        Table,
+        curve_points(
+            SoilPoint,
+            _SOIL_POINTS,
+            "soil spring curve",
+            abscissa="displacement",
+            ends="value",
+            usual=SOIL_CURVES,
+        ),
     ]
 
 
@@ -60,7 +68,15 @@ class NodeCurve(OpenRecord):
         setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE, unique=True),
     ]
     points: Annotated[
-        Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement", usual=SOIL_CURVES)
+        Table,
+        curve_points(
+            SoilPoint,
+            _SOIL_POINTS,
+            "soil spring curve",
+            abscissa="displacement",
+            ends="value",
+            usual=SOIL_CURVES,
+        ),
     ]
 
 

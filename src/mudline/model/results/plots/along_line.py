@@ -26,12 +26,15 @@ from mudline.model.results.plots.style import (
     widen,
     zero_line,
 )
+from mudline.model.results.totals import carried
 from mudline.model.scene.numbering import Floats, Indices
 
 MOST_LINES = 6
 """Lines that are drawn."""
 _BESIDE = 0.15
 """Part of the stretch in contact that is drawn on both sides of it."""
+_CHANGE = 0.01
+"""Part of the deepest embedment by which that of neighbours differs where contact changes."""
 _MARKED = 80
 """Slipping nodes of a line that are marked."""
 
@@ -51,10 +54,11 @@ class DrawnLine(NamedTuple):
 
 
 class Stretch:
-    """The lines that are drawn, and the stretch of arc length that all panels along them show.
+    """The lines that are drawn, and the stretch of arc length that all panels along them show: where contact changes.
 
     Attributes:
         limits: the least and the largest arc length that is drawn.
+        beyond: what is not drawn, in words: parts of the line that lie on the seabed without a change.
         lines: the drawn lines: those that touch the seabed first.
         left_out: the number of lines that are not drawn.
     """
@@ -74,6 +78,16 @@ class Stretch:
             low, high = float(begin[touching].min()), float(end[touching].max())
             beside = max(_BESIDE * (high - low), 2.0 * float(data.given.length[touching].max()))
             self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
+        changes = np.concatenate([self._changes(line) for line in drawn]) if drawn else np.zeros(0, np.intp)
+        parts = []
+        if changes.size:
+            low, high = float(begin[changes].min()), float(end[changes].max())
+            beside = max(0.5 * (high - low), 3.0 * float(data.given.length[changes].max()))
+            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
+            sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1]))
+            parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
+        where = f"{' and '.join(parts)}{unit_names(data.given.units).behind('length')}"
+        self.beyond = f"where contact changes: {where} in contact, not drawn" if parts else ""
         self.lines = []
         for place, line in enumerate(drawn):
             elements = lines.elements[line][evaluated[lines.elements[line]]]
@@ -83,6 +97,16 @@ class Stretch:
             self.lines.append(
                 DrawnLine(line, style, elements[here], arcs[here], lines.nodes[line][near], node_arcs[near])
             )
+
+    def _changes(self, line: int) -> Indices:
+        """The elements of a line where contact changes: it begins or ends, or the embedment differs, at any step."""
+        data, elements = self.data, self.data.given.lines.elements[line]
+        elements = elements[np.isin(elements, data.elements)]
+        touched, deepest = data.touched[elements], float(np.nan_to_num(data.depth.most).max(initial=0.0))
+        steps = [np.abs(np.diff(np.nan_to_num(each[elements]))) for each in (data.depth.least, data.depth.most)]
+        differs = (np.maximum(*steps) > _CHANGE * deepest) | (touched[1:] != touched[:-1])
+        at = np.flatnonzero(differs & (touched[1:] | touched[:-1]))
+        return elements[np.union1d(at, at + 1)]
 
     def name(self, line: DrawnLine) -> str:
         """Return what a line is called in a legend."""
@@ -113,6 +137,12 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     else:
         _of_elements(axes, result.force, stretch)
         axes.set_ylabel(ELEMENTS["force"].axis(units))
+        arcs, forces = data.given.lines.element_arc, np.nan_to_num(data.force.most)
+        at = int(np.argmax(forces))
+        if not stretch.limits[0] <= arcs[at] <= stretch.limits[1] and forces[at] > 0.0:
+            names = unit_names(units)
+            where = f"at {arcs[at]:.5g}{names.behind('length')}"
+            legend(axes, note=f"largest {forces[at]:.5g}{names.behind('line_force')} {where}, not drawn")
     zero_line(axes)
 
 
@@ -260,7 +290,7 @@ def _crop(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 def _thick(axes: Axes, data: PlotData, one: DrawnLine) -> bool:
     """Draw the elements of a line that touch the seabed over it; return whether there are any."""
     lines, heights = data.given.lines, data.drawn.heights
-    here = np.flatnonzero(data.drawn.result.contact[lines.elements[one.number]])
+    here = np.flatnonzero(carried(data.drawn.result)[lines.elements[one.number]])
     arcs, along = lines.node_arcs(one.number, data.given.length), heights[lines.nodes[one.number]]
     here = here[thinned(np.nan_to_num(along[here]))] if here.size else here
     x, y = (gapped(values[here], values[here + 1]) for values in (arcs, along))

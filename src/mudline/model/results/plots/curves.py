@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from mudline.model.results.plots.style import (
     style_of,
     zero_line,
 )
-from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.deck_curves import OF_CURRENT, OF_SEABED
 from mudline.model.scene.numbering import Indices, Mask
 
 _MARGIN = 0.15
@@ -36,68 +36,83 @@ _MARKS = {"values asked for": ("at", "x", 8.0), "static embedment": ("static", "
 
 
 @drawing()
-def curves_figure(
-    rows: Iterable[dict[str, Any]], units: str, units_of: Mapping[str, tuple[str, str]] | None = None
-) -> Figure:
-    """Return a figure of curves by kind, dashed beyond their points, with the values asked for.
+def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
+    """Return a figure of curves by kind and keyword, dashed beyond their points, with the values asked for.
+
+    A current profile is drawn with the elevation upward.
 
     Args:
-        rows: as of `curve_rows`: name, kind, points, values asked for, and axes, but of curves of the seabed.
+        rows: as of `curve_rows`: name, kind, points and values asked for; of other curves than those of the seabed also
+            keyword, axes, units, ends and reach.
         units: system of units.
-        units_of: `curve_units` of the deck, where there are other curves than those of the seabed.
     """
-    kinds: dict[str, list[dict[str, Any]]] = {}
+    kinds: dict[tuple[str, ...], list[dict[str, Any]]] = {}
     for row in rows:
-        kinds.setdefault(row["kind"], []).append(row)
+        of_seabed = row["kind"] == OF_SEABED
+        kinds.setdefault((row["kind"],) if of_seabed else (row["kind"], row["keyword"], *row["axes"]), []).append(row)
     heights = [2.9 + 0.085 * (len(own) + 4) for own in kinds.values()]
     figure = new_figure(max(sum(heights), 4.0))
     grid = figure.add_gridspec(max(1, len(kinds)), 1, height_ratios=heights or None)
-    for place, (kind, own) in enumerate(kinds.items()):
+    for place, ((kind, *_), own) in enumerate(kinds.items()):
         axes = figure.add_subplot(grid[place])
         for number, row in enumerate(own):
             _curve(axes, row, style_of(number))
-        axes.plot([], [], color="0.3", linestyle="--", linewidth=1.0, label="beyond the points")
+        if own[0].get("ends") != "none":
+            axes.plot([], [], color="0.3", linestyle="--", linewidth=1.0, label="beyond the points")
         for label, (key, shape, size) in _MARKS.items():
             if any(row.get(key) for row in own):
                 axes.plot([], [], shape, **_mark("0.3", size), label=label)
         zero_line(axes)
         axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
+        title = f"{kind[:1].upper()}{kind[1:]}s"
         if kind == OF_SEABED:
-            names, dimensions = (ELEMENTS["ratio"].label, ELEMENTS["force"].label), ("-", "F/L")
+            labels = [
+                labelled(ELEMENTS["ratio"].label, "-"),
+                labelled(ELEMENTS["force"].label, unit_text("F/L", units)),
+            ]
         else:
-            names, dimensions = own[0]["axes"], (units_of or {})[kind]
-        axes.set_xlabel(_label(names[0], dimensions[0], units))
-        axes.set_ylabel(_label(names[1], dimensions[1], units))
+            labels = [labelled(name, unit) for name, unit in zip(own[0]["axes"], own[0]["units"], strict=True)]
+            title += f" (*{own[0]['keyword']})"
+        if kind == OF_CURRENT:
+            labels.reverse()
+        axes.set_xlabel(labels[0])
+        axes.set_ylabel(labels[1])
         finish(axes)
-        legend(axes, title=f"{kind[:1].upper()}{kind[1:]}s", columns=2)
+        if kind == OF_CURRENT and own[0]["axes"][0].startswith("depth"):
+            axes.invert_yaxis()
+        legend(axes, title=title, columns=2)
     figure.align_ylabels()
     return figure
 
 
-def _label(name: str, dimension: str, units: str) -> str:
-    """The label of an axis with its unit: `1/L` becomes `1/m`."""
-    one = "1" if dimension.startswith("1/") else ""
-    return labelled(name, one + unit_text(dimension.removeprefix(one), units))
-
-
 def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
-    """Draw a curve with its marks."""
+    """Draw a curve as far as it is known, with its marks; a current profile upward."""
     ratios, forces = np.array(row["points"]).T
+    reach = row.get("reach", (None, None))
+    low, high = (given if end is None else end for end, given in zip(reach, ratios[[0, -1]], strict=True))
+    known = np.unique(np.clip(ratios, low, high))
+    ratios, forces = known, np.interp(known, ratios, forces)
+    upward = -1 if row["kind"] == OF_CURRENT else 1
     marker = style.marker if len(ratios) <= MOST_MARKED else ""
     name = legend_name(row["name"])
-    axes.plot(ratios, forces, color=style.color, linewidth=1.3, marker=marker, markersize=3.5, label=name)
+    axes.plot(*(ratios, forces)[::upward], color=style.color, linewidth=1.3, marker=marker, markersize=3.5, label=name)
     marked = []
     for key, shape, size in _MARKS.values():
         for one in row.get(key, ()):
-            axes.plot(one["ratio"], one["force"], shape, **_mark(style.color, size))
-            marked.append(one["ratio"])
+            if one["force"] is not None:
+                axes.plot(*(one["ratio"], one["force"])[::upward], shape, **_mark(style.color, size))
+                marked.append(one["ratio"])
     far = ratios[-1] * (1.0 + _MARGIN)
     for end, inner, to in ((0, 1, min([0.0, *marked])), (-1, -2, max([far, *marked]))):
+        if reach[end] is not None:
+            continue
         with np.errstate(all="ignore"):
             part = (to - ratios[end]) / (ratios[end] - ratios[inner])
-            force = forces[end] + part * (forces[end] - forces[inner])
-        if part > 0.0 and np.isfinite(force):
-            axes.plot([ratios[end], to], [forces[end], force], color=style.color, linestyle="--", linewidth=1.0)
+            rise = 0.0 if row.get("ends") == "value" else part * (forces[end] - forces[inner])
+        if part > 0.0 and np.isfinite(forces[end] + rise):
+            axes.plot(
+                [ratios[end], to], [forces[end], forces[end] + rise], color=style.color, linestyle="--", linewidth=1.0
+            )
 
 
 def _mark(color: str, size: float) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from mudline.basics.files import PLOT_FORMS, form_of_file, replacement
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
-from mudline.model.contact import ContactResult
+from mudline.model.contact import ContactResult, LawKind
 from mudline.model.results.plot_data import Extents, PlotData
 from mudline.model.results.plots import along_line
 from mudline.model.results.plots.along_line import Stretch, when
@@ -55,7 +55,9 @@ def panels_of(data: PlotData) -> list[Panel]:
 
     Of more than that, those are left out that an engineer would miss least: the last ones below.
     """
-    stretch, touched, lined = Stretch(data), bool(data.touched.any()), data.elements.size > 0
+    # The force of a rigid seabed is not known: no panel shows it as 0.
+    touched = bool((data.touched & (data.given.law != LawKind.RIGID)).any())
+    stretch, lined = Stretch(data), data.elements.size > 0
     touches_down = any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
 
     def along(name: str, draw: Callable[[Axes, PlotData, Stretch], None]) -> Panel:
@@ -85,7 +87,7 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
     wide = len(panels) % columns
     """An odd number of panels: the first one is as wide as the figure."""
     rows = max(1, -(-len(panels) // columns))
-    title = "\n".join([_title(data, panels), *textwrap.wrap(printable(caption, LONGEST_MESSAGE), _CAPTION)])
+    title = "\n".join([_title(data, panels, stretch), *textwrap.wrap(printable(caption, LONGEST_MESSAGE), _CAPTION)])
     figure = new_figure(0.2 + 0.17 * (1 + title.count("\n")) + _HEIGHT * rows)
     grid = figure.add_gridspec(rows, columns)
     drawn: list[list[Axes]] = [[] for _ in range(columns)]
@@ -111,12 +113,15 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
     return figure
 
 
-def _title(data: PlotData, panels: Sequence[Panel]) -> str:
-    """What is drawn, and which step panels along the line show."""
+def _title(data: PlotData, panels: Sequence[Panel], stretch: Stretch) -> str:
+    """What is drawn, and which step and which part panels along the line show."""
     source = "" if data.given.names is None else data.given.names.source
     title = f"Seabed contact of {printable(source, _CAPTION)}" if source else "Seabed contact"
     at = when(data, data.drawn.step)
-    if not at or not any(panel.axis == "arc length" for panel in panels):
+    if not any(panel.axis == "arc length" for panel in panels):
+        return title
+    title += f"\n{stretch.beyond}" if stretch.beyond else ""
+    if not at:
         return title
     which = "along the line: at " if data.steps > 1 else "at "
     return f"{title}\n{which}{at}" + (", when the total reaction is largest" if data.steps > 1 else "")
