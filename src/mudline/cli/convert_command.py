@@ -19,7 +19,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.ranges import is_refused
-from mudline.language.keywords.table import Table
+from mudline.language.keywords.model import FEWEST_POINTS
 
 _FORMS = click.Choice(form_names())
 _TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}
@@ -193,12 +193,13 @@ def sort_curves(deck: Deck) -> list[str]:
             if any(column == 0 for _, column in curve.points.words):
                 left.append(getattr(curve, "name", None) or curve.set_name or "ALL")
                 continue
+            if len(curve.points) < FEWEST_POINTS:
+                continue
             table, order = curve.points, np.argsort(curve.points.values[:, 0], kind="stable")
             new_row = {old: new for new, old in enumerate(order.tolist())}
             moved = [
                 each.model_copy(update={"before": new_row.get(each.before, len(order))}) for each in curve.comments
             ]
             curve.comments = sorted(moved, key=lambda comment: comment.before)
-            words = {(new_row[row], column): word for (row, column), word in table.words.items()}
-            curve.points = Table(table.values[order], table.lengths[order], words)
+            curve.points = table.chosen(order)
     return left

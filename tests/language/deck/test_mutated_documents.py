@@ -9,7 +9,7 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.language.deck.faults import DocumentPath, path_text
+from mudline.language.keywords.faults import DocumentPath, path_text
 from mudline.language.deck.forms.yaml import CoreDumper
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck

@@ -11,7 +11,8 @@ from pydantic.json_schema import models_json_schema
 
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck import MARK
-from mudline.language.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, respelt, shown
+from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
+from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.deck.likeness import RawLines
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import Findings

@@ -14,6 +14,7 @@ from pydantic import (
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializationInfo,
+    ValidationError,
     ValidationInfo,
     model_serializer,
     model_validator,
@@ -22,6 +23,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
+from mudline.basics.spelling import nearest
 from mudline.language.keywords.fields import (
     AS_TEXT,
     Expected,
@@ -35,15 +37,16 @@ from mudline.language.keywords.fields import (
     parts_of,
     with_limits,
 )
+from mudline.language.keywords.lists import checked_by_parts, refusal
 from mudline.language.keywords.table import (
     AS_TABLES,
     Cell,
     Column,
     Listing,
     Table,
-    checked_by_parts,
     fewest_fields,
     misfit,
+    plain,
     read_table,
     row_format,
 )
@@ -166,7 +169,26 @@ Wanted = Callable[["FieldSpec"], bool]
 class Part(BaseModel):
     """Anything with declared fields."""
 
-    model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True)
+    model_config = ConfigDict(
+        extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True, validate_assignment=True
+    )
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set a field. Raises ValueError for what is none, or for a value that it cannot have: it keeps what it has."""
+        given, kept, known = plain(value), dict(self.__dict__), set(self.model_fields_set)
+        slot = next((slot for slot in record_schema(type(self)).slots if slot.name == name), None)
+        if name not in type(self).model_fields:
+            near = nearest(name, type(self).model_fields)
+            raise ValueError(f"{type(self).__name__} has no field {name!r}{f': did you mean {near}?' if near else ''}")
+        if slot and slot.row and not isinstance(slot.about, Rows) and isinstance(given, list) and not slot.many:
+            given = dict(zip((one.json for one in record_schema(slot.row).columns), given, strict=False))
+        try:
+            super().__setattr__(name, given)
+        except ValidationError as error:
+            object.__setattr__(self, "__dict__", kept)
+            object.__setattr__(self, "__pydantic_fields_set__", known)
+            expected = slot.kind.value if slot and slot.kind and not slot.choices else ""
+            raise refusal(type(self).__name__, {name: given}, error, expected) from None
 
     def __repr__(self) -> str:
         given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
@@ -210,7 +232,7 @@ class Part(BaseModel):
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return checked_by_parts(handler(source))
+        return checked_by_parts(handler(source), cls)
 
 
 class Row(Part):

@@ -8,7 +8,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mudline.language.codes import DOC002
-from mudline.language.deck.faults import DocumentPath, document_path, path_text, shown
+from mudline.language.deck.faults import document_path
+from mudline.language.keywords.faults import DocumentPath, path_text, shown
 from mudline.language.deck.meaning import first_difference, meaning, numbered
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
@@ -128,10 +129,7 @@ def _sample(part: _P) -> _P:
 def _some_rows(table: Table) -> Table:
     firsts = np.unique(table.lengths, return_index=True)[1].tolist()
     first_of = {(column, word): row for (row, column), word in reversed(table.words.items())}
-    rows = sorted({*range(_FEW), *firsts, *first_of.values()})
-    kept = {row: number for number, row in enumerate(rows)}
-    words = {(kept[row], column): word for (row, column), word in table.words.items() if row in kept}
-    return Table(table.values[rows], table.lengths[rows], words)
+    return table.chosen(sorted({*range(_FEW), *firsts, *first_of.values()}))
 
 
 def _described(where: Where, path: DocumentPath, wanted: object, found: object) -> tuple[Where, str]:
