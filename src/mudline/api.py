@@ -6,19 +6,22 @@ import math
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from mudline.basics.arguments import ArgumentKindError, expect, expect_word, read_only, several
+from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
-from mudline.language.deck.forms import KEYWORD
+from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
-from mudline.language.diagnostics import Diagnostic, Where
+from mudline.language.deck.typed import TypedDeck
+from mudline.language.deck.writing import keyword_file
+from mudline.language.diagnostics import Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
@@ -37,22 +40,12 @@ _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
 _YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
 
 
-class Deck(model.Deck):
+class Deck(TypedDeck):
     """A deck: its sections and blocks as validated models, equations as written.
 
-    `read`, `from_keyword`, `from_json` and `from_yaml` make decks.
+    `read`, `from_keyword`, `from_json` and `from_yaml` make decks. Values are set as attributes of its blocks; one that
+    a field cannot have raises ValueError, and changes nothing.
     """
-
-    def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks of a keyword in all sections of a name, in the order of the file, each with its place."""
-        expect(keyword, "keyword", str, "a str")
-        expect(section, "section", str, "a str")
-        return super().blocks(keyword, section)
-
-    def keywords(self, section: str = "MODEL") -> set[str]:
-        """The keywords of all sections of a name."""
-        expect(section, "section", str, "a str")
-        return super().keywords(section)
 
     def to_json(self) -> str:
         """Return the deck as JSON text; nothing but layout is lost."""
@@ -70,13 +63,43 @@ class Deck(model.Deck):
         """
         return dump(self.alone, "keyword")
 
+    def set(self, path: str, value: object) -> None:
+        """Set one value, as `mudline set` does: `deck.set("SEABED PROPERTIES[TDZ].friction", (0.3, 0.5))`.
+
+        Args:
+            path: `KEYWORD.field`; of several records the one of a set or a name, `KEYWORD[TDZ].field`, or the N-th,
+                `KEYWORD[N].field`.
+            value: a number or a text; rows, for a table; several values, for a field that has them.
+
+        Raises:
+            ValueError: no keyword has such a field; the deck has no such value, several, or an equation there; or the
+                field cannot have the value. The deck is as before then.
+        """
+        from mudline.editing.assignment.assigning import set_value  # noqa: PLC0415 - most scripts set attributes
+
+        expect(path, "path", str, "a str")
+        set_value(self, path, value)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the deck to a file in one step: keyword text, or JSON or YAML, by its suffix.
+
+        Keyword text that was read keeps its encoding and line ends, and every line that was not changed its bytes.
+
+        Raises:
+            OSError: the file cannot be written; one that was there is as before.
+            DeckError: a name, comment or raw line cannot be written in a keyword file.
+        """
+        file = _path(path)
+        form = form_of(file.name)
+        write_atomically(file, keyword_file(self.alone) if form == KEYWORD else dump(self.alone, form).encode())
+
     def scene(self) -> Scene:
         """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
 
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        return Scene(scenes.resolve(self.alone).require())
+        return Scene(scenes.resolve(self.alone.placed()).require())
 
 
 class Scene:

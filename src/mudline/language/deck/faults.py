@@ -15,7 +15,7 @@ from mudline.basics.spelling import meant_names
 from mudline.language.codes import DOC001, DOC002
 from mudline.language.deck.model import START, Deck, Origin, Range
 from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Problem, Span, Where
-from mudline.language.keywords.faults import DocumentPath, holds, fault_in_words, path_in, path_text, shown
+from mudline.language.keywords.faults import DocumentPath, fault_in_words, holds, path_in, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.text import hint
 

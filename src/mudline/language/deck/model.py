@@ -25,7 +25,8 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
-from mudline.language.keywords.model import Block, Comment, Part, record_schema
+from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.naming import Role, all_names_given
 from mudline.language.keywords.values import Names, Text
 
@@ -272,6 +273,7 @@ class Deck:
 
     def keywords(self, section: str = "MODEL") -> set[str]:
         """Names of the keywords in the sections of a name."""
+        expect(section, "section", str, "a str")
         return {block.keyword for found in self.sections if found.name == section for block in found.blocks}
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:

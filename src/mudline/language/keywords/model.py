@@ -14,7 +14,6 @@ from pydantic import (
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializationInfo,
-    ValidationError,
     ValidationInfo,
     model_serializer,
     model_validator,
@@ -23,9 +22,10 @@ from pydantic_core import CoreSchema, core_schema
 
 from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
-from mudline.basics.spelling import nearest
+from mudline.language.keywords.assigning import assign, checked_by_parts
 from mudline.language.keywords.fields import (
     AS_TEXT,
+    Comment,
     Expected,
     FieldInfo,
     Setting,
@@ -37,7 +37,6 @@ from mudline.language.keywords.fields import (
     parts_of,
     with_limits,
 )
-from mudline.language.keywords.lists import checked_by_parts, refusal
 from mudline.language.keywords.table import (
     AS_TABLES,
     Cell,
@@ -46,12 +45,11 @@ from mudline.language.keywords.table import (
     Table,
     fewest_fields,
     misfit,
-    plain,
     read_table,
     row_format,
 )
 from mudline.language.keywords.unknown import is_unknown
-from mudline.language.keywords.values import Count, Facts, Kind, Subject, Text
+from mudline.language.keywords.values import Facts, Kind, Subject
 
 FEWEST_POINTS = 2
 """Points of a curve."""
@@ -108,7 +106,6 @@ class Rows(FieldInfo):
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         columns = self.columns()
-        fewest = fewest_fields(column.required for column in columns)
         listed = {
             "type": "array",
             "prefixItems": [
@@ -116,7 +113,7 @@ class Rows(FieldInfo):
                 for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
             ],
             "items": False,
-            "minItems": fewest,
+            "minItems": fewest_fields(column.required for column in columns),
         }
         return {
             "description": self.meaning,
@@ -137,17 +134,6 @@ def curve_points(
 ) -> Rows:
     """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
     return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, usual=usual)
-
-
-class Comment(BaseModel):
-    """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
-    before: Count
-    text: Text
-
-    def __repr__(self) -> str:
-        return with_fields(self, [("before", self.before), ("text", self.text)])
 
 
 Path = tuple[str | int, ...]
@@ -175,20 +161,8 @@ class Part(BaseModel):
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Set a field. Raises ValueError for what is none, or for a value that it cannot have: it keeps what it has."""
-        given, kept, known = plain(value), dict(self.__dict__), set(self.model_fields_set)
         slot = next((slot for slot in record_schema(type(self)).slots if slot.name == name), None)
-        if name not in type(self).model_fields:
-            near = nearest(name, type(self).model_fields)
-            raise ValueError(f"{type(self).__name__} has no field {name!r}{f': did you mean {near}?' if near else ''}")
-        if slot and slot.row and not isinstance(slot.about, Rows) and isinstance(given, list) and not slot.many:
-            given = dict(zip((one.json for one in record_schema(slot.row).columns), given, strict=False))
-        try:
-            super().__setattr__(name, given)
-        except ValidationError as error:
-            object.__setattr__(self, "__dict__", kept)
-            object.__setattr__(self, "__pydantic_fields_set__", known)
-            expected = slot.kind.value if slot and slot.kind and not slot.choices else ""
-            raise refusal(type(self).__name__, {name: given}, error, expected) from None
+        assign(self, name, value, slot, super().__setattr__)
 
     def __repr__(self) -> str:
         given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
@@ -278,6 +252,11 @@ class Record(Part):
     # Of the class `list` pydantic parses the signature, in each model that has the field.
     comments: list[Comment] = Field(default_factory=lambda: [])  # noqa: PIE807 - as above
 
+    def known_as(self) -> Any:
+        """The name of the record, or that of its set: its first field for a name; None where it has none."""
+        slot = next((slot for slot in record_schema(type(self)).slots if slot.kind is Kind.NAME), None)
+        return (getattr(self, slot.name) or slot.about.default or None) if slot else None
+
     @classmethod
     def carries(cls, given: dict[str, object], last: object) -> object:
         """What `row_slot` is told as `last` in the next record, of what was read of this one."""
@@ -343,6 +322,12 @@ class FieldSpec:
     def parts(self) -> list[type[Part]]:
         """The parts that a value of the field may be, or its table consists of."""
         return [part for part in (self.row, *self.record.values()) if part]
+
+    @property
+    def row_names(self) -> list[str]:
+        """The names of the values of a field that is a row; of others none."""
+        row = None if self.many or isinstance(self.about, Rows) else self.row
+        return [column.json for column in record_schema(row).columns] if row else []
 
     @property
     def is_text(self) -> bool:
@@ -458,12 +443,7 @@ def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec 
     """The column and the value of a cell; a row that could not be read has none."""
     columns = record_schema(field.row).columns if field is not None and field.row else []
     row, column = (int(step) for step in path) if len(path) > 1 else (0, len(columns))
-    if column >= len(columns):
-        return None, None
-    if (row, column) in table.words:
-        return columns[column], table.words[row, column]
-    inside = row < len(table.values) and column < table.values.shape[1]
-    return columns[column], float(table.values[row, column]) if inside else None
+    return (columns[column], table.cell(row, column)) if column < len(columns) else (None, None)
 
 
 @cache

@@ -162,6 +162,13 @@ class Table:
                     values[row] = default
         return values
 
+    def cell(self, row: int, column: int) -> float | Equation | Label | None:
+        """What stands in a row and column; None where there is no such row, or it ends before."""
+        if (row, column) in self.words:
+            return self.words[row, column]
+        inside = row < len(self) and column < self.values.shape[1]
+        return float(self.values[row, column]) if inside else None
+
     def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
         """The rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
         return [row for part in self.parts(columns) for row in part.rows]

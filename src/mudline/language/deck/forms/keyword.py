@@ -9,11 +9,11 @@ import numpy as np
 
 from mudline.language.codes import DOC002
 from mudline.language.deck.faults import document_path
-from mudline.language.keywords.faults import DocumentPath, path_text, shown
 from mudline.language.deck.meaning import first_difference, meaning, numbered
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Where
+from mudline.language.keywords.faults import DocumentPath, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import block_lines, with_comments
@@ -26,7 +26,7 @@ def to_keyword(deck: Deck) -> str:
     Raises DeckError for a deck that keyword text cannot say: a name with a comma, a second curve of the set ALL.
     """
     _require_survival(deck)
-    return _text(deck)
+    return canonical_text(deck)
 
 
 write = to_keyword  # as `dump` knows it
@@ -35,13 +35,13 @@ write = to_keyword  # as `dump` knows it
 def _require_survival(deck: Deck) -> None:
     """Write the deck with shortened tables and read it again without an error: all must be there, also its comments."""
     light = sampled(deck)
-    text = _text(light)
+    text = canonical_text(light)
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
     if change := _first_difference(light, again):
         where, reason = change
         message = f"{path_text(document_path(where))} cannot be written as keyword text: {reason}"
         raise DeckError(deck.diagnose([Problem(DOC002, message, where=where)]))
-    if text != (other := _text(again)):
+    if text != (other := canonical_text(again)):
         lines = zip(text.split("\n"), other.split("\n"), strict=False)
         one, two = next(pair for pair in lines if pair[0] != pair[1])
         message = f"the line {shown(one)} cannot be written as keyword text: {shown(two)} would be read there"
@@ -64,17 +64,19 @@ def as_text(deck: Deck) -> Deck:
     return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
 
 
-def _text(deck: Deck) -> str:
+def canonical_text(deck: Deck) -> str:
+    """The deck as keyword text, whether it can be read back or not."""
     sections = with_comments(deck.comments, ((_section(section), 1) for section in deck.sections))
     return "\n".join([*deck.preamble, *sections, ""])
 
 
 def _section(section: Section) -> list[str]:
-    blocks = with_comments(section.comments, ((_block(block), 1) for block in section.blocks))
+    blocks = with_comments(section.comments, ((lines_of(block), 1) for block in section.blocks))
     return [f"${section.name}", *section.lines, *blocks]
 
 
-def _block(block: Block | Opaque) -> list[str]:
+def lines_of(block: Block | Opaque) -> list[str]:
+    """The lines of a block in canonical layout."""
     return [f"*{block.keyword}", *block.lines] if isinstance(block, Opaque) else list(block_lines(block))
 
 

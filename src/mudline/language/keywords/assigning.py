@@ -1,21 +1,19 @@
-"""Lists of parts: read some entries at a time, and checked entry by entry where a program changes them."""
+"""What a program changes in a block: fields, and lists of them, which are read some entries at a time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from itertools import islice
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Self, SupportsIndex, cast
+from typing import Annotated, Any, NamedTuple, Self, SupportsIndex, cast
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCustomError, core_schema
 
 from mudline.basics.short_repr import UnknownNameError
+from mudline.basics.spelling import nearest
 from mudline.language.keywords.faults import fault_in_words, path_in, path_text
 from mudline.language.keywords.table import plain
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.model import Part
 
 _ENTRIES_AT_ONCE = 32
 """Entries checked at once; lists are nested three deep at most."""
@@ -23,7 +21,32 @@ _ENTRIES_AT_ONCE = 32
 _UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
 
 
-def refusal(name: str, value: object, error: ValidationError, expected: str = "") -> ValueError:
+def assign(part: BaseModel, name: str, value: Any, slot: Any, put: Callable[[str, Any], None]) -> None:
+    """Put a value into a field of a part, which validates it; several values are those of a row, one for each column.
+
+    `slot` is what the part declares of the field, a `FieldSpec`, if it does.
+
+    Raises ValueError, and leaves the part as it is.
+    """
+    kind = type(part)
+    if name not in kind.model_fields:
+        near = nearest(name, kind.model_fields)
+        raise ValueError(f"{kind.__name__} has no field {name!r}{f': did you mean {near}?' if near else ''}")
+    given, kept, known = plain(value), dict(part.__dict__), set(part.model_fields_set)
+    if slot and slot.row_names and isinstance(given, list):
+        if len(given) > len(slot.row_names):
+            raise ValueError(f"{kind.__name__}.{name}: {len(given)} values, at most {len(slot.row_names)} expected")
+        given = dict(zip(slot.row_names, given, strict=False))
+    try:
+        put(name, given)
+    except ValidationError as error:
+        object.__setattr__(part, "__dict__", kept)
+        object.__setattr__(part, "__pydantic_fields_set__", known)
+        expected = slot.kind.value if slot and slot.kind and not slot.choices else ""
+        raise _refusal(kind.__name__, {name: given}, error, expected) from None
+
+
+def _refusal(name: str, value: object, error: ValidationError, expected: str = "") -> ValueError:
     """Why a value cannot be assigned: the path in it and what is `expected` there; of several faults the first."""
     found: dict[tuple[str | int, ...], list[ErrorDetails]] = {}
     for fault in error.errors(include_url=False):
@@ -36,7 +59,7 @@ def refusal(name: str, value: object, error: ValidationError, expected: str = ""
 class ListOf(NamedTuple):
     """The field of a part whose entries a list holds."""
 
-    part: type[Part]
+    part: type[BaseModel]
     name: str
 
     def by_parts(self, given: object, check: core_schema.ValidatorFunctionWrapHandler) -> ValidatedList:
@@ -73,13 +96,15 @@ class ValidatedList(list[Any]):
         """An entry by its index or, without case, by its name. Raises KeyError for no such name, and for several."""
         if not isinstance(at, str):
             return super().__getitem__(at)
-        names = [_name_of(entry) for entry in self]
-        found = [index for index, name in enumerate(names) if name is not None and name.casefold() == at.casefold()]
+        names = [entry.known_as() if hasattr(entry, "known_as") else None for entry in self]
+        found = [
+            index for index, name in enumerate(names) if isinstance(name, str) and name.casefold() == at.casefold()
+        ]
         if len(found) == 1:
             return super().__getitem__(found[0])
         if found:
             raise UnknownNameError(f"{at!r} is the name of {len(found)} entries: take one by its index, of {found}")
-        raise UnknownNameError.among("entry", at, [name for name in names if name is not None])
+        raise UnknownNameError.among("entry", at, [name for name in names if isinstance(name, str)])
 
     def __setitem__(self, at: Any, value: Any) -> None:
         super().__setitem__(at, self._valid(value) if isinstance(at, slice) else self._valid([value])[0])
@@ -105,7 +130,7 @@ class ValidatedList(list[Any]):
         try:
             return cast("list[Any]", _entries(self.of).validate_python(given))
         except ValidationError as error:
-            raise refusal(f"{self.of.part.__name__}.{self.of.name}", given, error) from None
+            raise _refusal(f"{self.of.part.__name__}.{self.of.name}", given, error) from None
 
 
 def _filled(of: ListOf, entries: list[Any]) -> ValidatedList:
@@ -117,22 +142,11 @@ def _filled(of: ListOf, entries: list[Any]) -> ValidatedList:
 @cache
 def _entries(of: ListOf) -> TypeAdapter[Any]:
     info = of.part.model_fields[of.name]
-    return TypeAdapter(Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation)
+    kind: Any = Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
+    return TypeAdapter(kind)
 
 
-def _name_of(entry: object) -> str | None:
-    """The first text of a record that is its name or that of its set."""
-    from mudline.language.keywords.model import Record, record_schema  # noqa: PLC0415 - parts have lists
-    from mudline.language.keywords.values import Kind  # noqa: PLC0415 - as above
-
-    if not isinstance(entry, Record):
-        return None
-    slot = next((slot for slot in record_schema(type(entry)).slots if slot.kind is Kind.NAME), None)
-    name = slot and getattr(entry, slot.name)
-    return name if isinstance(name, str) else (slot.about.default or None) if slot else None
-
-
-def checked_by_parts(schema: CoreSchema, part: type[Part], name: str = "") -> CoreSchema:
+def checked_by_parts(schema: CoreSchema, part: type[BaseModel], name: str = "") -> CoreSchema:
     """The schema of a model with a limit on each of its own lists; those of the models in it have theirs."""
     found = cast("dict[str, Any]", schema)
     if found["type"] == "list":
