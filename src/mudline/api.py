@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
+import errno
 import os
 import re
 from collections import Counter
 from collections.abc import Iterable
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from mudline.model.scene.numbering import Floats, Ids, Indices
     from mudline.model.scene.positions import Positions
     from mudline.model.scene.resolved import ByName
-    from mudline.tools.touchdown_study.study import Study
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
@@ -89,7 +89,7 @@ class Deck(TypedDeck):
             OSError: the file cannot be written; one that was there is as before.
             DeckError: a name, comment or raw line cannot be written in a keyword file.
         """
-        file = _path(path)
+        file = given_path(path)
         form = form_of(file.name)
         write_atomically(file, keyword_file(self.alone) if form == KEYWORD else dump(self.alone, form).encode())
 
@@ -263,7 +263,7 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         ValueError: `path` is the text of a deck.
         TypeError: `path` is not a path.
     """
-    return _public(load_path(_path(path), units=_units(units)))
+    return public(load_path(given_path(path), units=_units(units)))
 
 
 def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
@@ -280,35 +280,7 @@ def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
     from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
 
     expect(scene, "scene", Scene, "a Scene")
-    return positions.read_positions(_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
-
-
-def study(deck: Deck, *, only: Iterable[str] = (), heave: float | None = None, period: float | None = None) -> Study:
-    """Return the study of a deck's touchdown zone: errors over run time, stiff and extreme cases, what it needs.
-
-    Args:
-        deck: what is studied.
-        only: some of "accuracy", "stability" and "pruning"; all if empty.
-        heave: amplitude of the hang-off in the deck's units, instead of what its waves give.
-        period: that of its motion, likewise.
-
-    Raises:
-        DeckError: the deck has errors, or cannot be evaluated. Where it has no touchdown zone, `.advice.text` says why.
-        ValueError: `only` names no part, or an amplitude or a period is not above 0.
-    """
-    from mudline.tools.touchdown_study import study as studies  # noqa: PLC0415 - decks alone do without it
-
-    expect(deck, "deck", Deck, "a Deck")
-    parts = several(only, "only", str, "several str")
-    for part in parts:
-        expect_word(part, "only", studies.PARTS, "of accuracy, stability and pruning")
-    for name, value in (("heave", heave), ("period", period)):
-        if value is not None:
-            expect(value, name, (int, float), "a number")
-            if not 0.0 < value < math.inf:
-                raise ValueError(f"{name} must be a number above 0, not {value!r}")
-    resolved = scenes.resolve(deck.alone).require()
-    return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
+    return positions.read_positions(given_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
 
 
 def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
@@ -364,29 +336,49 @@ def from_yaml(text: str | bytes) -> Deck:
     return _from_text(text, "yaml")
 
 
+Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+
+
 def lint(
-    path: str | os.PathLike[str],
-    *,
-    select: Iterable[str] = (),
-    ignore: Iterable[str] = (),
-    units: str | None = None,
+    path: Paths, *, select: Iterable[str] = (), ignore: Iterable[str] = (), units: str | None = None
 ) -> list[Diagnostic]:
-    """Return all findings in a file, in its order; never raises for its content.
+    """Return all findings in decks, file by file in the order of each; never raises for their content.
 
     Args:
-        path: the file.
+        path: a file, a folder with decks below it, or several of them.
         select: rules by code, prefix of a code, or slug; all rules if empty.
         ignore: rules that are left out, named the same way.
-        units: "metric", "imperial" or "user", instead of what the file tells.
+        units: "metric", "imperial" or "user", instead of what the files tell.
 
     Raises:
-        OSError: the file cannot be read.
+        OSError: a file cannot be read, or a folder has no deck.
         ValueError: a word names no rule, or `path` is the text of a deck.
         TypeError: `path` is not a path, or `select` or `ignore` are not several words.
     """
-    file, units = _path(path, "save it to a file"), _units(units)
+    files, units = decks_in(path), _units(units)
     words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
-    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(*words), units=units, folder=file.parent)
+    rules = _chosen(*words)
+    found = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
+    return [*chain.from_iterable(found)]
+
+
+def decks_in(path: Paths) -> list[Path]:
+    """The files that are given, and the decks below folders that are, without what a .gitignore hides.
+
+    Raises FileNotFoundError for a folder without a deck.
+    """
+    from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many scripts name one file
+
+    one = isinstance(path, str | bytes | os.PathLike)
+    given = [path] if one else several(path, "path", (str, bytes, os.PathLike), "a path, or several")
+    files: list[Path] = []
+    for each in given:
+        place = given_path(each, "save it to a file")
+        found = [Path(file) for _, file in Search(str(place)).files(is_in_any_form)] if place.is_dir() else [place]
+        if not found:
+            raise FileNotFoundError(errno.ENOENT, "no deck in this folder", str(place))
+        files += found
+    return files
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
@@ -394,10 +386,15 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
     expect(text, "text", (str, bytes), "str or bytes")
     errors = "replace" if form == KEYWORD else "surrogatepass"
     data = text if isinstance(text, bytes) else text.encode(errors=errors)
-    return _public(load_bytes(data, f"<{form}>", form=form, units=units))
+    return public(load_bytes(data, f"<{form}>", form=form, units=units))
 
 
-def _public(deck: model.Deck) -> Deck:
+def given_deck(deck: Deck | str | os.PathLike[str]) -> Deck:
+    """The deck that a function is given, read if it is given as a file."""
+    return deck if isinstance(deck, Deck) else read(given_path(deck, name="deck"))
+
+
+def public(deck: model.Deck) -> Deck:
     """A deck that was read as users have it; raises DeckError when something in it could not be read."""
     return Deck(**vars(deck.require()))
 
@@ -406,18 +403,18 @@ def _units(units: str | None) -> str | None:
     return None if units is None else checked_units(units)
 
 
-def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:
+def given_path(given: object, advice: str = "use mudline.{}(text)", *, name: str = "path") -> Path:
     """The path that is given; raises ValueError for the text of a deck, TypeError for what is not a path."""
-    name = os.fspath(given) if isinstance(given, os.PathLike) else given
-    text = bytes(name).decode("utf-8-sig", "replace") if isinstance(name, bytes | bytearray) else name
+    path = os.fspath(given) if isinstance(given, os.PathLike) else given
+    text = bytes(path).decode("utf-8-sig", "replace") if isinstance(path, bytes | bytearray) else path
     function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
     if function and not os.path.exists(str(text)):  # noqa: PTH110 - Path raises for names that are too long
         raise ValueError(f"expected a path, found the text of a deck: {advice.format(function)}")
-    if isinstance(name, str) and (not name or "\0" in name):
-        raise ValueError(f"path must be the name of a file, not {name!r}")
-    if not isinstance(name, str):
-        raise ArgumentKindError(f"path must be a str or os.PathLike, not {type(name).__name__}")
-    return Path(name)
+    if isinstance(path, str) and (not path or "\0" in path):
+        raise ValueError(f"{name} must be the name of a file, not {path!r}")
+    if not isinstance(path, str):
+        raise ArgumentKindError(f"{name} must be a str or os.PathLike, not {type(path).__name__}")
+    return Path(path)
 
 
 def _function_for(text: str) -> str | None:

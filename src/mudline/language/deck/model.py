@@ -66,6 +66,7 @@ class Range(NamedTuple):
 
 _INTERNAL = frozenset(
     [
+        "all_of",
         "alone",
         "base_of",
         "bases",
@@ -75,9 +76,11 @@ _INTERNAL = frozenset(
         "folder_of",
         "incomplete",
         "lost",
+        "one_of",
         "origin",
         "own_sections",
         "place",
+        "placed",
         "problems",
         "require",
         "written",
