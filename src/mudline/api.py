@@ -6,11 +6,14 @@ import errno
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
+from types import NoneType
 from typing import TYPE_CHECKING, Literal
+
+import numpy as np
 
 from mudline.basics.arguments import ArgumentKindError, expect, expect_word, read_only, several
 from mudline.basics.files import write_atomically
@@ -28,11 +31,11 @@ from mudline.model.scene import model as scenes
 if TYPE_CHECKING:
     from mudline.language.deck.evaluated import EvaluatedDeck
     from mudline.model.contact import ContactModel, ContactResult
+    from mudline.model.contact.arrays import Positions
     from mudline.model.contact.plan import Backend
     from mudline.model.curves import ForceCurve
     from mudline.model.results.warnings import ContactWarning
     from mudline.model.scene.numbering import Floats, Ids, Indices
-    from mudline.model.scene.positions import Positions
     from mudline.model.scene.resolved import ByName
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
@@ -266,24 +269,40 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
     return public(load_path(given_path(path), units=_units(units)))
 
 
-def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
-    """Read positions of a scene's nodes, at one or more times, from a CSV, NPZ or NPY file, by its suffix.
+def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | None = None) -> Positions:
+    """Read positions of a scene's nodes, at one or more times, from a file, a pandas frame or an xarray data set.
 
     Args:
-        path: the file; a CSV has the columns `[time,]node,x,y,z[,vx,vy,vz]`, in the units of the deck.
-        scene: whose nodes they are. Nodes that the file lacks are NaN, and False in `.present`.
+        path: a CSV with the columns `[time,]node,x,y,z[,vx,vy,vz]`, in the units of the deck, an NPZ or NPY, or what
+            MoorDyn and OrcaFlex write; a frame with the columns of the CSV; a data set with `positions` over `time`,
+            `node` and an axis, or that array alone.
+        scene: whose nodes they are. Nodes that are lacking are NaN, and False in `.present`.
+        columns: headings of a CSV or frame whose columns have other names, as in `{"x": "Z (m)"}`.
 
     Raises:
         OSError: the file cannot be read.
         DeckError: it has faults, or nodes that the scene lacks.
     """
     from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
-    return positions.read_positions(given_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
+    expect(columns, "columns", (Mapping, NoneType), "names of columns with their headings")
+    headings = dict(columns or {})
+    if unknown := sorted(headings.keys() - {*positions.COLUMNS}):
+        raise ValueError(f"columns: no column {', '.join(unknown)}; expected some of {', '.join(positions.COLUMNS)}")
+    resolved = scene._resolved  # noqa: SLF001 - a class of this module
+    if any(hasattr(path, name) for name in ("iloc", "dims")):
+        return positions.positions_of(path, resolved.nodes, headings)
+    file = given_path(path)
+    of_program = not headings and file.suffix.lower() not in {".npz", ".npy"}
+    found = read_returned(file, resolved) if of_program else None
+    return positions.read_positions(file, resolved.nodes, headings) if found is None else found
 
 
-def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
+def contact_warnings(
+    scene: Scene, result: ContactResult, positions: Floats | Positions | None = None
+) -> list[ContactWarning]:
     """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
 
     `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
@@ -291,14 +310,16 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
 
     Raises ValueError where result or positions are not those of the scene.
     """
-    from mudline.model.contact.result import ContactResult as Result  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.contact.arrays import Positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.contact.result import ContactResult as Result  # noqa: PLC0415 - as above
     from mudline.model.results import warnings  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
     expect(result, "result", Result, "a ContactResult")
     if len(result.evaluated) != len(scene.element_ids) or len(result.present) != len(scene.node_ids):
         raise ValueError("result must be that of the scene: it has another number of nodes or elements")
-    return warnings.contact_warnings(scene._resolved, result, positions)  # noqa: SLF001 - as above
+    given = np.asarray(positions.whole, np.float64) if isinstance(positions, Positions) else positions
+    return warnings.contact_warnings(scene._resolved, result, given)  # noqa: SLF001 - as above
 
 
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:

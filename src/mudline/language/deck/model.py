@@ -177,11 +177,14 @@ class Deck:
         """The keywords of each section with their numbers, for notebooks."""
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
-        found = Counter((section.name, block.keyword) for section in self.sections for block in section.blocks)
-        rows = [(section, keyword, number) for (section, keyword), number in found.items()]
+        blocks = [(section.name, block.keyword, block) for section in self.sections for block in section.blocks]
+        said = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)
+        rows = [(section, keyword, number, text) for (section, keyword, text), number in Counter(said).items()]
         errors = [counted(len(self.errors()), "error")] if self.errors() else []
         summary = ", ".join([self.file, self.units, *errors])
-        return html_page(type(self).__name__, summary, html_table(("section", "keyword", "blocks"), rows, len(rows)))
+        return html_page(
+            type(self).__name__, summary, html_table(("section", "keyword", "blocks", "says"), rows, len(rows))
+        )
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _INTERNAL]

@@ -1,12 +1,15 @@
-"""Names for the array types of this package."""
+"""Names for the array types of this package; positions over time."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mudline.basics.short_repr import short_repr
 
 BoolArray = NDArray[np.bool_]
 FloatArray = NDArray[np.float64]
@@ -34,8 +37,36 @@ class StepReader(ABC):
         """The number of steps."""
 
     @abstractmethod
-    def __getitem__(self, wanted: slice) -> NDArray[np.floating]:
-        """Some steps (steps, nodes, 3)."""
+    def __getitem__(self, wanted: slice | int) -> NDArray[np.floating]:
+        """Some steps (steps, nodes, 3), or one (nodes, 3)."""
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Positions:
+    """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
+
+    `present` (nodes,) says which nodes the file has; `time` (steps,) is None for a single state without a time.
+    `velocities`, where the file has them, are as the positions; `timed` says whether the file has times, else `time`
+    counts the steps.
+    """
+
+    values: NDArray[np.floating] | StepReader
+    present: BoolArray
+    time: FloatArray | None
+    velocities: NDArray[np.floating] | None = None
+    timed: bool = True
+
+    __repr__ = short_repr
+
+    @property
+    def whole(self) -> NDArray[np.floating]:
+        """All steps at once, those of a file read into memory. Raises OSError, DeckError."""
+        return self.values[:]
+
+    @property
+    def missing(self) -> int:
+        """Number of nodes without a position."""
+        return int((~self.present).sum())
 
 
 def taken(values: NDArray[Item], at: Picked) -> NDArray[Item]:

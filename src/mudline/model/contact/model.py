@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mudline.basics.arguments import as_array, expect
 from mudline.basics.short_repr import counted, outline
-from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, StepReader
+from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, Positions, StepReader
 from mudline.model.contact.input import ContactInput, PositionError
 from mudline.model.contact.numpy_driver import NumpyDriver
 from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
@@ -72,15 +72,22 @@ class ContactModel:
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
         return outline("ContactModel", size, stages, self.plan.steps)
 
+    def _repr_html_(self) -> str:
+        """Its size and its plan, for notebooks."""
+        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
+        return self.plan.html("ContactModel", f"{counted(nodes, 'node')}, {counted(elements, 'element')}")
+
     def evaluate(
         self,
-        positions: ArrayLike | StepReader | None = None,
+        positions: ArrayLike | StepReader | Positions | None = None,
         *,
         present: ArrayLike | None = None,
         velocities: ArrayLike | None = None,
         times: ArrayLike | None = None,
     ) -> ContactResult:
         """Evaluate positions (n, 3), or a series (steps, n, 3); None stands for the input's coordinates.
+
+        `Positions`, as files hold them, bring what else they say: which nodes are present, velocities, times.
 
         Positions are real numbers of any type, in the input's length unit, X up; a memory-mapped series is read a few
         steps at a time. `present` (n,) says which nodes have a position: what stands at the others is not looked at,
@@ -96,6 +103,11 @@ class ContactModel:
                 neither velocities nor times.
         """
         given = self.input.coordinates if positions is None else positions
+        if isinstance(given, Positions):
+            present = given.present if present is None else present
+            velocities = given.velocities if velocities is None else velocities
+            times = given.time if times is None and given.timed else times
+            given = given.values if len(given.values) > 1 or given.time is not None else given.values[0]
         single = False
         if not isinstance(given, StepReader):
             given = as_array(given, "positions")

@@ -18,6 +18,7 @@ import numpy as np
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact import ContactInput
+from mudline.model.contact.arrays import Positions
 from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.lines import lines_of
 from mudline.model.contact.stretch import cut_out
@@ -25,7 +26,6 @@ from mudline.model.results.evaluation import require_elements
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import Pipe, pipe_of
-from mudline.model.scene.positions import Positions
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.tools.exporting.held import TRANSLATIONS, held_nodes, vessel_offset
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
