@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import chain
 from pathlib import Path
 from types import NoneType
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 
@@ -390,10 +390,9 @@ def decks_in(path: Paths) -> list[Path]:
     """
     from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many scripts name one file
 
-    one = isinstance(path, str | bytes | os.PathLike)
-    given = [path] if one else several(path, "path", (str, bytes, os.PathLike), "a path, or several")
+    one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
     files: list[Path] = []
-    for each in given:
+    for each in [path] if one else cast("Iterable[object]", path):
         place = given_path(each, "save it to a file")
         found = [Path(file) for _, file in Search(str(place)).files(is_in_any_form)] if place.is_dir() else [place]
         if not found:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
 
 import numpy as np
 
-from mudline.api import Deck, decks_in, given_deck, given_path, public
+from mudline.api import Deck, decks_in, from_keyword, given_deck, given_path, public
 from mudline.basics.arguments import expect, expect_word, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units, shown
@@ -20,6 +20,7 @@ from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import Diagnostic
+from mudline.language.keywords.writer import block_lines
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
@@ -302,7 +303,11 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
         "curves": [{"set" if legacy else "name": title, "points": points}],
         "comments": [{"before": 0, "text": text} for text in texts],
     }
-    return BackboneCurve(curve, (Embedment if legacy else SeabedStiffness).model_validate(given))
+    block = (Embedment if legacy else SeabedStiffness).model_validate(given)
+    # What a name may be is known to the reader alone.
+    if from_keyword("\n".join(["$MODEL", *block_lines(block), ""])).sections[0].blocks != [block]:
+        raise ValueError(f"name {title!r} is not what a deck reads as a name: give letters and digits")
+    return BackboneCurve(curve, block)
 
 
 def study(

@@ -10,6 +10,7 @@ from typing import cast
 
 import numpy as np
 
+from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.basics.spelling import nearest
@@ -105,6 +106,8 @@ def set_value(deck: Deck, path: str, value: object) -> None:
         operand = Operand(value, Operand.of(value).number)
     elif isinstance(value, int | float | np.number):
         operand = Operand(str(value), float(value))
+    elif not isinstance(value, list | tuple | np.ndarray | Table):
+        raise ArgumentKindError(f"value must be a number, a text or several values, not {type(value).__name__}")
     target = target_of(parse_path(path), operand)
     found = _the_one(deck, target, left_out=True)
     if found is None:
@@ -116,8 +119,8 @@ def set_value(deck: Deck, path: str, value: object) -> None:
         setattr(found.owner, found.field.slot.name, value)
         return
     *holder, name, row, column = found.where.path
-    rows = [list(cells) for cells in found.owner]
-    rows[int(row)][int(column)] = value  # type: ignore[call-overload]  # it is validated below
+    rows: list[list[object]] = [list(cells) for cells in found.owner]
+    rows[int(row)][int(column)] = value
     block = deck.sections[found.where.section].blocks[found.where.block]
     record: Part = block.at(tuple(holder))[1]
     setattr(record, next(slot.name for slot in record_schema(type(record)).slots if slot.json == name), rows)

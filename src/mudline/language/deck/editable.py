@@ -10,7 +10,7 @@ from typing import Any, Self
 
 from pydantic.fields import FieldInfo
 
-from mudline.basics.arguments import expect
+from mudline.basics.arguments import expect, expect_word
 from mudline.basics.short_repr import UnknownNameError
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
@@ -64,8 +64,8 @@ class EditableDeck(Deck):
         """
         expect(block, "block", Block, "a block, such as mudline.keywords.Ocean(depth=100)")
         belongs = type(block).sections
-        if section is not None and section not in belongs:
-            raise ValueError(f"*{block.keyword} belongs in ${' or $'.join(belongs)}, not in ${section}")
+        if section is not None:
+            expect_word(section, "section", belongs, f"{' or '.join(belongs)}, where *{block.keyword} belongs")
         wanted = (section,) if section else belongs
         found = next((one for one in reversed(self.own_sections) if one.name in wanted), None)
         if found is None:
@@ -94,7 +94,7 @@ class EditableDeck(Deck):
                     del section.blocks[number]
                     section.comments[:] = [_moved(one, -1) if one.before > number else one for one in section.comments]
                     gone += 1
-        if not gone and keyword:
+        if not gone and isinstance(what, str):
             raise UnknownNameError(f"the deck has no *{keyword}")
         if not gone:
             raise ValueError("the block is not in the deck: take it from deck.block or deck.blocks")

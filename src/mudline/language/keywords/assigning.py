@@ -21,10 +21,10 @@ _ENTRIES_AT_ONCE = 32
 _UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
 
 
-def assign(part: BaseModel, name: str, value: Any, slot: Any, put: Callable[[str, Any], None]) -> None:
+def assign(part: BaseModel, name: str, value: Any, schema: Callable[..., Any], put: Callable[[str, Any], None]) -> None:
     """Put a value into a field of a part, which validates it; several values are those of a row, one for each column.
 
-    `slot` is what the part declares of the field, a `FieldSpec`, if it does.
+    `schema` is `record_schema`, which this module cannot know.
 
     Raises ValueError, and leaves the part as it is.
     """
@@ -33,10 +33,12 @@ def assign(part: BaseModel, name: str, value: Any, slot: Any, put: Callable[[str
         near = nearest(name, kind.model_fields)
         raise ValueError(f"{kind.__name__} has no field {name!r}{f': did you mean {near}?' if near else ''}")
     given, kept, known = plain(value), dict(part.__dict__), set(part.model_fields_set)
-    if slot and slot.row_names and isinstance(given, list):
-        if len(given) > len(slot.row_names):
-            raise ValueError(f"{kind.__name__}.{name}: {len(given)} values, at most {len(slot.row_names)} expected")
-        given = dict(zip(slot.row_names, given, strict=False))
+    slot = next((slot for slot in schema(kind).slots if slot.name == name), None)
+    if slot and slot.row and not (slot.many or slot.columns) and isinstance(given, list):
+        columns = [column.json for column in schema(slot.row).columns]
+        if len(given) > len(columns):
+            raise ValueError(f"{kind.__name__}.{name}: {len(given)} values, at most {len(columns)} expected")
+        given = dict(zip(columns, given, strict=False))
     try:
         put(name, given)
     except ValidationError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from pydantic import (
     BaseModel,
@@ -159,10 +159,11 @@ class Part(BaseModel):
         extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True, validate_assignment=True
     )
 
-    def __setattr__(self, name: str, value: Any) -> None:
-        """Set a field. Raises ValueError for what is none, or for a value that it cannot have: it keeps what it has."""
-        slot = next((slot for slot in record_schema(type(self)).slots if slot.name == name), None)
-        assign(self, name, value, slot, super().__setattr__)
+    if not TYPE_CHECKING:  # a checker takes any attribute of a class that has this
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            """Set a field. Raises ValueError for what is none, or a value that it cannot have: it keeps its own."""
+            assign(self, name, value, record_schema, super().__setattr__)
 
     def __repr__(self) -> str:
         given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
@@ -322,12 +323,6 @@ class FieldSpec:
     def parts(self) -> list[type[Part]]:
         """The parts that a value of the field may be, or its table consists of."""
         return [part for part in (self.row, *self.record.values()) if part]
-
-    @property
-    def row_names(self) -> list[str]:
-        """The names of the values of a field that is a row; of others none."""
-        row = None if self.many or isinstance(self.about, Rows) else self.row
-        return [column.json for column in record_schema(row).columns] if row else []
 
     @property
     def is_text(self) -> bool:

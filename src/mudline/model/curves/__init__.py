@@ -249,9 +249,11 @@ class ForceCurve:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curve, dashed beyond its points, and return the axes; needs matplotlib."""
+        if ax is not None and not hasattr(ax, "plot"):
+            raise ValueError("ax must be axes of matplotlib")
         try:
             plots: Any = import_module("mudline.model.results.plots.curves")
-            axes = import_module("matplotlib.pyplot").subplots()[1] if ax is None else ax
+            axes = import_module("matplotlib.pyplot").subplots(layout="constrained")[1] if ax is None else ax
         except ImportError as error:
             raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
         plots.draw_curve(axes, self.name or "curve", np.column_stack((self.ratios, self.forces)))

@@ -106,7 +106,7 @@ def draw_curve(axes: Axes, name: str, points: FloatArray) -> None:
     drawn = axes.get_legend_handles_labels()[1]
     _curve(axes, {"name": name, "kind": OF_SEABED, "points": points}, style_of(len(drawn)))
     axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
-    axes.set_ylabel(ELEMENTS["force"].label)
+    axes.set_ylabel(ELEMENTS["force"].label.replace("\n", " "))
     legend(axes)
 
 
