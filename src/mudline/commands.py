@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
 
 import numpy as np
 
-from mudline.api import Deck, decks_in, from_keyword, given_deck, given_path, public
+from mudline.api import Deck, decks_in, given_deck, given_path, public
 from mudline.basics.arguments import expect, expect_word, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units, shown
@@ -305,7 +305,8 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
     }
     block = (Embedment if legacy else SeabedStiffness).model_validate(given)
     # What a name may be is known to the reader alone.
-    if from_keyword("\n".join(["$MODEL", *block_lines(block), ""])).sections[0].blocks != [block]:
+    text = "\n".join(["$MODEL", *block_lines(block), ""])
+    if load_bytes(text.encode(errors="replace"), "").sections[0].blocks != [block]:
         raise ValueError(f"name {title!r} is not what a deck reads as a name: give letters and digits")
     return BackboneCurve(curve, block)
 
