@@ -7,6 +7,7 @@ import dataclasses
 import importlib
 import inspect
 import pickle
+import re
 from pathlib import Path
 from typing import cast
 
@@ -58,6 +59,13 @@ def test_names_are_those_of_the_contract() -> None:
     assert {*names, "read_positions", "Study", "__version__"} == set(mudline.__all__)
     assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
     assert mudline.__version__.count(".") == 2
+
+
+def test_every_public_name_is_on_the_page_of_the_api() -> None:
+    page = (Path(__file__).parents[2] / "docs/python-api.md").read_text(encoding="utf-8")
+    assert sorted(re.findall(r"^::: mudline\.(\w+)$", page, re.MULTILINE)) == sorted(
+        {*mudline.__all__} - {"__version__"}
+    )
 
 
 def test_unknown_name() -> None:
