@@ -90,7 +90,7 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-index: $(VENV)/.developer ## the index of the keywords' declarations again, after one is added
+index: $(VENV)/.developer ## the index and the type stubs of the keywords' declarations again, after one is added
 	$(BIN)/python -m tests.language.keywords.index
 
 docs: index ## regenerate what docs/ takes from the program

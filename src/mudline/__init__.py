@@ -22,8 +22,8 @@ if TYPE_CHECKING:
         lint,
         read,
         read_positions,
-        study,
     )
+    from mudline.commands import backbone, expand, export, fix, format, migrate, study, validate  # noqa: A004
     from mudline.language.diagnostics import DeckError, Diagnostic, Severity
     from mudline.model.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.model.curves import CurveError, ForceCurve
@@ -48,14 +48,21 @@ __all__ = [
     "Severity",
     "Study",
     "__version__",
+    "backbone",
     "contact_warnings",
+    "expand",
+    "export",
+    "fix",
+    "format",
     "from_json",
     "from_keyword",
     "from_yaml",
     "lint",
+    "migrate",
     "read",
     "read_positions",
     "study",
+    "validate",
 ]
 
 _HOMES = {
@@ -71,8 +78,8 @@ _HOMES = {
             "lint",
             "read",
             "read_positions",
-            "study",
         ],
+        "commands": ["backbone", "expand", "export", "fix", "format", "migrate", "study", "validate"],
         "model.contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
         "model.curves": ["CurveError", "ForceCurve"],
         "language.diagnostics": ["DeckError", "Diagnostic", "Severity"],

@@ -2,57 +2,53 @@
 
 from __future__ import annotations
 
-import math
+import errno
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Mapping
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from types import NoneType
+from typing import TYPE_CHECKING, Literal, cast
+
+import numpy as np
 
 from mudline.basics.arguments import ArgumentKindError, expect, expect_word, read_only, several
+from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
-from mudline.language.deck.forms import KEYWORD
+from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
-from mudline.language.diagnostics import Diagnostic, Where
+from mudline.language.deck.typed import TypedDeck
+from mudline.language.deck.writing import keyword_file
+from mudline.language.diagnostics import Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
     from mudline.language.deck.evaluated import EvaluatedDeck
     from mudline.model.contact import ContactModel, ContactResult
+    from mudline.model.contact.arrays import Positions
     from mudline.model.contact.plan import Backend
     from mudline.model.curves import ForceCurve
     from mudline.model.results.warnings import ContactWarning
     from mudline.model.scene.numbering import Floats, Ids, Indices
-    from mudline.model.scene.positions import Positions
     from mudline.model.scene.resolved import ByName
-    from mudline.tools.touchdown_study.study import Study
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
 _YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
 
 
-class Deck(model.Deck):
+class Deck(TypedDeck):
     """A deck: its sections and blocks as validated models, equations as written.
 
-    `read`, `from_keyword`, `from_json` and `from_yaml` make decks.
+    `read`, `from_keyword`, `from_json` and `from_yaml` make decks. Values are set as attributes of its blocks; one that
+    a field cannot have raises ValueError, and changes nothing.
     """
-
-    def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks of a keyword in all sections of a name, in the order of the file, each with its place."""
-        expect(keyword, "keyword", str, "a str")
-        expect(section, "section", str, "a str")
-        return super().blocks(keyword, section)
-
-    def keywords(self, section: str = "MODEL") -> set[str]:
-        """The keywords of all sections of a name."""
-        expect(section, "section", str, "a str")
-        return super().keywords(section)
 
     def to_json(self) -> str:
         """Return the deck as JSON text; nothing but layout is lost."""
@@ -70,13 +66,43 @@ class Deck(model.Deck):
         """
         return dump(self.alone, "keyword")
 
+    def set(self, path: str, value: object) -> None:
+        """Set one value, as `mudline set` does: `deck.set("SEABED PROPERTIES[TDZ].friction", (0.3, 0.5))`.
+
+        Args:
+            path: `KEYWORD.field`; of several records the one of a set or a name, `KEYWORD[TDZ].field`, or the N-th,
+                `KEYWORD[N].field`.
+            value: a number or a text; rows, for a table; several values, for a field that has them.
+
+        Raises:
+            ValueError: no keyword has such a field; the deck has no such value, several, or an equation there; or the
+                field cannot have the value. The deck is as before then.
+        """
+        from mudline.editing.assignment.assigning import set_value  # noqa: PLC0415 - most scripts set attributes
+
+        expect(path, "path", str, "a str")
+        set_value(self, path, value)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the deck to a file in one step: keyword text, or JSON or YAML, by its suffix.
+
+        Keyword text that was read keeps its encoding and line ends, and every line that was not changed its bytes.
+
+        Raises:
+            OSError: the file cannot be written; one that was there is as before.
+            DeckError: a name, comment or raw line cannot be written in a keyword file.
+        """
+        file = given_path(path)
+        form = form_of(file.name)
+        write_atomically(file, keyword_file(self.alone) if form == KEYWORD else dump(self.alone, form).encode())
+
     def scene(self) -> Scene:
         """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
 
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        return Scene(scenes.resolve(self.alone).require())
+        return Scene(scenes.resolve(self.alone.placed()).require())
 
 
 class Scene:
@@ -240,55 +266,43 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         ValueError: `path` is the text of a deck.
         TypeError: `path` is not a path.
     """
-    return _public(load_path(_path(path), units=_units(units)))
+    return public(load_path(given_path(path), units=_units(units)))
 
 
-def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
-    """Read positions of a scene's nodes, at one or more times, from a CSV, NPZ or NPY file, by its suffix.
+def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | None = None) -> Positions:
+    """Read positions of a scene's nodes, at one or more times, from a file, a pandas frame or an xarray data set.
 
     Args:
-        path: the file; a CSV has the columns `[time,]node,x,y,z[,vx,vy,vz]`, in the units of the deck.
-        scene: whose nodes they are. Nodes that the file lacks are NaN, and False in `.present`.
+        path: a CSV with the columns `[time,]node,x,y,z[,vx,vy,vz]`, in the units of the deck, an NPZ or NPY, or what
+            MoorDyn and OrcaFlex write; a frame with the columns of the CSV; a data set with `positions` over `time`,
+            `node` and an axis, or that array alone.
+        scene: whose nodes they are. Nodes that are lacking are NaN, and False in `.present`.
+        columns: headings of a CSV or frame whose columns have other names, as in `{"x": "Z (m)"}`.
 
     Raises:
         OSError: the file cannot be read.
         DeckError: it has faults, or nodes that the scene lacks.
     """
     from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
-    return positions.read_positions(_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
+    expect(columns, "columns", (Mapping, NoneType), "names of columns with their headings")
+    headings = dict(columns or {})
+    if unknown := sorted(headings.keys() - {*positions.COLUMNS}):
+        raise ValueError(f"columns: no column {', '.join(unknown)}; expected some of {', '.join(positions.COLUMNS)}")
+    resolved = scene._resolved  # noqa: SLF001 - a class of this module
+    if any(hasattr(path, name) for name in ("iloc", "dims")):
+        return positions.positions_of(path, resolved.nodes, headings)
+    file = given_path(path)
+    of_program = not headings and file.suffix.lower() not in {".npz", ".npy"}
+    found = read_returned(file, resolved) if of_program else None
+    return positions.read_positions(file, resolved.nodes, headings) if found is None else found
 
 
-def study(deck: Deck, *, only: Iterable[str] = (), heave: float | None = None, period: float | None = None) -> Study:
-    """Return the study of a deck's touchdown zone: errors over run time, stiff and extreme cases, what it needs.
-
-    Args:
-        deck: what is studied.
-        only: some of "accuracy", "stability" and "pruning"; all if empty.
-        heave: amplitude of the hang-off in the deck's units, instead of what its waves give.
-        period: that of its motion, likewise.
-
-    Raises:
-        DeckError: the deck has errors, or cannot be evaluated. Where it has no touchdown zone, `.advice.text` says why.
-        ValueError: `only` names no part, or an amplitude or a period is not above 0.
-    """
-    from mudline.tools.touchdown_study import study as studies  # noqa: PLC0415 - decks alone do without it
-
-    expect(deck, "deck", Deck, "a Deck")
-    parts = several(only, "only", str, "several str")
-    for part in parts:
-        expect_word(part, "only", studies.PARTS, "of accuracy, stability and pruning")
-    for name, value in (("heave", heave), ("period", period)):
-        if value is not None:
-            expect(value, name, (int, float), "a number")
-            if not 0.0 < value < math.inf:
-                raise ValueError(f"{name} must be a number above 0, not {value!r}")
-    resolved = scenes.resolve(deck.alone).require()
-    return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
-
-
-def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
+def contact_warnings(
+    scene: Scene, result: ContactResult, positions: Floats | Positions | None = None
+) -> list[ContactWarning]:
     """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
 
     `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
@@ -296,14 +310,16 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
 
     Raises ValueError where result or positions are not those of the scene.
     """
-    from mudline.model.contact.result import ContactResult as Result  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.contact.arrays import Positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.contact.result import ContactResult as Result  # noqa: PLC0415 - as above
     from mudline.model.results import warnings  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
     expect(result, "result", Result, "a ContactResult")
     if len(result.evaluated) != len(scene.element_ids) or len(result.present) != len(scene.node_ids):
         raise ValueError("result must be that of the scene: it has another number of nodes or elements")
-    return warnings.contact_warnings(scene._resolved, result, positions)  # noqa: SLF001 - as above
+    given = np.asarray(positions.whole, np.float64) if isinstance(positions, Positions) else positions
+    return warnings.contact_warnings(scene._resolved, result, given)  # noqa: SLF001 - as above
 
 
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
@@ -341,29 +357,48 @@ def from_yaml(text: str | bytes) -> Deck:
     return _from_text(text, "yaml")
 
 
+Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+
+
 def lint(
-    path: str | os.PathLike[str],
-    *,
-    select: Iterable[str] = (),
-    ignore: Iterable[str] = (),
-    units: str | None = None,
+    path: Paths, *, select: Iterable[str] = (), ignore: Iterable[str] = (), units: str | None = None
 ) -> list[Diagnostic]:
-    """Return all findings in a file, in its order; never raises for its content.
+    """Return all findings in decks, file by file in the order of each; never raises for their content.
 
     Args:
-        path: the file.
+        path: a file, a folder with decks below it, or several of them.
         select: rules by code, prefix of a code, or slug; all rules if empty.
         ignore: rules that are left out, named the same way.
-        units: "metric", "imperial" or "user", instead of what the file tells.
+        units: "metric", "imperial" or "user", instead of what the files tell.
 
     Raises:
-        OSError: the file cannot be read.
+        OSError: a file cannot be read, or a folder has no deck.
         ValueError: a word names no rule, or `path` is the text of a deck.
         TypeError: `path` is not a path, or `select` or `ignore` are not several words.
     """
-    file, units = _path(path, "save it to a file"), _units(units)
+    files, units = decks_in(path), _units(units)
     words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
-    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(*words), units=units, folder=file.parent)
+    rules = _chosen(*words)
+    found = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
+    return [*chain.from_iterable(found)]
+
+
+def decks_in(path: Paths) -> list[Path]:
+    """The files that are given, and the decks below folders that are, without what a .gitignore hides.
+
+    Raises FileNotFoundError for a folder without a deck.
+    """
+    from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many scripts name one file
+
+    one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
+    files: list[Path] = []
+    for each in [path] if one else cast("Iterable[object]", path):
+        place = given_path(each, "save it to a file")
+        found = [Path(file) for _, file in Search(str(place)).files(is_in_any_form)] if place.is_dir() else [place]
+        if not found:
+            raise FileNotFoundError(errno.ENOENT, "no deck in this folder", str(place))
+        files += found
+    return files
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
@@ -371,10 +406,15 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
     expect(text, "text", (str, bytes), "str or bytes")
     errors = "replace" if form == KEYWORD else "surrogatepass"
     data = text if isinstance(text, bytes) else text.encode(errors=errors)
-    return _public(load_bytes(data, f"<{form}>", form=form, units=units))
+    return public(load_bytes(data, f"<{form}>", form=form, units=units))
 
 
-def _public(deck: model.Deck) -> Deck:
+def given_deck(deck: Deck | str | os.PathLike[str]) -> Deck:
+    """The deck that a function is given, read if it is given as a file."""
+    return deck if isinstance(deck, Deck) else read(given_path(deck, name="deck"))
+
+
+def public(deck: model.Deck) -> Deck:
     """A deck that was read as users have it; raises DeckError when something in it could not be read."""
     return Deck(**vars(deck.require()))
 
@@ -383,18 +423,18 @@ def _units(units: str | None) -> str | None:
     return None if units is None else checked_units(units)
 
 
-def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:
+def given_path(given: object, advice: str = "use mudline.{}(text)", *, name: str = "path") -> Path:
     """The path that is given; raises ValueError for the text of a deck, TypeError for what is not a path."""
-    name = os.fspath(given) if isinstance(given, os.PathLike) else given
-    text = bytes(name).decode("utf-8-sig", "replace") if isinstance(name, bytes | bytearray) else name
+    path = os.fspath(given) if isinstance(given, os.PathLike) else given
+    text = bytes(path).decode("utf-8-sig", "replace") if isinstance(path, bytes | bytearray) else path
     function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
     if function and not os.path.exists(str(text)):  # noqa: PTH110 - Path raises for names that are too long
         raise ValueError(f"expected a path, found the text of a deck: {advice.format(function)}")
-    if isinstance(name, str) and (not name or "\0" in name):
-        raise ValueError(f"path must be the name of a file, not {name!r}")
-    if not isinstance(name, str):
-        raise ArgumentKindError(f"path must be a str or os.PathLike, not {type(name).__name__}")
-    return Path(name)
+    if isinstance(path, str) and (not path or "\0" in path):
+        raise ValueError(f"{name} must be the name of a file, not {path!r}")
+    if not isinstance(path, str):
+        raise ArgumentKindError(f"{name} must be a str or os.PathLike, not {type(path).__name__}")
+    return Path(path)
 
 
 def _function_for(text: str) -> str | None:

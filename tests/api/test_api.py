@@ -7,6 +7,7 @@ import dataclasses
 import importlib
 import inspect
 import pickle
+import re
 from pathlib import Path
 from typing import cast
 
@@ -50,12 +51,21 @@ CONTRACT = "read lint from_keyword from_json from_yaml Deck DeckError Diagnostic
 CONTACT = "ContactModel ContactResult ContactState ContactWarning Plan PositionError contact_warnings"
 
 
+COMMANDS = "backbone expand export fix format migrate study validate"
+
+
 def test_names_are_those_of_the_contract() -> None:
-    assert {*CONTRACT.split(), "read_positions", "study", "Study", *CONTACT.split(), "__version__"} == set(
-        mudline.__all__
-    )
+    names = f"{CONTRACT} {CONTACT} {COMMANDS}".split()
+    assert {*names, "read_positions", "Study", "__version__"} == set(mudline.__all__)
     assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
     assert mudline.__version__.count(".") == 2
+
+
+def test_every_public_name_is_on_the_page_of_the_api() -> None:
+    page = (Path(__file__).parents[2] / "docs/python-api.md").read_text(encoding="utf-8")
+    assert sorted(re.findall(r"^::: mudline\.(\w+)$", page, re.MULTILINE)) == sorted(
+        {*mudline.__all__} - {"__version__"}
+    )
 
 
 def test_unknown_name() -> None:

@@ -20,16 +20,39 @@ DT = {"positions": WHERE, "velocities": np.zeros_like(WHERE), "state": STATE, "d
 STEPS: dict[str, Any] = {"positions": WHERE, "present": np.ones(3, np.bool_), "velocities": np.zeros_like(WHERE)}
 DECK_FIELDS = {each.name: getattr(DECK, each.name) for each in dataclasses.fields(DECK)}
 READ: dict[str, Any] = {"path": "nowhere.keyxm", "units": "metric"}
+BACKBONE: dict[str, Any] = {
+    "model": "f114",
+    "diameter": 0.3,
+    "strength": (5000.0, 1500.0),
+    "weight": 6000.0,
+    "depth": 0.4,
+    "tolerance": 0.01,
+    "name": "clay",
+    "legacy": True,
+    "extend": True,
+}
 PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "read": (mudline.read, READ),
     "lint": (mudline.lint, {**READ, "select": ["SYN"], "ignore": ["SYN"]}),
     "from_keyword": (mudline.from_keyword, {"text": CLEAN, "units": "metric"}),
     "from_json": (mudline.from_json, {"text": DECK.to_json()}),
     "from_yaml": (mudline.from_yaml, {"text": DECK.to_yaml()}),
-    "read_positions": (mudline.read_positions, {"path": "nowhere.csv", "scene": SCENE}),
+    "read_positions": (mudline.read_positions, {"path": "nowhere.csv", "scene": SCENE, "columns": {"x": "X"}}),
+    "validate": (mudline.validate, READ),
+    "format": (mudline.format, {"deck": DECK}),
+    "fix": (mudline.fix, {"deck": DECK, "select": ["SYN"], "ignore": ["SYN"], "unsafe": True}),
+    "migrate": (mudline.migrate, {"deck": DECK, "verify": True}),
+    "expand": (mudline.expand, {"deck": DECK}),
+    "export": (mudline.export, {"deck": DECK, "to": "moordyn", "name": "riser.txt"}),
+    "backbone": (mudline.backbone, BACKBONE),
     "contact_warnings": (mudline.contact_warnings, {"scene": SCENE, "result": RESULT, "positions": WHERE}),
     "Deck": (mudline.Deck, DECK_FIELDS),
+    "Deck.block": (DECK.block, {"keyword": "OCEAN", "section": "MODEL"}),
     "Deck.blocks": (DECK.blocks, {"keyword": "NODE", "section": "MODEL"}),
+    "Deck.add": (lambda **given: DECK.copy().add(**given), {"block": DECK.block("OCEAN"), "section": "MODEL"}),
+    "Deck.remove": (lambda **given: DECK.copy().remove(**given), {"what": "OCEAN"}),
+    "Deck.set": (lambda **given: DECK.copy().set(**given), {"path": "OCEAN.depth", "value": 100.0}),
+    "Deck.write": (DECK.write, {"path": "nowhere/deck.keyxm"}),
     "Deck.keywords": (DECK.keywords, {"section": "MODEL"}),
     "Scene": (mudline.Scene, {"resolved": SCENE._resolved}),
     "Scene.contact": (SCENE.contact, {"tension": "keep", "backend": "numpy"}),
@@ -44,12 +67,13 @@ PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "ContactResult.steps": (SERIES.steps, {"start": 0, "stop": 1}),
     "ContactResult.to_dataframe": (RESULT.to_dataframe, {"table": "elements"}),
     "ContactResult.to_arrow": (RESULT.to_arrow, {"table": "elements"}),
-    "ContactResult.plot": (RESULT.plot, {"path": None, "elements": [1]}),
+    "ContactResult.plot": (RESULT.plot, {"path": None, "elements": [1], "ax": None, "panel": "force"}),
     "study": (mudline.study, {"deck": DECK, "only": ["pruning"], "heave": 1.0, "period": 9.0}),
     "ForceCurve": (mudline.ForceCurve, {"points": [(0, 0), (1, 1)], "name": "x"}),
     "ForceCurve.evaluate": (CURVE.evaluate, {"ratios": [0.1], "out": None}),
     "ForceCurve.segment": (CURVE.segment, {"ratios": [0.1]}),
     "ForceCurve.extrapolated": (CURVE.extrapolated, {"ratios": [0.1]}),
+    "ForceCurve.plot": (CURVE.plot, {"ax": None}),
     "ForceCurve.ratios_at_force": (CURVE.ratios_at_force, {"force": 1.0}),
 }
 """A call of all that is public and takes arguments."""
@@ -83,7 +107,11 @@ REFUSED_OR_RIGHT: list[Wrong] = [b"\xff", math.nan, -1, -0.5, "", [], {}, [[1, 2
 def test_every_argument_is_refused_by_its_name(name: str, argument: str) -> None:
     """What may be right for some, as no text or no element, is taken or refused in the same way."""
     call, given = PUBLIC[name]
-    named = f"{argument}|file format" if name == "ContactResult.plot" else argument.removesuffix("s")
+    others = {
+        "ContactResult.plot": "|file format|needs time steps",
+        "Deck.set": "|cannot be read|expected|out of range|has no field",
+    }
+    named = argument.removesuffix("s") + others.get(name, "")
     with pytest.raises(ValueError, match=argument):
         call(**{**given, argument: object()})
     for bad in REFUSED_OR_RIGHT:
@@ -95,3 +123,5 @@ def test_every_argument_is_refused_by_its_name(name: str, argument: str) -> None
             assert re.search(named, str(error)), bad  # noqa: PT017 - the error is that of most, not of all
         except FileNotFoundError:
             assert "path" in given, bad
+        except KeyError:
+            assert name in ("Deck.block", "Deck.remove"), bad

@@ -31,6 +31,21 @@ def html_table(headings: Sequence[str], rows: Iterable[Sequence[Cell]], count: i
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}{last}</tbody></table>"
 
 
+def html_line(abscissas: Sequence[float], ordinates: Sequence[float]) -> str:
+    """Return a small picture of a line through points."""
+    spans = [(min(values), max(values)) for values in (abscissas, ordinates)]
+    (left, right), (low, high) = ((least, most if most > least else least + 1.0) for least, most in spans)
+    across = [_WIDE * (x / (right - left) - left / (right - left)) for x in abscissas]
+    up = [_HIGH * (high / (high - low) - y / (high - low)) for y in ordinates]
+    line = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(across, up, strict=True))
+    style = 'fill="none" stroke="currentColor"'
+    frame = f'<rect width="{_WIDE}" height="{_HIGH}" {style} stroke-opacity="0.3"/>'
+    return f'<svg width="{_WIDE}" height="{_HIGH}">{frame}<polyline points="{line}" {style} stroke-width="2"/></svg>'
+
+
+_WIDE, _HIGH = 240, 120
+
+
 def _cell(value: Cell) -> str:
     if isinstance(value, str):
         return f'<td style="text-align: left">{_text(value)}</td>'

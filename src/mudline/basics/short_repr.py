@@ -59,7 +59,7 @@ def brief(value: object) -> str:
         text = f"<{getattr(value, 'dtype', type(value).__name__)} {shape}>"
     elif type(value) is tuple and len(value) <= _SHORT_TUPLE:
         text = f"({', '.join(map(brief, value))}{',' if len(value) == 1 else ''})"
-    elif isinstance(value, Collection) and type(value).__module__ == "builtins":
+    elif isinstance(value, list) or (isinstance(value, Collection) and type(value).__module__ == "builtins"):
         text = counted(len(value), "item") if value else repr(value)
     else:
         size = f" of {len(value)}" if isinstance(value, Sized) and not isinstance(value, tuple) else ""

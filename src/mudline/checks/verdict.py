@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 from mudline.basics.short_repr import counted
@@ -12,7 +13,7 @@ from mudline.checks.engine import joined_problems, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.checks.rules.load_cases import SYN019
 from mudline.language.codes.contact import SBD006
-from mudline.language.deck.loading import coverage_of
+from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.model.results.warnings import seabed_warnings
 
@@ -80,6 +81,15 @@ def judge(context: LintContext) -> Judgement:
     verdict = "empty" if empty else "illegal" if errors else _legal(len(warnings), keywords)
     counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
     return Judgement(Verdict(deck.file, *counts, verdict), errors, warnings)
+
+
+def judge_content(data: bytes, name: str, units: str | None, folder: Path | None) -> Judgement:
+    """The verdict on the content of a file, in whatever form; `folder` is where files are that the deck names."""
+    try:
+        deck = load_bytes(data, name, units=units, folder=folder)
+    except DeckError as error:
+        return Judgement(refused(name, error), list(error.diagnostics), [])
+    return judge(LintContext(deck))
 
 
 def _legal(warnings: int, keywords: Coverage) -> str:

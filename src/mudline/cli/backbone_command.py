@@ -13,8 +13,9 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, notify
 from mudline.language.deck.loading import load_bytes
+from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
-from mudline.language.keywords.model import Block, Comment
+from mudline.language.keywords.model import Block
 from mudline.language.keywords.writer import block_lines
 from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.curves.backbones import MODELS, Backbone, Soil

@@ -26,8 +26,8 @@ from mudline.checks.configuration import (
 )
 from mudline.checks.output import visible
 from mudline.cli import DONE, options
-from mudline.cli.inputs import is_deck, is_document, is_in_any_form
 from mudline.cli.streams import emit, reason
+from mudline.language.deck.searching import is_deck, is_document, is_in_any_form
 
 T = TypeVar("T")
 

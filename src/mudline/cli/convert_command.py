@@ -17,9 +17,8 @@ from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Severity
-from mudline.language.keywords.model import Block
+from mudline.language.keywords.model import FEWEST_POINTS, Block
 from mudline.language.keywords.ranges import is_refused
-from mudline.language.keywords.table import Table
 
 _FORMS = click.Choice(form_names())
 _TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}
@@ -217,12 +216,13 @@ def sort_curves(deck: Deck) -> list[str]:
             if any(column == 0 for _, column in curve.points.words):
                 left.append(getattr(curve, "name", None) or curve.set_name or "ALL")
                 continue
+            if len(curve.points) < FEWEST_POINTS:
+                continue
             table, order = curve.points, np.argsort(curve.points.values[:, 0], kind="stable")
             new_row = {old: new for new, old in enumerate(order.tolist())}
             moved = [
                 each.model_copy(update={"before": new_row.get(each.before, len(order))}) for each in curve.comments
             ]
             curve.comments = sorted(moved, key=lambda comment: comment.before)
-            words = {(new_row[row], column): word for (row, column), word in table.words.items()}
-            curve.points = Table(table.values[order], table.lengths[order], words)
+            curve.points = table.chosen(order)
     return left

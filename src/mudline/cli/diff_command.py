@@ -23,7 +23,7 @@ from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.diff_matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.cli.diff_matrix import matrix as matrix_of
-from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, is_in_any_form, refuses_bad_decks
+from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.comparison.comparing import compare
@@ -31,6 +31,7 @@ from mudline.editing.comparison.model import Difference, Value, spans_of, text_o
 from mudline.editing.comparison.superseded import Comparison, without_spelling
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
+from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import DeckError
 from mudline.model.scene.model import resolve
 

@@ -17,10 +17,11 @@ from mudline.checks.engine import naming_causes
 from mudline.cli.options import Command, input_option, option
 from mudline.cli.streams import reason
 from mudline.language.deck.model import Deck
+from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.positions import COLUMNS, Positions, read_positions
+from mudline.model.scene.positions import COLUMNS, read_positions
 
 _MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
 """NAME=HEADING up to a comma with another name behind it: a comma may be in a heading."""

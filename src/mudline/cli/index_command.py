@@ -17,11 +17,12 @@ from mudline.checks.configuration import Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
 from mudline.cli import DONE, WRONG_USAGE, options
-from mudline.cli.inputs import GivenDecks, Input, Inputs, is_in_any_form, takes_decks
+from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.lint_run import Settings, checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View
+from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
 
 if TYPE_CHECKING:

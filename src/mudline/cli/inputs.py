@@ -9,21 +9,19 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
-from pathlib import Path, PurePath
-from stat import S_ISREG
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
-from mudline.basics.patterns import Pattern, read_pattern
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
+from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_file
 from mudline.language.diagnostics import DeckError
-from mudline.language.syntax.source import KEY_FILE
 
 if TYPE_CHECKING:
     from mudline.cli.config_command import Configured
@@ -33,9 +31,6 @@ STDIN = "-"
 
 CHANGED = "it has changed during the run: left unchanged, run it again"
 """Said of a file that somebody else has written."""
-
-_HEAD = 4096
-"""Bytes at the beginning of a JSON or YAML file that name its format."""
 
 
 class Input(NamedTuple):
@@ -149,30 +144,6 @@ Wanted = Callable[[str], bool]
 """Whether a file of a directory, given by its path, is taken as a deck."""
 
 
-def is_deck(path: str) -> bool:
-    """Whether the suffix is one of a deck."""
-    return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - asked for each of many files
-
-
-def is_document(path: str) -> bool:
-    """Whether a file is a deck in JSON or YAML, by the format that its beginning names.
-
-    One that cannot be opened is taken for it, and reported when it is read.
-    """
-    if is_deck(path) or form_of(path) == "keyword" or not _may_be_file(path):
-        return False
-    try:
-        with Path(path).open("rb") as stream:
-            return MARK.encode() in stream.read(_HEAD)
-    except OSError:
-        return True
-
-
-def is_in_any_form(path: str) -> bool:
-    """Whether a file is a deck by its suffix or its content."""
-    return is_deck(path) or is_document(path)
-
-
 def collect(
     paths: Sequence[str],
     stdin_name: str = "<stdin>",
@@ -193,7 +164,7 @@ def collect(
     """
 
     def taken(path: str) -> bool:
-        found = wanted(path) and _may_be_file(path) and not is_key_file(path)
+        found = wanted(path) and may_be_file(path) and not is_key_file(path)
         if not found and skipped is not None:
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found
@@ -201,7 +172,7 @@ def collect(
     found = Inputs()
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
+            _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
         elif given == STDIN or left_out is None or not left_out(given):
             found.files.append(_single(given, stdin_name))
     found.files = [file._replace(encoding=encoding_of(file.path or file.name)) for file in dict.fromkeys(found.files)]
@@ -209,17 +180,6 @@ def collect(
         if file.path is not None:
             reading(file.path)
     return found
-
-
-def is_key_file(path: str) -> bool:
-    """Whether a `.keyx` file is a key of a password manager: these have the same suffix."""
-    if not path.lower().endswith(".keyx"):
-        return False
-    try:
-        with Path(path).open("rb") as stream:
-            return KEY_FILE.match(stream.read(_HEAD).decode("latin-1").removeprefix("\xef\xbb\xbf")) is not None
-    except OSError:
-        return False
 
 
 def _why_skipped(path: str) -> str:
@@ -232,25 +192,15 @@ def _why_skipped(path: str) -> str:
     return f"its name does not end as that of a deck ({', '.join(sorted(SUFFIXES))}), and no include names it"
 
 
-def _may_be_file(path: str) -> bool:
-    """Whether a path is a file, or cannot be looked at; not a hidden link to nothing: editors lock files by such."""
-    try:
-        return S_ISREG(os.stat(path).st_mode)  # noqa: PTH116 - Path raises for long names
-    except FileNotFoundError:
-        return os.path.islink(path) and not path.rpartition(os.sep)[2].startswith(".")  # noqa: PTH114 - as above
-    except OSError:
-        return True
+def _slashed(path: str) -> str:
+    return path.replace(os.sep, "/")
 
 
 def _single(given: str, stdin_name: str) -> Input:
     return Input(stdin_name, None) if given == STDIN else Input(_slashed(given), given)
 
 
-def _slashed(path: str) -> str:
-    return path.replace(os.sep, "/")
-
-
-def _directory(search: _Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
+def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     files = [Input(start + inside, path) for inside, path in search.files(taken)]
@@ -260,92 +210,6 @@ def _directory(search: _Search, found: Inputs, taken: Wanted, *, may_be_empty: b
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
     found.files += files
-
-
-# ------------------------------------------------------------------------------------------ the search of a directory
-
-GITIGNORE = ".gitignore"
-
-
-class _Rules(NamedTuple):
-    """The patterns of a `.gitignore`, the last first.
-
-    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
-    `below` letters of it are left out.
-    """
-
-    above: str
-    below: int
-    patterns: Sequence[Pattern]
-
-    def hides(self, path: str, *, folder: bool) -> bool | None:
-        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
-        own = self.above + path[self.below :]
-        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
-
-
-@dataclass(slots=True, eq=False)
-class _Search:
-    """A search of a directory and all below it; links to directories are not followed.
-
-    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
-    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
-    for what lies in the directory, not for the directory itself, which was asked for.
-    """
-
-    given: str
-    gitignore: bool = True
-    unreadable: list[OSError] = field(default_factory=list)
-    hidden: bool = False
-
-    def files(self, taken: Callable[[str], bool]) -> list[tuple[str, str]]:
-        """The files that are taken, sorted by the names in their paths: a path from the directory, one to open it."""
-        rules = {self.given: self._above() if self.gitignore else []}
-        files: list[tuple[str, str]] = []
-        for folder, folders, names in os.walk(self.given, onerror=self.unreadable.append):
-            found = rules.pop(folder)
-            inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
-            start = f"{inside}/" if inside else ""
-            shown = names
-            if self.gitignore:
-                if GITIGNORE in names:
-                    found = [*self._read(Path(folder), "", len(start)), *found]
-                folders[:] = [
-                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
-                ]
-                if found:
-                    shown = [name for name in names if not self._hides(found, start + name, folder=False)]
-            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
-            path = str(PurePath(folder, "-"))[:-1]
-            files += ((start + name, path + name) for name in shown if taken(path + name))
-        return sorted(files, key=lambda file: os.path.normcase(file[0]).split(os.sep))  # noqa: PTH206 - many files
-
-    def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
-        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
-        self.hidden |= said
-        return said
-
-    def _above(self) -> list[_Rules]:
-        """The rules above the directory, the nearest first."""
-        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
-        found: list[_Rules] = []
-        for folder in (here, *here.parents):
-            if folder != here:
-                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
-            if (folder / ".git").exists():
-                return found
-        return []
-
-    def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
-        """The rules of a folder, if it has any."""
-        path = folder / GITIGNORE
-        try:
-            text = os.fsdecode(path.read_bytes()) if path.is_file() else ""
-        except OSError as error:
-            self.unreadable.append(error)
-            return []
-        patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
-        return [_Rules(above, below, patterns[::-1])] if patterns else []
 
 
 # ------------------------------------------------------------------------------------------------ the one deck

@@ -17,11 +17,12 @@ from mudline.checks.configuration import Given
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.config_command import Configured
-from mudline.cli.inputs import STDIN, GivenDecks, is_deck, takes_decks
+from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.streams import notify
 from mudline.cli.view import View
+from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"

@@ -18,11 +18,12 @@ from mudline.basics.short_repr import counted
 from mudline.checks.configuration import Given as GivenRules
 from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import GivenDecks, Input, is_in_any_form, takes_decks
+from mudline.cli.inputs import GivenDecks, Input, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View
+from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, Document, Given, Look, report_on
 
 _LEGAL = "legal"

@@ -17,16 +17,15 @@ from mudline.basics.outside import refusing_outside
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.configuration import refuses_outside
-from mudline.checks.context import LintContext
 from mudline.checks.output.json import as_object
-from mudline.checks.verdict import Verdict, judge, refused
+from mudline.checks.verdict import Verdict, judge_content
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import GivenDecks, Input, Inputs, is_in_any_form, takes_decks
+from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit
 from mudline.cli.view import Progress, View
-from mudline.language.deck.loading import load_bytes
-from mudline.language.diagnostics import Coverage, DeckError, Diagnostic
+from mudline.language.deck.searching import is_in_any_form
+from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.language.syntax.source import Source
 
 _COLUMNS = (
@@ -151,11 +150,7 @@ class Wanted(NamedTuple):
 def judge_file(file: Input, data: bytes, wanted: Wanted) -> tuple[Verdict, list[Diagnostic]]:
     """The verdict on a deck and its errors, with its warnings where they are listed; in any process."""
     with refusing_outside(lambda folder: wanted.no_outside or refuses_outside(folder)):
-        try:
-            deck = load_bytes(data, file.name, units=wanted.units, folder=file.folder)
-        except DeckError as error:
-            return refused(file.name, error), list(error.diagnostics)
-        verdict, errors, warnings = judge(LintContext(deck))
+        verdict, errors, warnings = judge_content(data, file.name, wanted.units, file.folder)
     return verdict, sorted([*errors, *warnings], key=lambda one: one.sort_key) if wanted.warnings else errors
 
 

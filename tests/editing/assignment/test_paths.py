@@ -60,7 +60,6 @@ def test_selectors() -> None:
         ".step=1",
         "TIME..step=1",
         "TIME.step[0]=1",
-        "TIME[set].step=1",
         "TIME[set=].step=1",
         "TIME.step=1\n*OCEAN",
         "TIME.step=a\x1b",

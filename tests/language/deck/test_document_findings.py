@@ -11,8 +11,8 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.diagnostics import DeckError, Diagnostic
+from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.library.ocean import Ocean
-from mudline.language.keywords.model import Comment
 
 Document = dict[str, Any]
 

@@ -9,11 +9,11 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.language.deck.faults import DocumentPath, path_text
 from mudline.language.deck.forms.yaml import CoreDumper
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Diagnostic
+from mudline.language.keywords.faults import DocumentPath, path_text
 from tests.helpers.builders.documents import KEYWORDS, Values, alone, block, validator
 from tests.language.deck.test_round_trips import values
 

@@ -78,4 +78,8 @@ def _written(entry: Entry) -> str:
 
 
 if __name__ == "__main__":
+    from tests.language.keywords.stubs import stubs
+
     INDEX.write_text(index_text(), encoding="utf-8", newline="\n")
+    for path, text in stubs().items():
+        path.write_text(text, encoding="utf-8", newline="\n")

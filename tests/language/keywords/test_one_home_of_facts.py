@@ -20,6 +20,7 @@ from mudline.language.keywords import catalogue, index
 from mudline.language.keywords.names_only import NAMES
 from mudline.language.keywords.naming import set_slots
 from tests.language.keywords.index import INDEX, index_text
+from tests.language.keywords.stubs import stubs
 
 ROOT = Path(mudline.__file__).parent
 
@@ -102,6 +103,11 @@ def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
 
 def test_the_index_is_made_of_the_declarations() -> None:
     assert (ROOT.parents[1] / INDEX).read_text(encoding="utf-8") == index_text(), "make index"
+
+
+def test_the_stubs_are_made_of_the_declarations() -> None:
+    for path, text in stubs().items():
+        assert (ROOT.parents[1] / path).read_text(encoding="utf-8") == text, "make index"
 
 
 def test_a_keyword_is_declared_once_for_a_section() -> None:

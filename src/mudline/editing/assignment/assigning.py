@@ -6,27 +6,32 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import NamedTuple, cast
+from typing import cast
 
+import numpy as np
+
+from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.basics.spelling import nearest
-from mudline.editing.assignment.fields import Target, Value, blocks_of, values_of
-from mudline.editing.assignment.paths import Assignment, Operand
+from mudline.editing.assignment.fields import Target, Value, blocks_of, target_of, values_of
+from mudline.editing.assignment.paths import Assignment, Operand, parse_path
+from mudline.language.codes.fields import SYN003
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import Diagnostic, Problem, Severity, Span, Where
+from mudline.language.diagnostics import Diagnostic, Problem, Severity, Where
+from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.ranges import range_fault
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes
-from mudline.language.syntax.fields import Field, first_key, split
+from mudline.language.syntax.layout import replacement_in_layout
 from mudline.language.syntax.source import Source
 from mudline.model.scene.model import resolve
 
 
-class AssignmentError(Exception):
+class AssignmentError(ValueError):
     """Why a deck is left unchanged; `line` is where, None for the deck as a whole."""
 
     def __init__(self, message: str, line: int | None = None, diagnostics: Sequence[Diagnostic] = ()) -> None:
@@ -90,8 +95,42 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
     return Assigned(edits, line, written, assignment.value)
 
 
-def _the_one(deck: Deck, target: Target) -> Value | None:
-    """The value at a path; None where the deck has no such record. Raises AssignmentError for several of them."""
+def set_value(deck: Deck, path: str, value: object) -> None:
+    """Set the value at a path in the models of a deck, of one that several values make, all of them.
+
+    Raises PathError for a path without a meaning, AssignmentError where the deck has no such value, several of them or
+    an equation, and ValueError for what the field cannot have.
+    """
+    operand = None
+    if isinstance(value, str):
+        operand = Operand(value, Operand.of(value).number)
+    elif isinstance(value, int | float | np.number):
+        operand = Operand(str(value), float(value))
+    elif not isinstance(value, list | tuple | np.ndarray | Table):
+        raise ArgumentKindError(f"value must be a number, a text or several values, not {type(value).__name__}")
+    target = target_of(parse_path(path), operand)
+    found = _the_one(deck, target, left_out=True)
+    if found is None:
+        raise AssignmentError(f"the deck has no {target.path}")
+    if isinstance(found.value, Equation):
+        equation = cut(str(found.value), 60)
+        raise AssignmentError(f"{target.path} is given by an equation, {equation}: change its parameters instead")
+    if not isinstance(found.owner, Table):
+        setattr(found.owner, found.field.slot.name, value)
+        return
+    *holder, name, row, column = found.where.path
+    rows: list[list[object]] = [list(cells) for cells in found.owner]
+    rows[int(row)][int(column)] = value
+    block = deck.sections[found.where.section].blocks[found.where.block]
+    record: Part = block.at(tuple(holder))[1]
+    setattr(record, next(slot.name for slot in record_schema(type(record)).slots if slot.json == name), rows)
+
+
+def _the_one(deck: Deck, target: Target, *, left_out: bool = False) -> Value | None:
+    """The value at a path; None where the deck has no such record. Raises AssignmentError for several of them.
+
+    One that is left out in the deck is refused, unless there may be none.
+    """
     all_found = list(islice(values_of(deck, target), LISTED * 100))
     given = [one for one in all_found if one.value is not None]
     if len(given) > 1:
@@ -101,6 +140,8 @@ def _the_one(deck: Deck, target: Target) -> Value | None:
             f"{target.path} is ambiguous: the deck has several such values, in lines {listed}; choose one by the name "
             "of its set, as in KEYWORD[set=NAME].field, or by its number, as in KEYWORD[2].field"
         )
+    if left_out and len(all_found) == 1:
+        return all_found[0]
     if not given and all_found:
         raise AssignmentError(
             f"{target.path} is left out here: only a value that is written can be changed", _line(deck, all_found[0])
@@ -114,15 +155,13 @@ def _the_one(deck: Deck, target: Target) -> Value | None:
 
 def _read_faults(deck: Deck, keyword: str) -> list[Problem]:
     """What could not be read of the blocks of a keyword, among whose lines may be the value that is not found."""
-    read = cast("TextOrigin", deck.origin).read
+    read = deck.origin.read if isinstance(deck.origin, TextOrigin) else {}
     found = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, keyword))
     return [problem for block in found if block for problem in block.problems if problem.weight is Severity.ERROR]
 
 
 def _line(deck: Deck, found: Value) -> int:
-    origin = cast("TextOrigin", deck.origin)
-    span = origin.span(found.where)
-    return origin.source.position(span.start)[0] if span else 1
+    return deck.place(Problem(SYN003, "", where=found.where)).line
 
 
 def _kinds(target: Target) -> Iterator[str]:
@@ -200,72 +239,3 @@ def _at(deck: Deck, where: Where) -> object:
         return deck.sections[where.section].blocks[where.block].at(where.path)[1]
     except IndexError:
         return None
-
-
-# ------------------------------------------------------------------------------------------------------------ alignment
-
-
-class _Row(NamedTuple):
-    """A line of fields, and where it begins."""
-
-    start: int
-    fields: list[Field]
-
-
-def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdit]:
-    """The edits that put `text` in the place of `span`.
-
-    Where the row above or below ends or begins its field of the same number in the same column, the blanks before or
-    behind the field make up for the difference in length, as far as one of them stays.
-    """
-    replaced = [TextEdit(span, text)]
-    growth = len(text) - (span.end - span.start)
-    row = _row(source, source.position(span.start)[0])
-    index = next((i for i, field in enumerate(row.fields) if field.span == span), None) if row else None
-    if row is None or index is None or not growth:
-        return replaced
-    blanks = _to_resize(source, row, index)
-    if blanks is None:
-        return replaced
-    return [*replaced, TextEdit(blanks, " " * max(blanks.end - blanks.start - growth, 1))]
-
-
-def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
-    """The blanks before a field that ends in one column with its neighbours, or behind one that begins so.
-
-    Columns that are in line only because all fields are of one length are not aligned.
-    """
-    span = row.fields[index].span
-    others = [(one.fields[index].span, one.start) for one in _neighbours(source, span, index)]
-    if any(span.end - row.start == other.end - start for other, start in others):
-        return _wide_blanks_before(source, row, span)
-    if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
-        return _wide_blanks_before(source, row, row.fields[index + 1].span)
-    return None
-
-
-def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
-    """The blanks directly before a field; None where there are fewer than two, or a tab stands before it."""
-    before = source.text[row.start : span.start]
-    length = len(before) - len(before.rstrip(" "))
-    return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
-
-
-def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
-    """The rows directly above and below that have such a field."""
-    line = source.position(span.start)[0]
-    for number in (line - 1, line + 1):
-        row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
-        if row is not None and index < len(row.fields):
-            yield row
-
-
-def _row(source: Source, number: int) -> _Row | None:
-    """A line as a row of fields; None for a setting, a comment, a keyword."""
-    start = source.line_starts[number - 1]
-    line = source.line(number)
-    span = Span(start, start + len(line))
-    if not line.strip() or line[0] in "Cc*$" or line.lstrip()[0] in "*$" or first_key(source.unified, span):
-        return None
-    fields, problems = split(source.unified, span)
-    return None if problems else _Row(start, fields)

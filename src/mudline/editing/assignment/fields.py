@@ -36,11 +36,15 @@ from mudline.language.keywords.values import Equation, Kind, Label
 
 
 class DeclaredField(NamedTuple):
-    """A field of a keyword: the names that lead to it, its declaration, and its column where it is one of a table."""
+    """A field of a keyword: the names that lead to it, its declaration, and its column where it is one of a table.
+
+    One that is `whole` holds several values: a row, a table, a list.
+    """
 
     names: tuple[str, ...]
     slot: FieldSpec
     column: int | None = None
+    whole: bool = False
 
     def fits(self, operand: Operand) -> bool:
         """Whether a text may be a value of the field, or be compared with one."""
@@ -75,24 +79,25 @@ class Value(NamedTuple):
     owner: Part | Table
 
 
-def target_of(path: FieldPath, operand: Operand) -> Target:
+def target_of(path: FieldPath, operand: Operand | None) -> Target:
     """Find the fields that a path means; raises PathError for a keyword or a field that is not declared.
 
-    Of several fields of a name those are meant that may hold the operand, and of these the outermost.
+    Of several fields of a name those are meant that may hold the operand, and of these the outermost. Without an
+    operand those are meant that hold several values.
     """
     blocks = catalogue.declarations(path.keyword)
     if not blocks:
         raise PathError(_unknown_keyword(path.keyword))
-    known = [field for block in blocks for field in declared_fields(block)]
+    known = [field for block in blocks for field in declared_fields(block) if field.whole is (operand is None)]
     named = [field for field in known if _ends_with(field, path.names)]
     if not named:
         raise PathError(_unknown_field(path, known))
-    fitting = [field for field in named if field.fits(operand)] or named
+    fitting = [field for field in named if operand and field.fits(operand)] or named
     outermost = min(len(field.names) for field in fitting)
     fields = tuple(field for field in fitting if len(field.names) == outermost)
-    selectable = {name for field in known for name in _names_of(field.slot)}
+    selectable = {name for block in blocks for field in declared_fields(block) for name in _names_of(field.slot)}
     for selector in path.selectors:
-        if selector.name not in selectable:
+        if selector.name and selector.name not in selectable:
             raise PathError(f"{path}: *{path.keyword} has no field {selector.name!r}{_hint(selector.name, selectable)}")
     return Target(path, fields)
 
@@ -109,13 +114,15 @@ def values_of(deck: Deck, target: Target) -> Iterator[Value]:
 
 @cache
 def declared_fields(block: type[Block]) -> tuple[DeclaredField, ...]:
-    """Every field of a keyword that holds a single value."""
+    """Every field of a keyword, the parts of one that holds several values too."""
     return tuple(_fields_of(block, ()))
 
 
 def _fields_of(part: type[Part], before: tuple[str, ...]) -> Iterator[DeclaredField]:
     for slot in record_schema(part).slots:
         names = (*before, slot.json)
+        if slot.many or slot.row:
+            yield DeclaredField(names, slot, whole=True)
         if isinstance(slot.about, Rows):
             columns = record_schema(slot.row).columns if slot.row else []
             yield from (DeclaredField((*names, column.json), column, i) for i, column in enumerate(columns))
@@ -198,8 +205,9 @@ class _Holders:
 
     def _fits(self, selector: Selector) -> bool:
         for part in reversed(self.parts):
-            for slot in record_schema(type(part)).slots:
-                if selector.name in _names_of(slot):
+            slots = record_schema(type(part)).slots
+            for slot in slots if selector.name else [one for one in slots if one.kind is Kind.NAME][:1]:
+                if not selector.name or selector.name in _names_of(slot):
                     value = getattr(part, slot.name, None)
                     if value is None and slot.kind is Kind.NAME:
                         value = slot.about.default or None
@@ -223,7 +231,7 @@ def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders:
         inner: Any = getattr(part, slot.name, None)
         place = where.inside(name)
         if depth + 1 == len(field.names):
-            if not isinstance(inner, Part | list | Table) and holders.selected():
+            if (field.whole or not isinstance(inner, Part | list | Table)) and holders.selected():
                 index = record_schema(type(part)).slots.index(slot)
                 yield Value(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
         elif isinstance(inner, Table):
@@ -262,12 +270,8 @@ def _rows_with(table: Table, column: int, wanted: Operand) -> NDArray[np.bool_]:
 
 def cell(table: Table, row: int, column: int) -> float | str | None:
     """What stands in a row and column of a table; None where the row ends before it, or its field is empty."""
-    if column >= table.lengths[row]:
-        return None
-    if (row, column) in table.words:
-        return table.words[row, column]
-    value = float(table.values[row, column])
-    return None if np.isnan(value) else value
+    value = table.cell(row, column) if column < table.lengths[row] else None
+    return None if isinstance(value, float) and np.isnan(value) else value
 
 
 # ----------------------------------------------------------------------------------------------------------- conditions

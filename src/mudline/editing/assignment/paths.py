@@ -41,7 +41,7 @@ class Operand:
 
 @dataclass(frozen=True, slots=True)
 class Selector:
-    """`[set=TDZ]`: the records whose field has a value."""
+    """`[set=TDZ]`: the records whose field has a value; `[TDZ]`, without a field: those of a name or a set."""
 
     name: str
     value: Operand
@@ -109,12 +109,18 @@ def parse_assignment(text: str) -> Assignment:
     return found
 
 
+def parse_path(text: str) -> FieldPath:
+    """`KEYWORD.field`, `KEYWORD[set=NAME].field`; raises PathError."""
+    return cast("FieldPath", _parsed(text, "path"))
+
+
 def parse_condition(text: str) -> Condition:
     """Comparisons of fields with numbers or texts, joined by and, or, not and brackets; raises PathError."""
     return cast("Condition", _parsed(text, "condition"))
 
 
 _FORMS = {
+    "path": "KEYWORD.field, such as SEABED PROPERTIES[TDZ].stiffness",
     "assignment": "KEYWORD.field=value, such as TIME.step=0.05",
     "condition": "comparisons such as OCEAN.depth > 100 and UNITS.units == METRIC",
 }
@@ -154,7 +160,9 @@ class _Builder(Transformer[Token, Any]):
 
     def selector(self, parts: list[Token]) -> Selector | int:
         """A selector, or the number of the place that is meant."""
-        return int(parts[0]) if len(parts) == 1 else Selector(folded_name(parts[0]), Operand.of(parts[1]))
+        if len(parts) > 1:
+            return Selector(folded_name(parts[0]), Operand.of(parts[1]))
+        return int(parts[0]) if parts[0].type == "COUNT" else Selector("", Operand.of(parts[0]))
 
     @v_args(meta=True)
     def path(self, meta: Meta, parts: list[Any]) -> FieldPath:

@@ -33,7 +33,7 @@ _ALTERED = "formatting would change its meaning, so it is left unchanged: please
 _REMARKS = "its YAML comments (#) would be lost, so it is left unchanged: remove them to format it"
 
 
-class FormatError(Exception):
+class FormatError(ValueError):
     """A file without an error that formatting leaves unchanged; the message says why."""
 
 

@@ -11,14 +11,16 @@ from pydantic.json_schema import models_json_schema
 
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck import MARK
-from mudline.language.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, respelt, shown
+from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
 from mudline.language.deck.likeness import RawLines
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import Findings
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.faults import DocumentPath, shown
+from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.keeping import is_read
-from mudline.language.keywords.model import Block, Comment
+from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import read_block
 from mudline.language.keywords.table import AS_TABLES
 from mudline.language.keywords.text import hint

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Callable, Collection, Sequence
 from copy import deepcopy
 from typing import Any, NamedTuple, NoReturn
@@ -11,16 +10,15 @@ from typing import Any, NamedTuple, NoReturn
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from mudline.basics.limits import MOST_REPORTED, SHOWN_LETTERS
+from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.spelling import meant_names
 from mudline.language.codes import DOC001, DOC002
 from mudline.language.deck.model import START, Deck, Origin, Range
 from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Problem, Span, Where
+from mudline.language.keywords.faults import DocumentPath, fault_in_words, holds, path_in, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.text import hint
-from mudline.language.keywords.values import Equation, Label
 
-DocumentPath = tuple[str | int, ...]
 Locate = Callable[[DocumentPath], Range]
 
 
@@ -29,63 +27,11 @@ def refusal(file: str, message: str, place: Range = START) -> DeckError:
     return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])
 
 
-def path_text(path: DocumentPath) -> str:
-    """A path as people write it: `sections[0].blocks[2].curves[0].points`."""
-    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
-    return text.removeprefix(".") or "the document"
-
-
 def document_path(where: Where) -> DocumentPath:
     """The path of a place in a document."""
     section, block, path = where
     start: DocumentPath = () if section < 0 else ("sections", section)
     return (*start, *(() if block < 0 else ("blocks", block)), *path)
-
-
-def shown(value: object) -> str:
-    """A value of a document in a message, cut when long."""
-    if isinstance(value, dict | list):
-        return "an object" if isinstance(value, dict) else "a list"
-    text = repr(value[:SHOWN_LETTERS] if isinstance(value, str) else value)
-    return text if len(text) <= SHOWN_LETTERS else text[:SHOWN_LETTERS] + "..."
-
-
-_WANTED = {
-    "float_type": "a number",
-    "finite_number": "a finite number",
-    "int_type": "a whole number",
-    "int_from_float": "a whole number",
-    "string_type": "a text",
-    "list_type": "a list",
-    "model_type": "an object",
-    "model_attributes_type": "an object",
-}
-_FORMS = {Equation.form: "an equation =[...]", Label.form: "a {label}"}
-
-
-def _message(faults: list[ErrorDetails]) -> str:
-    """The faults of one value in a sentence: what any of its forms would need, then what else there is."""
-    wanted: list[str] = []
-    others: list[str] = []
-    for fault in faults:
-        match fault["type"]:
-            case "string_pattern_mismatch":
-                wanted.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
-            case "literal_error":
-                wanted.append(fault["ctx"]["expected"])
-            case "missing":
-                others.append("is missing")
-            case "extra_forbidden":
-                others.append("unknown key")
-            case kind if kind in _WANTED:
-                wanted.append(_WANTED[kind])
-            case _:
-                others.append(fault["msg"].removeprefix("Value error, "))
-    if wanted:
-        value = faults[0]["input"]
-        large = ", too large for double precision" if isinstance(value, int) and abs(value) > sys.float_info.max else ""
-        others.insert(0, f"expected {' or '.join(dict.fromkeys(wanted))}, found {shown(value)}{large}")
-    return "; or ".join(dict.fromkeys(others))
 
 
 class _Numbered(Origin):
@@ -140,7 +86,7 @@ class Faults:
         around = {inner[:length] for inner in known for length in range(len(inner))}
         for inner, faults in known.items():
             if inner not in around or inner == deepest:
-                self.add(inner, _message(faults))
+                self.add(inner, fault_in_words(faults))
 
     def respell(self, path: DocumentPath, message: str) -> None:
         """A fault of spelling, in spite of which the rest is read as it was meant."""
@@ -170,7 +116,7 @@ class Faults:
         found: set[int] = set()
         value: Any = self.document
         for index, part in enumerate(loc):
-            if _holds(value, part):
+            if holds(value, part):
                 value = value[part]
             elif isinstance(value, str) and isinstance(part, int):
                 pass  # a row or a cell of a table that is a text
@@ -191,13 +137,6 @@ def _unfit(placed: list[tuple[DocumentPath, ErrorDetails]], steps: dict[Document
     return {inner for inner, wrong in lacking.items() if wrong and inner[:-1] in choices}
 
 
-def _holds(value: object, part: str | int) -> bool:
-    """Whether a document has something at a key or an index."""
-    if isinstance(value, dict):
-        return part in value
-    return isinstance(value, list) and isinstance(part, int) and part < len(value)
-
-
 _QUOTED = re.compile(r"'([^']*)'")
 
 
@@ -213,7 +152,7 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
     meant = deepcopy(given)
     faults: list[tuple[DocumentPath, str]] = []
     for fault in error.errors(include_url=False):
-        path = _path(given, fault["loc"])
+        path = path_in(given, fault["loc"])
         holder = _inside(meant, path[:-1])
         last = path[-1] if path else ""
         if fault["type"] == "extra_forbidden" and isinstance(holder, dict) and last in holder:
@@ -229,16 +168,6 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
         return Respelt(declared.model_validate(meant), faults) if faults else None
     except ValidationError:
         return None
-
-
-def _path(value: Any, steps: DocumentPath) -> DocumentPath:
-    """The steps that a document has: pydantic puts the names of alternatives between them."""
-    path: list[str | int] = []
-    for step in steps:
-        if _holds(value, step):
-            path.append(step)
-            value = value[step]
-    return tuple(path)
 
 
 def _inside(value: Any, path: DocumentPath) -> object:

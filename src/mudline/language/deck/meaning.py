@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from itertools import chain, zip_longest
 
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.keywords.model import Block, Comment, Part, Path
+from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.model import Block, Part, Path
 from mudline.language.keywords.table import Table
 
 Meaning = dict[Path, object]

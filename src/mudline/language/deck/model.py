@@ -25,7 +25,8 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
-from mudline.language.keywords.model import Block, Comment, Part, record_schema
+from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.naming import Role, all_names_given
 from mudline.language.keywords.values import Names, Text
 
@@ -65,6 +66,7 @@ class Range(NamedTuple):
 
 _INTERNAL = frozenset(
     [
+        "all_of",
         "alone",
         "base_of",
         "bases",
@@ -74,9 +76,11 @@ _INTERNAL = frozenset(
         "folder_of",
         "incomplete",
         "lost",
+        "one_of",
         "origin",
         "own_sections",
         "place",
+        "placed",
         "problems",
         "require",
         "written",
@@ -173,11 +177,14 @@ class Deck:
         """The keywords of each section with their numbers, for notebooks."""
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
-        found = Counter((section.name, block.keyword) for section in self.sections for block in section.blocks)
-        rows = [(section, keyword, number) for (section, keyword), number in found.items()]
+        blocks = [(section.name, block.keyword, block) for section in self.sections for block in section.blocks]
+        said = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)
+        rows = [(section, keyword, number, text) for (section, keyword, text), number in Counter(said).items()]
         errors = [counted(len(self.errors()), "error")] if self.errors() else []
         summary = ", ".join([self.file, self.units, *errors])
-        return html_page(type(self).__name__, summary, html_table(("section", "keyword", "blocks"), rows, len(rows)))
+        return html_page(
+            type(self).__name__, summary, html_table(("section", "keyword", "blocks", "says"), rows, len(rows))
+        )
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _INTERNAL]
@@ -272,6 +279,7 @@ class Deck:
 
     def keywords(self, section: str = "MODEL") -> set[str]:
         """Names of the keywords in the sections of a name."""
+        expect(section, "section", str, "a str")
         return {block.keyword for found in self.sections if found.name == section for block in found.blocks}
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:

@@ -18,7 +18,7 @@ from mudline.language.deck.parameters import Parameters
 from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, meant_section, words_behind
-from mudline.language.keywords.model import Comment
+from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
 from mudline.language.syntax.fields import trimmed

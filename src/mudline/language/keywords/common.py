@@ -1,9 +1,9 @@
 """Parts that keywords of several subjects share."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
-from mudline.language.keywords.fields import about
-from mudline.language.keywords.model import Part, record_schema
+from mudline.language.keywords.fields import Expected, about
+from mudline.language.keywords.model import Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import DIRECTION
 from mudline.language.keywords.values import Ident, Names, Real, Whole
@@ -36,3 +36,22 @@ def require_one(part: Part, *names: str) -> None:
 
 def _is_empty(value: object) -> bool:
     return value is None or (isinstance(value, list | Table) and not len(value))
+
+
+def curve_points(
+    row: type[Row],
+    meaning: str,
+    kind: str,
+    *,
+    abscissa: str,
+    ends: Literal["slope", "value", "none"] = "none",
+    usual: Expected = (),
+) -> Rows:
+    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order.
+
+    `ends` is "slope" only where the keyword's page says that the end sections go on.
+    """
+    inferred = "beyond its last point a curve keeps its value" if ends == "value" else ""
+    return Rows(
+        meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, ends=ends, usual=usual
+    )

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, cast, get_args, get_origin
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
+from mudline.basics.short_repr import with_fields
 from mudline.language.keywords.table import LARGEST_WHOLE, Column
 from mudline.language.keywords.usual import Usual
-from mudline.language.keywords.values import Contents, Equation, Kind, Label, Names
+from mudline.language.keywords.values import Contents, Count, Equation, Kind, Label, Names, Text
 
 
 def cell_schema(column: Column) -> dict[str, Any]:
@@ -162,3 +163,14 @@ def is_list(annotation: Any) -> bool:
     if origin in (Union, UnionType):
         return any(is_list(member) for member in get_args(annotation))
     return origin is list
+
+
+class Comment(BaseModel):
+    """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+    before: Count
+    text: Text
+
+    def __repr__(self) -> str:
+        return with_fields(self, [("before", self.before), ("text", self.text)])

@@ -124,6 +124,23 @@ def _symbol(name: str) -> str:
     return name.capitalize() if name.startswith("d") else name.upper()
 
 
+def field_lines(part: type[Part], depth: int = 0) -> list[str]:
+    """A line for each field of a part, and below it those inside: name, meaning, unit, range, default."""
+    lines: list[str] = []
+    for slot in record_schema(part).slots:
+        about = slot.about
+        facts = [
+            f"[{unit_text(about.unit, 'user')}]" if about.unit else "",
+            range_text(about),
+            f"one of {', '.join(slot.choices)}" if slot.choices else "",
+            f"default {about.default}" if about.default else "",
+            "mandatory" if slot.required else "",
+        ]
+        lines.append("    " * depth + "; ".join(filter(None, [f"{slot.name}: {about.meaning}".rstrip(": "), *facts])))
+        lines += [line for inner in slot.parts for line in field_lines(inner, depth + 1)]
+    return lines
+
+
 def usual_text(about: FieldInfo) -> str:
     """What values of a field are usual, in metric units, with the reason of each range; "" where nothing is said."""
     unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")

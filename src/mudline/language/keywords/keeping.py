@@ -15,7 +15,8 @@ from itertools import chain
 from pydantic import Field
 
 from mudline.language.keywords import grammar
-from mudline.language.keywords.model import Block, Comment, FieldSpec, Part, Path, Record, fields_of, record_schema
+from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Record, fields_of, record_schema
 from mudline.language.keywords.values import Kind
 from mudline.language.syntax.fields import canonical_key
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import (
     BaseModel,
@@ -20,9 +20,10 @@ from pydantic_core import CoreSchema, core_schema
 
 from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
+from mudline.language.keywords.assigning import assign, checked_by_parts
 from mudline.language.keywords.fields import (
     AS_TEXT,
-    Expected,
+    Comment,
     FieldInfo,
     Setting,
     cell_schema,
@@ -39,14 +40,13 @@ from mudline.language.keywords.table import (
     Column,
     Listing,
     Table,
-    checked_by_parts,
     fewest_fields,
     misfit,
     read_table,
     row_format,
 )
 from mudline.language.keywords.unknown import is_unknown
-from mudline.language.keywords.values import Count, Facts, Kind, Subject, Text
+from mudline.language.keywords.values import Facts, Kind, Subject
 
 FEWEST_POINTS = 2
 """Points of a curve."""
@@ -105,7 +105,6 @@ class Rows(FieldInfo):
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         columns = self.columns()
-        fewest = fewest_fields(column.required for column in columns)
         listed = {
             "type": "array",
             "prefixItems": [
@@ -113,7 +112,7 @@ class Rows(FieldInfo):
                 for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
             ],
             "items": False,
-            "minItems": fewest,
+            "minItems": fewest_fields(column.required for column in columns),
         }
         return {
             "description": self.meaning,
@@ -127,36 +126,6 @@ class Rows(FieldInfo):
 def rows(row: type["Row"], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
-
-
-def curve_points(
-    row: type["Row"],
-    meaning: str,
-    kind: str,
-    *,
-    abscissa: str,
-    ends: Literal["slope", "value", "none"] = "none",
-    usual: Expected = (),
-) -> Rows:
-    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order.
-
-    `ends` is "slope" only where the keyword's page says that the end sections go on.
-    """
-    inferred = "beyond its last point a curve keeps its value" if ends == "value" else ""
-    return Rows(
-        meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa, ends=ends, usual=usual
-    )
-
-
-class Comment(BaseModel):
-    """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
-    before: Count
-    text: Text
-
-    def __repr__(self) -> str:
-        return with_fields(self, [("before", self.before), ("text", self.text)])
 
 
 Path = tuple[str | int, ...]
@@ -178,7 +147,15 @@ Wanted = Callable[["FieldSpec"], bool]
 class Part(BaseModel):
     """Anything with declared fields."""
 
-    model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True)
+    model_config = ConfigDict(
+        extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True, validate_assignment=True
+    )
+
+    if not TYPE_CHECKING:  # a checker takes any attribute of a class that has this
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            """Set a field. Raises ValueError for what is none, or a value that it cannot have: it keeps its own."""
+            assign(self, name, value, record_schema, super().__setattr__)
 
     def __repr__(self) -> str:
         given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
@@ -222,7 +199,7 @@ class Part(BaseModel):
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return checked_by_parts(handler(source))
+        return checked_by_parts(handler(source), cls)
 
 
 class Row(Part):
@@ -267,6 +244,11 @@ class Record(Part):
     sticky: ClassVar[str] = ""
     # Of the class `list` pydantic parses the signature, in each model that has the field.
     comments: list[Comment] = Field(default_factory=lambda: [])  # noqa: PIE807 - as above
+
+    def known_as(self) -> Any:
+        """The name of the record, or that of its set: its first field for a name; None where it has none."""
+        slot = next((slot for slot in record_schema(type(self)).slots if slot.kind is Kind.NAME), None)
+        return (getattr(self, slot.name) or slot.about.default or None) if slot else None
 
     @classmethod
     def carries(cls, given: dict[str, object], last: object) -> object:
@@ -448,12 +430,7 @@ def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec 
     """The column and the value of a cell; a row that could not be read has none."""
     columns = record_schema(field.row).columns if field is not None and field.row else []
     row, column = (int(step) for step in path) if len(path) > 1 else (0, len(columns))
-    if column >= len(columns):
-        return None, None
-    if (row, column) in table.words:
-        return columns[column], table.words[row, column]
-    inside = row < len(table.values) and column < table.values.shape[1]
-    return columns[column], float(table.values[row, column]) if inside else None
+    return (columns[column], table.cell(row, column)) if column < len(columns) else (None, None)
 
 
 @cache

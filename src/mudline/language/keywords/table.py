@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import chain, islice
-from typing import Any, NamedTuple, cast
+from itertools import chain
+from typing import Any, NamedTuple, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
-from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCustomError, core_schema, to_json
+from pydantic_core import InitErrorDetails, PydanticCustomError, to_json
 
 from mudline.basics.short_repr import counted
 from mudline.language.diagnostics import Span
@@ -66,14 +66,15 @@ class Column(NamedTuple):
 
 
 class Table:
-    """Rows of a fixed number of columns.
+    """Rows of a fixed number of columns, each a tuple for who takes or goes through them.
 
     `values` (rows, columns) float64 holds NaN in a field without a number; `words` says what it holds instead: an
     equation, a label, or None for an empty field. A NaN without a word is a field that could not be read, or one
-    beyond the row's end. `lengths` (rows,) counts the fields given in each row; in a `full` table all are.
+    beyond the row's end. `lengths` (rows,) counts the fields given in each row; in a `full` table all are. `columns`
+    are known of a table in a block.
     """
 
-    __slots__ = ("_lengths", "values", "words")
+    __slots__ = ("_lengths", "columns", "values", "words")
 
     def __init__(
         self,
@@ -84,6 +85,7 @@ class Table:
         self.values = values
         self._lengths = lengths
         self.words = words or {}
+        self.columns: Sequence[Column] = ()
 
     @property
     def full(self) -> bool:
@@ -99,6 +101,28 @@ class Table:
 
     def __len__(self) -> int:
         return len(self.values)
+
+    def __iter__(self) -> Iterator[tuple[Cell, ...]]:
+        for part in self.parts(self.columns):
+            yield from map(tuple, part.rows)
+
+    @overload
+    def __getitem__(self, at: int) -> tuple[Cell, ...]: ...
+    @overload
+    def __getitem__(self, at: slice) -> list[tuple[Cell, ...]]: ...
+    def __getitem__(self, at: int | slice) -> tuple[Cell, ...] | list[tuple[Cell, ...]]:
+        numbers = np.atleast_1d(np.arange(len(self))[at])
+        found = [*self.chosen(numbers)]
+        return found if isinstance(at, slice) else found[0]
+
+    def chosen(self, numbers: Sequence[int] | NDArray[np.intp]) -> Table:
+        """The table of some rows, by their numbers, in that order."""
+        rows = np.asarray(numbers, dtype=np.intp)
+        place = {row: number for number, row in enumerate(rows.tolist())}
+        words = {(place[row], column): word for (row, column), word in self.words.items() if row in place}
+        found = Table(self.values[rows], self.lengths[rows], words)
+        found.columns = self.columns
+        return found
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):
@@ -137,6 +161,13 @@ class Table:
                 if column == index and word is None:
                     values[row] = default
         return values
+
+    def cell(self, row: int, column: int) -> float | Equation | Label | None:
+        """What stands in a row and column; None where there is no such row, or it ends before."""
+        if (row, column) in self.words:
+            return self.words[row, column]
+        inside = row < len(self) and column < self.values.shape[1]
+        return float(self.values[row, column]) if inside else None
 
     def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
         """The rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
@@ -213,7 +244,8 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
     values = np.full((len(rows), width), math.nan)
     words: dict[tuple[int, int], Equation | Label | None] = {}
     for row, fields in enumerate(rows):
-        for column, cell in enumerate(fields):
+        for column, given in enumerate(fields):
+            cell = given.item() if isinstance(given, np.generic) else given
             if isinstance(cell, int | float) and not isinstance(cell, bool):
                 values[row, column] = _finite(cell, row, column)
             elif cell is not None and (not isinstance(cell, str) or not cell):
@@ -335,55 +367,6 @@ _ROWS_AT_ONCE = 1 << 14
 """Rows of which what is worked out stays in the fast memory of a processor."""
 
 
-_ENTRIES_AT_ONCE = 32
-"""Entries checked at once; lists are nested three deep at most."""
-
-_UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
-
-
-def checked_by_parts(schema: CoreSchema) -> CoreSchema:
-    """The schema of a model with a limit on each of its own lists; those of the models in it have theirs."""
-    found = cast("dict[str, Any]", schema)
-    if found["type"] == "list":
-        return core_schema.no_info_wrap_validator_function(_by_parts, schema)
-    if "schema" in found:
-        found["schema"] = checked_by_parts(found["schema"])
-    if found["type"] == "model-fields":
-        for field in found["fields"].values():
-            field["schema"] = checked_by_parts(field["schema"])
-    return schema
-
-
-def _by_parts(given: object, check: core_schema.ValidatorFunctionWrapHandler) -> list[object]:
-    """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
-    if isinstance(given, list):
-        if len(given) <= _ENTRIES_AT_ONCE:
-            return cast("list[object]", check(given))
-    elif not isinstance(given, Iterator):
-        return cast("list[object]", check(given))
-    made: list[object] = []
-    entries: Iterator[object] = iter(given)
-    while part := list(islice(entries, _ENTRIES_AT_ONCE)):
-        try:
-            made += check(part)
-        except ValidationError as error:
-            start = len(made)
-            moved = [_moved(fault, start) for fault in error.errors(include_url=False)]
-            if any(True for _ in entries):
-                moved.append(InitErrorDetails(type=_UNCHECKED, loc=(start + _ENTRIES_AT_ONCE,), input=None))
-            raise ValidationError.from_exception_data(error.title, moved) from error
-    return made
-
-
-def _moved(fault: ErrorDetails, start: int) -> InitErrorDetails:
-    """A fault of a part as one of the whole list."""
-    kind = PydanticCustomError(
-        cast("Any", fault["type"]), "{message}", {**fault.get("ctx", {}), "message": fault["msg"]}
-    )
-    index, *rest = fault["loc"]
-    return InitErrorDetails(type=kind, loc=(cast("int", index) + start, *rest), input=fault["input"])
-
-
 AS_TABLES = "as tables"
 """The serialization context in which a table becomes a Listing, not lists."""
 
@@ -418,14 +401,28 @@ class Listing:
 
 
 def read_table(given: object, columns: Sequence[Column]) -> Table:
-    """The table of lists, or of a text of rows. Raises ValidationError with row and column, or ValueError."""
+    """The table of rows, or of a text of rows. Raises ValidationError with row and column, or ValueError."""
     if isinstance(given, Table):
-        return given
-    if isinstance(given, list):
-        return from_cells(given, columns)
-    if isinstance(given, str):
-        return from_text(given, columns)
-    raise ValueError("expected rows: a list of lists, or a text with a row a line")
+        table = given
+    elif isinstance(given, str):
+        table = from_text(given, columns)
+    elif isinstance(given, list) and set(map(type, given)) <= {list}:
+        table = from_cells(given, columns)
+    elif isinstance(given, list | tuple | np.ndarray):
+        table = from_cells(plain(list(given)), columns)
+    else:
+        raise ValueError("expected rows: a list of lists, or a text with a row a line")
+    table.columns = columns
+    return table
+
+
+def plain(value: Any) -> Any:
+    """A value as documents have it: arrays, tables and tuples as lists, numbers of numpy as Python's own."""
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    if isinstance(value, list | tuple | Table):
+        return [plain(each) for each in value]
+    return value
 
 
 def row_format(labels: list[str], required: list[bool]) -> str:

@@ -9,9 +9,9 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.fields import Comment, Setting
 from mudline.language.keywords.keeping import KeptLine
-from mudline.language.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part, Record, Rows, record_schema
 from mudline.language.keywords.table import Cell, Listing, Table
 
 Item = tuple[list[str], int]

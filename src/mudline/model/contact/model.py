@@ -6,15 +6,24 @@ import math
 from collections.abc import Iterator
 from numbers import Real
 from types import NoneType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary, WeakSet
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mudline.basics.arguments import as_array, expect
 from mudline.basics.short_repr import counted, outline
-from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, StepReader
+from mudline.model.contact.arrays import (
+    BoolArray,
+    FloatArray,
+    IdArray,
+    Positions,
+    RealArray,
+    StepReader,
+    as_times,
+    as_velocities,
+)
 from mudline.model.contact.input import ContactInput, PositionError
 from mudline.model.contact.numpy_driver import NumpyDriver
 from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
@@ -36,7 +45,6 @@ if TYPE_CHECKING:
     from mudline.model.contact.tangent import Tangent
 
 
-RealArray = NDArray[np.floating[Any] | np.integer[Any]]
 Stepped = tuple[ContactResult, ContactState]
 """A result, and the state behind it."""
 
@@ -87,15 +95,22 @@ class ContactModel:
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
         return outline("ContactModel", size, stages, self.plan.steps)
 
+    def _repr_html_(self) -> str:
+        """Its size and its plan, for notebooks."""
+        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
+        return self.plan.html("ContactModel", f"{counted(nodes, 'node')}, {counted(elements, 'element')}")
+
     def evaluate(
         self,
-        positions: ArrayLike | StepReader | None = None,
+        positions: ArrayLike | StepReader | Positions | None = None,
         *,
         present: ArrayLike | None = None,
         velocities: ArrayLike | None = None,
         times: ArrayLike | None = None,
     ) -> ContactResult:
         """Evaluate positions (n, 3), or a series (steps, n, 3); None stands for the input's coordinates.
+
+        `Positions`, as files hold them, bring what else they say: which nodes are present, velocities, times.
 
         Positions are real numbers of any type, in the input's length unit, X up; a memory-mapped series is read a few
         steps at a time. `present` (n,) says which nodes have a position: what stands at the others is not looked at,
@@ -111,6 +126,11 @@ class ContactModel:
                 neither velocities nor times.
         """
         given = self.input.coordinates if positions is None else positions
+        if isinstance(given, Positions):
+            present = given.present if present is None else present
+            velocities = given.velocities if velocities is None else velocities
+            times = given.time if times is None and given.timed else times
+            given = given.values if len(given.values) > 1 or given.time is not None else given.values[0]
         single = False
         if not isinstance(given, StepReader):
             given = as_array(given, "positions")
@@ -135,8 +155,8 @@ class ContactModel:
         expect(together, "together", (bool, np.bool_), "True or False")
         series = _as_series(positions, self._nodes)
         mask = self._everywhere if present is None else _as_mask(present, self._nodes)
-        motion = _as_velocities(velocities, series.shape)
-        clock = _as_times(times, len(series))
+        motion = as_velocities(velocities, series.shape)
+        clock = as_times(times, len(series))
         if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
             law = self.input.needs_velocities[0]
             raise ValueError(f"a series with {law} needs velocities, or the times of its steps")
@@ -194,7 +214,7 @@ class ContactModel:
         series = _as_series(positions, self._nodes)
         if len(series) != 1:
             raise ValueError("a step takes the positions of one step")
-        motion = _as_velocities(velocities, series.shape)
+        motion = as_velocities(velocities, series.shape)
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
@@ -415,36 +435,3 @@ def _read_steps(series: RealArray | StepReader, steps: range, node_ids: IdArray,
         place = tuple(points[row, column].tolist())
         raise PositionError(f"node {node} at step {step}: its position {place} is not finite", node, step)
     return points if present.all() else np.where(present[:, np.newaxis], points, np.nan)
-
-
-def _as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:
-    """Return velocities as (steps, nodes, 3), neither copied nor converted; None where there are none.
-
-    Raises:
-        ValueError: they are no real numbers of the shape of the positions.
-    """
-    if velocities is None:
-        return None
-    given: RealArray = as_array(velocities, "velocities")
-    same = given.shape == shape or (shape[0] == 1 and given.shape == shape[1:])
-    if given.dtype.kind not in "iuf" or not same:
-        found = f"{given.shape} of {given.dtype}"
-        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {found}")
-    return given.reshape(shape)
-
-
-def _as_times(times: ArrayLike | None, steps: int) -> FloatArray | None:
-    """Return times as (steps,) float64; None where there are none.
-
-    Raises:
-        ValueError: they are not as many finite numbers as there are steps, each later than the one before.
-    """
-    if times is None:
-        return None
-    given = as_array(times, "times")
-    if given.dtype.kind not in "iuf":
-        raise ValueError(f"times must be real numbers, not {given.dtype}")
-    given = given.astype(np.float64)
-    if given.shape != (steps,) or not np.isfinite(given).all() or not (np.diff(given) > 0.0).all():
-        raise ValueError(f"times must be {steps} finite numbers, each later than the one before")
-    return given

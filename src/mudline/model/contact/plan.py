@@ -53,6 +53,18 @@ class Plan:
             self.steps,
         )
 
+    def _repr_html_(self) -> str:
+        """The stages with their reasons, for notebooks."""
+        return self.html("Plan", "")
+
+    def html(self, title: str, size: str) -> str:
+        """Return a table of the stages below a title."""
+        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        rows = [(one.stage, "yes" if one.active else "no", one.why) for one in self.stages]
+        summary = "; ".join(filter(None, [size, self.steps]))
+        return html_page(title, summary, html_table(("stage", "active", "why"), rows, len(rows)))
+
     def __iter__(self) -> Iterator[Stage]:
         return iter(self.stages)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from importlib import import_module
 from operator import attrgetter
 from types import NoneType
-from typing import TYPE_CHECKING, Any, Literal, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
     import pandas as pd
     import pyarrow as pa
     import xarray as xr
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from mudline.model.contact.lines import LineSummary
@@ -170,30 +171,46 @@ class ContactResult:
         """Return the steps start <= step < stop of a series, as views."""
         return self._cut(slice(_whole(start, "start"), _whole(stop, "stop")))
 
+    @overload
+    def plot(self, path: str | os.PathLike[str] | None = None, *, elements: Sequence[int] = ()) -> Figure: ...
+    @overload
+    def plot(self, *, elements: Sequence[int] = (), ax: Axes, panel: str = "force") -> Axes: ...
     def plot(
         self,
         path: str | os.PathLike[str] | None = None,
         *,
         elements: Sequence[int] = (),
-    ) -> Figure:
-        """Return a figure of the results, as `mudline evaluate --plot` draws it.
+        ax: Axes | None = None,
+        panel: str = "force",
+    ) -> Figure | Axes:
+        """Return a figure of the results, as `mudline evaluate --plot` draws it, or one panel of it in axes `ax`.
 
         Args:
             path: a file to write, .png, .svg or .pdf by its suffix.
             elements: numbers of elements whose force over penetration is drawn.
+            ax: axes to draw into; they are returned.
+            panel: what is drawn there: "line", "force", "touchdown", "reaction", "suction", "friction", "embedment",
+                "stiffness", "curves" or "loop", as far as the results have it.
 
         Raises:
-            ValueError: the suffix or an element is unknown, or the results do not know what was evaluated.
+            ValueError: the suffix, an element or the panel is unknown, or the results do not know what was evaluated.
             OSError: the file cannot be written.
             ImportError: matplotlib is not installed.
         """
         expect(path, "path", (str, os.PathLike, NoneType), "a path")
+        expect(panel, "panel", str, "the name of a panel")
         elements = several(elements, "elements", (int, np.integer), "several numbers of elements")
         try:
             plots = import_module("mudline.model.results.plots")
         except ImportError as error:
             raise ImportError(f"a plot needs matplotlib: {install_hint('plot')}") from error
-        found: Figure = plots.plot_result(self, path, elements=elements)
+        if ax is not None and not hasattr(ax, "plot"):
+            raise ValueError("ax must be axes of matplotlib")
+        found: Figure | Axes = (
+            plots.plot_result(self, path, elements=elements)
+            if ax is None
+            else plots.plot_panel(self, ax, panel, elements=elements)
+        )
         return found
 
     def summary(self) -> list[LineSummary]:

@@ -15,8 +15,9 @@ The force is exact at every point and nothing is clamped.
 
 from __future__ import annotations
 
+from importlib import import_module
 from types import NoneType
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,6 +34,9 @@ from mudline.model.curves.points import (
     read_only,
     real_numbers,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["CurveError", "ForceCurve"]
 
@@ -243,13 +247,26 @@ class ForceCurve:
             shown = pairs if len(pairs) <= 120 else shown
         return f"ForceCurve({shown}, name={self.name if self.name is None else cut(self.name, 60)!r})"
 
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the curve, dashed beyond its points, and return the axes; needs matplotlib."""
+        if ax is not None and not hasattr(ax, "plot"):
+            raise ValueError("ax must be axes of matplotlib")
+        try:
+            plots: Any = import_module("mudline.model.results.plots.curves")
+            axes = import_module("matplotlib.pyplot").subplots(layout="constrained")[1] if ax is None else ax
+        except ImportError as error:
+            raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
+        plots.draw_curve(axes, self.name or "curve", np.column_stack((self.ratios, self.forces)))
+        return axes
+
     def _repr_html_(self) -> str:
-        """The points with the slopes behind them, for notebooks."""
-        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+        """A picture, and the points with the slopes behind them, for notebooks."""
+        from mudline.basics.html_repr import html_line, html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
         columns = (array[:SHOWN_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
         table = html_table(("ratio", "force", "slope"), zip(*columns, strict=True), len(self.ratios))
-        return html_page("ForceCurve", f"{self.name or ''} {counted(len(self.ratios), 'point')}".strip(), table)
+        summary = f"{self.name or ''} {counted(len(self.ratios), 'point')}".strip()
+        return html_page("ForceCurve", summary, html_line(self.ratios.tolist(), self.forces.tolist()), table)
 
 
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import counted, cut, outline, short_repr
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
+from mudline.model.contact.arrays import Positions, StepReader
 from mudline.model.contact.columns import ElementTable, NodeTable, Others
 from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import LineTable, Touchdown
@@ -21,7 +22,6 @@ from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.positions import Positions, StepFile
 from mudline.model.scene.weights import left_out
 
 Tension = Literal["keep", "cut"]
@@ -57,7 +57,7 @@ class Evaluation:
 
     scene: Scene
     model: ContactModel
-    positions: NDArray[np.floating] | StepFile
+    positions: NDArray[np.floating] | StepReader
     present: Mask
     time: Floats | None = None
     velocities: NDArray[np.floating] | None = None

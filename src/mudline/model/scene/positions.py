@@ -9,19 +9,19 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import prod
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.short_repr import listed_numbers, short_repr
 from mudline.language.diagnostics import DeckError
-from mudline.model.contact.arrays import StepReader
+from mudline.model.contact.arrays import Positions, StepReader
 from mudline.model.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
-from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.model.scene.numbering import Floats, Ids, Indices, Numbered
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
@@ -82,34 +82,6 @@ class StepFile(StepReader):
         return found
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Positions:
-    """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
-
-    `present` (nodes,) says which nodes the file has; `time` (steps,) is None for a single state without a time.
-    `velocities`, where the file has them, are as the positions; `timed` says whether the file has times, else `time`
-    counts the steps.
-    """
-
-    values: Reals | StepFile
-    present: Mask
-    time: Floats | None
-    velocities: NDArray[np.floating] | None = None
-    timed: bool = True
-
-    __repr__ = short_repr
-
-    @property
-    def whole(self) -> Reals:
-        """All steps at once, those of a file read into memory. Raises OSError, DeckError."""
-        return self.values[:]
-
-    @property
-    def missing(self) -> int:
-        """Number of nodes without a position."""
-        return int((~self.present).sum())
-
-
 def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
     """Positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
 
@@ -126,6 +98,35 @@ def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | No
     return _from_csv(path, nodes, headings)
 
 
+def positions_of(
+    given: Any,  # noqa: ANN401 - of a library that need not be there
+    nodes: Numbered,
+    headings: Mapping[str, str] | None = None,
+) -> Positions:
+    """Positions in a pandas frame or an xarray data set, or array, of which `read_positions` says what a file holds.
+
+    A frame has the columns of a CSV, also in its index; a data set has the arrays of an NPZ, a data array is its
+    `positions`, with the dimensions `time`, `node` and one for the axes.
+
+    Raises DeckError as `read_positions` does.
+    """
+    name = f"<{type(given).__name__}>"
+    if hasattr(given, "dims") and not hasattr(given, "iloc"):
+        held = given if hasattr(given, "data_vars") else given.to_dataset(name="positions")
+        if "positions" not in held:
+            raise data_error(name, f"no variable named positions, only {', '.join(map(str, held)) or 'nothing'}")
+        leading = [one for one in ("time", "node") if one in held["positions"].dims]
+        held = held.transpose(*leading, ...)
+        arrays = {one: _real(name, one, np.asarray(held[one])) for one in sorted(_ARRAYS) if one in held}
+        return _from_arrays(name, arrays, nodes)
+    frame = given if given.index.names == [None] else given.reset_index()
+    columns = {one: frame[heading] for one in COLUMNS if (heading := (headings or {}).get(one, one)) in frame}
+    if lacking := [one for one in ("node", *_AXES) if one not in columns]:
+        raise data_error(name, f"no column {', '.join(lacking)}: it has {', '.join(map(str, frame.columns))}")
+    numbers = {one: finite(name, one, _real(name, one, np.asarray(column))) for one, column in columns.items()}
+    return _of_table(NumericTable(name, numbers, range(1, len(frame) + 1)), nodes)
+
+
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
     """Rows of some nodes among rows of all."""
     spread = np.full((len(values), count, 3), np.nan)
@@ -134,7 +135,10 @@ def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray
 
 
 def _from_csv(path: Path, nodes: Numbered, headings: Mapping[str, str] | None) -> Positions:
-    table = read_numeric_csv(path, ("node", *_AXES), COLUMNS, headings)
+    return _of_table(read_numeric_csv(path, ("node", *_AXES), COLUMNS, headings), nodes)
+
+
+def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
     if not table.lines:
         raise data_error(table.file, "no row below the header", 2)
     if len({name in table.columns for name in _VELOCITIES}) > 1:

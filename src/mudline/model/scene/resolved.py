@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.arguments import read_only
 from mudline.basics.limits import SHOWN_LETTERS
-from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, short_repr
+from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers, short_repr
 from mudline.language.codes import RUN001
 from mudline.language.codes.references import REF001
 from mudline.language.deck.evaluated import EvaluatedDeck
@@ -71,6 +71,16 @@ class ByName(Mapping[str, Value]):
         if not self:
             return f"<no {self._kind}s>"
         return cut(f"<{counted(len(self), self._kind)}: {listed(list(self))}", LETTERS) + ">"
+
+    def _repr_html_(self) -> str:
+        """The names, and how much each has, for notebooks."""
+        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        texts = (
+            listed_numbers(value.tolist()) if isinstance(value, np.ndarray) else repr(value) for value in self.values()
+        )
+        rows = zip(self, texts, strict=True)
+        return html_page(f"{self._kind}s".capitalize(), f"{len(self)}", html_table(("name", "is"), rows, len(self)))
 
     def _ipython_key_completions_(self) -> list[str]:
         """The names, for the completion of `["` in notebooks."""

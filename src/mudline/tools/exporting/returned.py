@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mudline.model.contact.arrays import Positions
 from mudline.model.scene.csv_file import data_error, read_numeric_csv
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
-from mudline.model.scene.positions import Positions
 
 if TYPE_CHECKING:
     from mudline.tools.exporting.line_model import LineModel, Stretch

@@ -16,6 +16,7 @@ import numpy as np
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact import ContactInput
+from mudline.model.contact.arrays import Positions
 from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.stretch import cut_out
 from mudline.model.results.evaluation import require_elements
@@ -23,7 +24,6 @@ from mudline.model.scene.boundary import HeldLine, lines_between, vessel_offset
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import Pipe, pipe_of
-from mudline.model.scene.positions import Positions
 from mudline.model.scene.seabed import SeabedLine, elevations, plane_below
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
 from mudline.tools.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest

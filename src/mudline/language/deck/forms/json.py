@@ -13,9 +13,10 @@ from typing import Any
 from pydantic_core import to_json as compact
 
 from mudline.language.deck.document import decoded, from_document, to_document
-from mudline.language.deck.faults import DocumentPath, path_text, refusal
+from mudline.language.deck.faults import refusal
 from mudline.language.deck.model import Deck, Range
 from mudline.language.diagnostics import DeckError
+from mudline.language.keywords.faults import DocumentPath, path_text
 from mudline.language.keywords.table import Listing
 from mudline.language.syntax.source import Source
 

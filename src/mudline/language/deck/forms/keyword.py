@@ -8,11 +8,12 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mudline.language.codes import DOC002
-from mudline.language.deck.faults import DocumentPath, document_path, path_text, shown
+from mudline.language.deck.faults import document_path
 from mudline.language.deck.meaning import first_difference, meaning, numbered
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Where
+from mudline.language.keywords.faults import DocumentPath, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import block_lines, with_comments
@@ -25,7 +26,7 @@ def to_keyword(deck: Deck) -> str:
     Raises DeckError for a deck that keyword text cannot say: a name with a comma, a second curve of the set ALL.
     """
     _require_survival(deck)
-    return _text(deck)
+    return canonical_text(deck)
 
 
 write = to_keyword  # as `dump` knows it
@@ -34,13 +35,13 @@ write = to_keyword  # as `dump` knows it
 def _require_survival(deck: Deck) -> None:
     """Write the deck with shortened tables and read it again without an error: all must be there, also its comments."""
     light = sampled(deck)
-    text = _text(light)
+    text = canonical_text(light)
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
     if change := _first_difference(light, again):
         where, reason = change
         message = f"{path_text(document_path(where))} cannot be written as keyword text: {reason}"
         raise DeckError(deck.diagnose([Problem(DOC002, message, where=where)]))
-    if text != (other := _text(again)):
+    if text != (other := canonical_text(again)):
         lines = zip(text.split("\n"), other.split("\n"), strict=False)
         one, two = next(pair for pair in lines if pair[0] != pair[1])
         message = f"the line {shown(one)} cannot be written as keyword text: {shown(two)} would be read there"
@@ -63,17 +64,19 @@ def as_text(deck: Deck) -> Deck:
     return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
 
 
-def _text(deck: Deck) -> str:
+def canonical_text(deck: Deck) -> str:
+    """The deck as keyword text, whether it can be read back or not."""
     sections = with_comments(deck.comments, ((_section(section), 1) for section in deck.sections))
     return "\n".join([*deck.preamble, *sections, ""])
 
 
 def _section(section: Section) -> list[str]:
-    blocks = with_comments(section.comments, ((_block(block), 1) for block in section.blocks))
+    blocks = with_comments(section.comments, ((lines_of(block), 1) for block in section.blocks))
     return [f"${section.name}", *section.lines, *blocks]
 
 
-def _block(block: Block | Opaque) -> list[str]:
+def lines_of(block: Block | Opaque) -> list[str]:
+    """The lines of a block in canonical layout."""
     return [f"*{block.keyword}", *block.lines] if isinstance(block, Opaque) else list(block_lines(block))
 
 
@@ -128,10 +131,7 @@ def _sample(part: _P) -> _P:
 def _some_rows(table: Table) -> Table:
     firsts = np.unique(table.lengths, return_index=True)[1].tolist()
     first_of = {(column, word): row for (row, column), word in reversed(table.words.items())}
-    rows = sorted({*range(_FEW), *firsts, *first_of.values()})
-    kept = {row: number for number, row in enumerate(rows)}
-    words = {(kept[row], column): word for (row, column), word in table.words.items() if row in kept}
-    return Table(table.values[rows], table.lengths[rows], words)
+    return table.chosen(sorted({*range(_FEW), *firsts, *first_of.values()}))
 
 
 def _described(where: Where, path: DocumentPath, wanted: object, found: object) -> tuple[Where, str]:

@@ -11,9 +11,10 @@ import yaml
 
 from mudline.basics.limits import DEEPEST, LONGEST_NUMBER
 from mudline.language.deck.document import decoded, from_document, to_document
-from mudline.language.deck.faults import DocumentPath, Locate, refusal
+from mudline.language.deck.faults import Locate, refusal
 from mudline.language.deck.model import START, Deck, Range
 from mudline.language.diagnostics import DeckError
+from mudline.language.keywords.faults import DocumentPath
 from mudline.language.keywords.table import Listing
 from mudline.language.keywords.writer import joined
 

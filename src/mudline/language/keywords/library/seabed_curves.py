@@ -4,9 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.common import NO_SET
+from mudline.language.keywords.common import NO_SET, curve_points
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, curve_points
+from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import CURVE_FORCE, MODEL, OF_ITS_CURVE
 from mudline.language.keywords.values import Facts, Name, Names, Real, Successor

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from mudline.basics.quantities import ELEMENTS, STATES, labelled, unit_names
 from mudline.language.keywords.format import unit_text
+from mudline.model.contact.arrays import FloatArray
 from mudline.model.results.plot_data import Cycle, PlotData
 from mudline.model.results.plots.style import (
     COLORS,
@@ -113,6 +114,15 @@ def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
             axes.plot(
                 [ratios[end], to], [forces[end], forces[end] + rise], color=style.color, linestyle="--", linewidth=1.0
             )
+
+
+def draw_curve(axes: Axes, name: str, points: FloatArray) -> None:
+    """Draw a force-embedment curve of points (n, 2) into axes that may hold others."""
+    drawn = axes.get_legend_handles_labels()[1]
+    _curve(axes, {"name": name, "kind": OF_SEABED, "points": points}, style_of(len(drawn)))
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(ELEMENTS["force"].label.replace("\n", " "))
+    legend(axes)
 
 
 def _mark(color: str, size: float) -> dict[str, Any]:

@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mudline.basics.arguments import expect_word
 from mudline.basics.files import PLOT_FORMS, form_of_file, replacement
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
@@ -125,6 +126,18 @@ def _title(data: PlotData, panels: Sequence[Panel], stretch: Stretch) -> str:
         return title
     which = "along the line: at " if data.steps > 1 else "at "
     return f"{title}\n{which}{at}" + (", when the total reaction is largest" if data.steps > 1 else "")
+
+
+def plot_panel(result: ContactResult, axes: Axes, name: str, *, elements: Sequence[int] = ()) -> Axes:
+    """Draw one panel of the figure of a result; raises ValueError where it has none of that name."""
+    data = PlotData.of_result(result, elements)
+    panels = {panel.name: panel for panel in panels_of(data)}
+    expect_word(name, "panel", tuple(panels), f"one of {', '.join(panels)}")
+    panels[name].draw(axes)
+    if panels[name].axis == "arc length":
+        Stretch(data).show(axes)
+    finish(axes)
+    return axes
 
 
 def plot_result(

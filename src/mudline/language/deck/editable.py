@@ -1,0 +1,132 @@
+"""Decks in the hands of a program: blocks found by keyword or class, added and removed, and copies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from copy import deepcopy
+from dataclasses import replace
+from itertools import chain
+from typing import Any, Self
+
+from pydantic.fields import FieldInfo
+
+from mudline.basics.arguments import expect, expect_word
+from mudline.basics.short_repr import UnknownNameError
+from mudline.language.deck.model import Deck, Opaque, Section
+from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.deck.writing import keyword_file
+from mudline.language.diagnostics import Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.text import hint
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import canonical_name
+
+
+class EditableDeck(Deck):
+    """A deck whose blocks can be changed; `TypedDeck` knows their classes."""
+
+    def all_of(self, keyword: str | type[Block], section: str | None) -> Iterator[tuple[Where, Any]]:
+        """The modelled blocks of a keyword, or of its class, each with its place, in the order of the file."""
+        expect(keyword, "keyword", (str, type), "a str or a class of mudline.keywords")
+        name = _name_of(keyword)
+        if section is None:
+            known = catalogue.sections_of(name) or ("MODEL",)
+            sections = ("MODEL",) if "MODEL" in known and isinstance(keyword, str) else known
+        else:
+            expect(section, "section", str, "a str")
+            sections = (section,)
+        found = chain.from_iterable(Deck.blocks(self, name, one) for one in sections)
+        return ((where, block) for where, block in found if isinstance(keyword, str) or type(block) is keyword)
+
+    def one_of(self, keyword: str | type[Block], section: str | None) -> Any:
+        """The only block of a keyword; raises UnknownNameError where there is none, ValueError for several."""
+        found = [block for _, block in self.all_of(keyword, section)]
+        name = _name_of(keyword)
+        if len(found) > 1:
+            raise ValueError(f"the deck has {len(found)} blocks of *{name}: go through deck.blocks({name!r})")
+        if not found:
+            there = {block.keyword for each in self.sections for block in each.blocks}
+            known = catalogue.sections_of(name) is not None
+            near = "" if known else catalogue.suggest_keyword(name)
+            raise UnknownNameError(
+                f"the lines of *{name} are not read: the deck keeps them as they are"
+                if name in there
+                else f"the deck has no *{name}{hint(near)}"
+            )
+        return found[0]
+
+    def add(self, block: Block, section: str | None = None) -> None:
+        """Put a block at the end of the last section where it belongs, which is made if there is none.
+
+        Raises ValueError for a section where it does not belong.
+        """
+        expect(block, "block", Block, "a block, such as mudline.keywords.Ocean(depth=100)")
+        belongs = type(block).sections
+        if section is not None:
+            expect_word(section, "section", belongs, f"{' or '.join(belongs)}, where *{block.keyword} belongs")
+        wanted = (section,) if section else belongs
+        found = next((one for one in reversed(self.own_sections) if one.name in wanted), None)
+        if found is None:
+            order = catalogue.SECTIONS.index
+            before = [
+                one.name in catalogue.SECTIONS and order(one.name) > order(wanted[0]) for one in self.own_sections
+            ]
+            at = before.index(True) if True in before else len(before)
+            found = Section(wanted[0])
+            self.sections.insert(at, found)
+            self.comments[:] = [_moved(one, 1) if one.before > at else one for one in self.comments]
+        found.blocks.append(block)
+
+    def remove(self, what: str | Block | Opaque) -> None:
+        """Take a block out, or all blocks of a keyword; comments stay.
+
+        Raises UnknownNameError for a keyword that the deck lacks, and ValueError for a block that is not in it.
+        """
+        expect(what, "what", (str, Block, Opaque), "a block or a keyword")
+        keyword = _name_of(what) if isinstance(what, str) else ""
+        gone = 0
+        for section in self.own_sections:
+            for number in range(len(section.blocks) - 1, -1, -1):
+                block = section.blocks[number]
+                if block is what or block.keyword == keyword:
+                    del section.blocks[number]
+                    section.comments[:] = [_moved(one, -1) if one.before > number else one for one in section.comments]
+                    gone += 1
+        if not gone and isinstance(what, str):
+            raise UnknownNameError(f"the deck has no *{keyword}")
+        if not gone:
+            raise ValueError("the block is not in the deck: take it from deck.block or deck.blocks")
+
+    def copy(self) -> Self:
+        """Return a deck of its own blocks, whose changes leave this one as it is."""
+        own = {name: deepcopy(getattr(self, name)) for name in ("sections", "comments", "preamble")}
+        return replace(self, **own, problems=[*self.problems])
+
+    def placed(self) -> Self:
+        """The deck; where blocks were added or removed, one whose places are those of the text that it is written as.
+
+        Raises DeckError for what keyword text cannot say.
+        """
+        origin = self.origin
+        if not isinstance(origin, TextOrigin):
+            return self
+        read = [[block.name for block in section.blocks] for section in origin.tree.sections]
+        if read == [[block.keyword for block in section.blocks] for section in self.own_sections]:
+            return self
+        again = read_source(Source.from_bytes(keyword_file(self), self.file), units=self.units)
+        return replace(self, origin=again.origin, problems=again.problems)
+
+
+def _name_of(keyword: str | type[Block]) -> str:
+    if isinstance(keyword, str):
+        return canonical_name(f"*{keyword.removeprefix('*')}")
+    fields: dict[str, FieldInfo] = getattr(keyword, "model_fields", {})
+    if "keyword" not in fields or not isinstance(fields["keyword"].default, str):
+        raise ValueError(f"{keyword.__name__} is no keyword: expected a class of mudline.keywords")
+    return fields["keyword"].default
+
+
+def _moved(comment: Comment, by: int) -> Comment:
+    return comment.model_copy(update={"before": comment.before + by})

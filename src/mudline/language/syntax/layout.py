@@ -1,0 +1,77 @@
+"""A field in the place of another one, columns kept: blanks beside it make up for the difference in length."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from mudline.language.diagnostics import Span
+from mudline.language.syntax.edits import TextEdit
+from mudline.language.syntax.fields import Field, first_key, split
+from mudline.language.syntax.source import Source
+
+
+class _Row(NamedTuple):
+    """A line of fields, and where it begins."""
+
+    start: int
+    fields: list[Field]
+
+
+def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdit]:
+    """The edits that put `text` in the place of `span`.
+
+    Where the row above or below ends or begins its field of the same number in the same column, the blanks before or
+    behind the field make up for the difference in length, as far as one of them stays.
+    """
+    replaced = [TextEdit(span, text)]
+    growth = len(text) - (span.end - span.start)
+    row = _row(source, source.position(span.start)[0])
+    index = next((i for i, field in enumerate(row.fields) if field.span == span), None) if row else None
+    if row is None or index is None or not growth:
+        return replaced
+    blanks = _to_resize(source, row, index)
+    if blanks is None:
+        return replaced
+    return [*replaced, TextEdit(blanks, " " * max(blanks.end - blanks.start - growth, 1))]
+
+
+def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
+    """The blanks before a field that ends in one column with its neighbours, or behind one that begins so.
+
+    Columns that are in line only because all fields are of one length are not aligned.
+    """
+    span = row.fields[index].span
+    others = [(one.fields[index].span, one.start) for one in _neighbours(source, span, index)]
+    if any(span.end - row.start == other.end - start for other, start in others):
+        return _wide_blanks_before(source, row, span)
+    if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
+        return _wide_blanks_before(source, row, row.fields[index + 1].span)
+    return None
+
+
+def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
+    """The blanks directly before a field; None where there are fewer than two, or a tab stands before it."""
+    before = source.text[row.start : span.start]
+    length = len(before) - len(before.rstrip(" "))
+    return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
+
+
+def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
+    """The rows directly above and below that have such a field."""
+    line = source.position(span.start)[0]
+    for number in (line - 1, line + 1):
+        row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
+        if row is not None and index < len(row.fields):
+            yield row
+
+
+def _row(source: Source, number: int) -> _Row | None:
+    """A line as a row of fields; None for a setting, a comment, a keyword."""
+    start = source.line_starts[number - 1]
+    line = source.line(number)
+    span = Span(start, start + len(line))
+    if not line.strip() or line[0] in "Cc*$" or line.lstrip()[0] in "*$" or first_key(source.unified, span):
+        return None
+    fields, problems = split(source.unified, span)
+    return None if problems else _Row(start, fields)

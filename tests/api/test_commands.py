@@ -1,0 +1,140 @@
+"""Commands as functions: what they return of a deck or its file, and what they refuse."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mudline
+from mudline import keywords
+from mudline.language.deck.writing import keyword_file
+from tests.cli.runner import run
+from tests.helpers.samples import SAMPLES
+
+LEGACY = SAMPLES / "legacy-flowline.keyxm"
+RISER = SAMPLES / "scr-touchdown.keyxm"
+UNTIDY = "$MODEL\n*OCEAN\n500,1025\n*SEABED STIFFNESS\n CURVE=a\n 0,0\n 0.1,5\n 0.1,5\n"
+
+
+def test_format_is_that_of_the_command(tmp_path: Path) -> None:
+    file = tmp_path / "deck.keyxm"
+    file.write_text(UNTIDY, encoding="utf-8")
+    mudline.format(file).write(tmp_path / "other.keyxm")
+    run("format", str(file))
+    assert (tmp_path / "other.keyxm").read_bytes() == file.read_bytes() != UNTIDY.encode()
+    changed = mudline.from_keyword(UNTIDY)
+    changed.set("OCEAN.depth", 80)
+    assert mudline.format(changed).block("OCEAN").depth == 80.0
+    with pytest.raises(ValueError, match="cut off"):
+        mudline.format(mudline.from_keyword(UNTIDY + "*SEABED STIFFNESS"))
+
+
+def test_fix_is_that_of_the_command(tmp_path: Path) -> None:
+    file = tmp_path / "deck.keyxm"
+    file.write_text(UNTIDY, encoding="utf-8")
+    found = mudline.fix(file, select=["repeated-point"])
+    assert [one.slug for one in found.fixed] == ["repeated-point"]
+    assert (found.left, found.note) == ([], "")
+    assert len(found.deck.block("SEABED STIFFNESS").curves[0].points) == 2
+    run("lint", "--fix", "--select", "repeated-point", str(file))
+    found.write(tmp_path / "other.keyxm")
+    assert (tmp_path / "other.keyxm").read_bytes() == file.read_bytes()
+    assert mudline.fix(mudline.from_keyword(UNTIDY), ignore=["repeated-point"]).content == UNTIDY.encode()
+
+
+def test_what_cannot_be_read_is_not_fixed() -> None:
+    found = mudline.fix(SAMPLES / "broken.keyxm")
+    assert found.content == (SAMPLES / "broken.keyxm").read_bytes()
+    assert "correct what cannot be read first" in found.note
+    with pytest.raises(mudline.DeckError):
+        _ = found.deck
+
+
+def test_migrate_verifies_and_writes(tmp_path: Path) -> None:
+    found = mudline.migrate(LEGACY, verify=True)
+    assert found.replaced == {"ELASTIC SURFACE": 1, "EMBEDMENT": 1}
+    assert found.verified is not None
+    assert found.verified.elements > 0
+    found.write(tmp_path / "new.keyxm")
+    new = mudline.read(tmp_path / "new.keyxm")
+    forces = [deck.scene().contact().evaluate().force for deck in (mudline.read(LEGACY), new, found.deck)]
+    assert forces[0].tobytes() == forces[1].tobytes() == forces[2].tobytes()
+    again = mudline.migrate(new)
+    assert (again.replaced, again.content, again.verified) == ({}, keyword_file(new), None)
+
+
+def test_expand_gives_the_decks_of_the_command(tmp_path: Path) -> None:
+    run("expand", str(SAMPLES / "variations.keyxm"), "-o", str(tmp_path))
+    for name, deck in mudline.expand(SAMPLES / "variations.keyxm"):
+        assert keyword_file(deck) == (tmp_path / name).read_bytes()
+        assert deck.scene().contact().evaluate().force.max() > 0.0
+    with pytest.raises(mudline.DeckError, match="no \\*COMBINATIONS"):
+        mudline.expand(RISER)
+
+
+def test_validate_judges_files_and_folders(tmp_path: Path) -> None:
+    (tmp_path / "good.keyxm").write_bytes(RISER.read_bytes())
+    (tmp_path / "bad.json").write_text('{"format": "mudline-deck/1"}', encoding="utf-8")
+    (tmp_path / "notes.txt").write_text("no deck", encoding="utf-8")
+    found = mudline.validate(tmp_path)
+    assert [(Path(one.verdict.file).name, one.verdict.legal) for one in found] == [
+        ("bad.json", False),
+        ("good.keyxm", True),
+    ]
+    assert [one.code for one in found[0].errors] == ["DOC002"]
+    assert mudline.validate([tmp_path / "good.keyxm"])[0].warnings == found[1].warnings
+    assert {Path(one.file).name for one in mudline.lint([tmp_path])} == {"bad.json", "good.keyxm"}
+    for empty in (tmp_path / "nothing", tmp_path / "empty"):
+        (tmp_path / "empty").mkdir(exist_ok=True)
+        with pytest.raises(FileNotFoundError):
+            mudline.validate(empty)
+        with pytest.raises(FileNotFoundError):
+            mudline.lint(empty)
+
+
+@pytest.mark.parametrize("to", ["moordyn", "orcaflex"])
+def test_export_is_that_of_the_command(to: str, tmp_path: Path) -> None:
+    found = mudline.export(RISER, to=to, name="model.x")  # type: ignore[arg-type]  # one of both
+    (tmp_path / "function").mkdir()
+    found.write(tmp_path / "function")
+    run("export", str(RISER), "--to", to, "-o", str(tmp_path / "model.x"))
+    for name in found.files:
+        assert (tmp_path / "function" / name).read_bytes() == (tmp_path / name).read_bytes()
+    assert found.report.lost
+
+
+def test_backbone_is_a_curve_and_its_block() -> None:
+    curve, block = mudline.backbone("f114", diameter=0.3, strength=(5000.0, 1500.0), weight=6000.0, name="Clay")
+    assert isinstance(block, keywords.SeabedStiffness)
+    assert list(block.curves[0].points) == list(zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True))
+    deck = mudline.read(RISER)
+    deck.add(block)
+    assert deck.scene().curves["clay"] == curve
+    deck = mudline.read(LEGACY)
+    deck.add(mudline.backbone("skempton", diameter=0.3, strength=5000, legacy=True, name="TDZ").block)
+    assert deck.keywords() >= {"EMBEDMENT"}
+
+
+@pytest.mark.parametrize(
+    ("argument", "value", "message"),
+    [
+        ("strength", 0, "strength must be a number above 0"),
+        ("strength", (5000, -1), "strength must be a number of 0 or more"),
+        ("diameter", np.inf, "diameter must be a number above 0"),
+        ("depth", 9.0, "f114 ends at z/D = 0.5; extend=True goes on to 9"),
+        ("tolerance", 0.5, "tolerance must be from 1e-5 to 0.1"),
+        ("name", "a, b", "name 'a, b' is not what a deck reads as a name"),
+        ("model", "clay", "model must be one of f114"),
+    ],
+)
+def test_what_no_backbone_has(argument: str, value: object, message: str) -> None:
+    given = {"model": "f114", "diameter": 0.3, "strength": 5000.0, argument: value}
+    with pytest.raises(ValueError, match=message):
+        mudline.backbone(**given)  # type: ignore[arg-type]  # it is what is tested
+
+
+def test_study_takes_a_file_too() -> None:
+    text = mudline.study(LEGACY, only=["stability"]).advice.text
+    assert text == mudline.study(mudline.read(LEGACY), only=["stability"]).advice.text
