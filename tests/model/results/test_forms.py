@@ -15,12 +15,12 @@ import pytest
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import ELEMENTS, LINES, NODES, RESULT_FORMAT, Quantity
+from mudline.model.contact.arrays import Positions
 from mudline.model.contact.frames import array_name
 from mudline.model.contact.result import TableName
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.forms import FORMS, table_path
 from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.positions import Positions
 from tests.helpers.builders.decks import CLEAN, PULLING
 from tests.helpers.builders.scenes import scene_of
 from tests.helpers.samples import sample

@@ -9,10 +9,10 @@ import pytest
 
 from mudline.language.diagnostics import DeckError
 from mudline.model.contact import numpy_driver
+from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Tension, evaluate_scene
 from mudline.model.results.forms import text
 from mudline.model.results.totals import StepTotal
-from mudline.model.scene.positions import Positions
 from tests.helpers.builders.decks import CLEAN
 from tests.helpers.builders.scenes import scene_of
 from tests.model.results.written import arrays_of, json_of, pieces, steps_of

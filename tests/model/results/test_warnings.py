@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from mudline import ContactWarning
+from mudline.model.contact.arrays import Positions
 from mudline.model.contact.result import Part
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.results.warnings import ContactWatch, caption, contact_warnings, seabed_warnings
 from mudline.model.scene.numbering import Floats
-from mudline.model.scene.positions import Positions
 from tests.helpers.builders.scenes import legal_scene, scene_of
 
 LINE = 21

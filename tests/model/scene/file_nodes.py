@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from mudline.language.diagnostics import DeckError, Diagnostic, Where
+from mudline.model.contact.arrays import Positions
 from mudline.model.scene.numbering import Batch, Definitions, Numbered
-from mudline.model.scene.positions import Positions, read_positions
+from mudline.model.scene.positions import read_positions
 
 
 def numbered(ids: list[int]) -> Numbered:

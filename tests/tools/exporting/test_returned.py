@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from mudline.language.diagnostics import DeckError
+from mudline.model.contact.arrays import Positions
 from mudline.model.scene.numbering import Floats
-from mudline.model.scene.positions import Positions
 from mudline.tools.exporting import moordyn
 from mudline.tools.exporting.line_model import LineModel
 from mudline.tools.exporting.returned import read_returned
