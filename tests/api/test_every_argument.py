@@ -59,7 +59,7 @@ PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "ContactModel": (mudline.ContactModel, {"given": MODEL.input, "backend": "numpy", "threads": 1}),
     "ContactModel.evaluate": (MODEL.evaluate, {**STEPS, "times": [0.0]}),
     "ContactModel.stream": (lambda **given: list(MODEL.stream(**given)), {**STEPS, "times": [0.0], "together": True}),
-    "ContactModel.step": (MODEL.step, DT),
+    "ContactModel.step": (MODEL.step, {**DT, "out": MODEL.step(**DT)}),
     "ContactModel.tangent": (MODEL.tangent, {**DT, "back": True}),
     "ContactModel.stiffest": (MODEL.stiffest, {"positions": WHERE, "velocities": np.zeros_like(WHERE)}),
     "ContactResult.friction_state_of": (RESULT.friction_state_of, {"side": 0}),

@@ -24,7 +24,7 @@ USED = {
     "sets units",
     "contact": "evaluate initial_state input plan step stiffest stream tangent",
     "result": "contact depth force friction gap normal_force ratio reaction slope state step stiffness",
-    "state": "copied friction positions suction touchdown unloading",
+    "state": "friction positions suction touchdown unloading",
     "curve": "evaluate extrapolated forces name ratios ratios_at_force segment slopes",
 }
 INTERNAL = {

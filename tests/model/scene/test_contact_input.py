@@ -322,7 +322,7 @@ def test_a_surface_without_scipy_names_the_extra(tmp_path: Path, monkeypatch: py
     (tmp_path / "bed.txt").write_text("-1, -9, -9\n-1, 200, -9\n-1, 0, 99\n")
     path = tmp_path / "deck.keyxm"
     path.write_text(line_deck(METRIC, LINEAR_BED + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"))
-    with pytest.raises(DeckError, match=r"mudline\[surface\]"):
+    with pytest.raises(DeckError, match=r"mudline\[bathymetry\]"):
         resolve(load_path(path)).contact()
 
 

@@ -90,6 +90,13 @@ class ContactModel:
         self._own: WeakSet[ContactState] = WeakSet()
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
+    def __getstate__(self) -> dict[str, object]:
+        """What a copy or another process is given: not the results that steps of this model may write again."""
+        return {name: value for name, value in vars(self).items() if name not in ("_made", "_own")}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        vars(self).update(state, _made=WeakKeyDictionary(), _own=WeakSet())
+
     def __repr__(self) -> str:
         size = f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
