@@ -16,7 +16,7 @@ import mudline
 from tests.api.test_arguments import CURVE, DECK, MODEL, RESULT, SCENE, SERIES, STATE, WHERE, Wrong
 from tests.helpers.builders.decks import CLEAN
 
-DT = {"positions": WHERE, "velocities": np.zeros_like(WHERE), "state": STATE, "dt": 0.1}
+DT: dict[str, Any] = {"positions": WHERE, "velocities": np.zeros_like(WHERE), "state": STATE, "dt": 0.1}
 STEPS: dict[str, Any] = {"positions": WHERE, "present": np.ones(3, np.bool_), "velocities": np.zeros_like(WHERE)}
 DECK_FIELDS = {each.name: getattr(DECK, each.name) for each in dataclasses.fields(DECK)}
 READ: dict[str, Any] = {"path": "nowhere.keyxm", "units": "metric"}
