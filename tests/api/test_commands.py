@@ -94,6 +94,19 @@ def test_validate_judges_files_and_folders(tmp_path: Path) -> None:
             mudline.lint(empty)
 
 
+def test_folders_are_searched_as_their_configuration_has_it(tmp_path: Path) -> None:
+    for name in ("kept.keyxm", "old/left.keyxm", "more.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("$MODEL\n*OCAEN\n", encoding="ascii")
+    (tmp_path / "mudline.toml").write_text('exclude = ["old/"]\ninclude = ["*.txt"]\n', encoding="ascii")
+    assert {Path(one.file).name for one in mudline.lint(tmp_path)} == {"kept.keyxm", "more.txt"}
+    assert [Path(one.verdict.file).name for one in mudline.validate(tmp_path)] == ["kept.keyxm"]
+    assert mudline.lint(tmp_path / "old" / "left.keyxm")  # a file that is named is taken
+    (tmp_path / "mudline.toml").write_text("exclude = 1\n", encoding="ascii")
+    with pytest.raises(ValueError, match=r"mudline\.toml:1: exclude"):
+        mudline.lint(tmp_path)
+
+
 @pytest.mark.parametrize("to", ["moordyn", "orcaflex"])
 def test_export_is_that_of_the_command(to: str, tmp_path: Path) -> None:
     found = mudline.export(RISER, to=to, name="model.x")  # type: ignore[arg-type]  # one of both

@@ -8,12 +8,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache, reduce
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from mudline.basics.overwriting import reading
 from mudline.basics.paths import relative_path
+from mudline.basics.patterns import matches
 from mudline.basics.spelling import nearest
 
+T = TypeVar("T")
 Values = dict[str, Any]
 
 LISTS = ("select", "ignore", "extend-select", "include", "exclude", "fixable", "unfixable")
@@ -271,6 +273,72 @@ def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
         if is_there and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
             return found
     return None
+
+
+@dataclass(eq=False)
+class Configured:
+    """The configuration of each deck: that of a file `config`, none (`isolated`), or the nearest one upwards.
+
+    `code_fault` checks the words that are to name rules, as `read_configuration` says. All raise ConfigurationError for
+    a configuration that cannot be read or used.
+    """
+
+    config: str | None = None
+    isolated: bool = False
+    code_fault: CodeFault | None = None
+    _fixed: Configuration | None = field(init=False, default=None)
+    _search: Search = field(init=False)
+    _of_folder: dict[str, Configuration] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.config is not None and self.isolated:
+            raise ConfigurationError("--config and --isolated exclude each other: give one of them")
+        self._search = Search(self.code_fault)
+        if self.isolated:
+            self._fixed = Configuration()
+        elif self.config is not None:
+            path = Path(self.config)
+            self._fixed = _readable(lambda: read_configuration(path, code_fault=self.code_fault)) or Configuration()
+
+    def of(self, path: str | None) -> Configuration:
+        """The configuration of a file, by its path or the name that standard input is given."""
+        if self._fixed is not None:
+            return self._fixed
+        folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder not in self._of_folder:
+            whole = Path(os.path.abspath(folder))  # noqa: PTH100 - links stay what they are called
+            self._of_folder[folder] = _readable(lambda: self._search.nearest(whole))
+        return self._of_folder[folder]
+
+    def wanted(self, path: str) -> bool:
+        """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
+        from mudline.language.deck.searching import is_deck, is_document, is_in_any_form  # noqa: PLC0415 - help has none
+
+        found = self.of(path)
+        include, exclude = found.words("include"), found.words("exclude")
+        if not (include or exclude):
+            return is_in_any_form(path)
+        relative = found.relative(path)
+        taken = is_deck(path) or matches(relative, include) or is_document(path)
+        return taken and not matches(relative, exclude)
+
+    def encoding(self, path: str) -> str:
+        """Return the encoding that the file's configuration gives, "" where it gives none."""
+        return str(self.of(path).values.get(ENCODING, ""))
+
+    def excludes(self, path: str) -> bool:
+        """Return whether `exclude` of the file's configuration leaves it out."""
+        found = self.of(path)
+        exclude = found.words("exclude")
+        return bool(exclude) and matches(found.relative(path), exclude)
+
+
+def _readable(read: Callable[[], T]) -> T:
+    try:
+        return read()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise ConfigurationError(f"{error.filename}: the configuration cannot be read: {reason}") from error
 
 
 @lru_cache(maxsize=256)

@@ -15,13 +15,12 @@ from typing import NamedTuple
 
 import click
 
-from mudline.checks.configuration import Configuration, Given
+from mudline.checks.configuration import Configuration, Configured, Given
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.registry import UnknownRule, code_fault, plugin_files
 from mudline.checks.settings import hidden_codes, merged_settings
 from mudline.checks.suppression import Baseline, BaselineError, read_baseline
-from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import Report
