@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
-
-import numpy as np
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from mudline.api import Deck, decks_in, given_deck, given_path, public
-from mudline.basics.arguments import expect, expect_word, several
+from mudline.basics.arguments import expect, expect_number, expect_word, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import checked_units, shown
+from mudline.basics.quantities import checked_units
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import Diagnostic
-from mudline.language.keywords.writer import block_lines
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
     from mudline.checks.verdict import Judgement
+    from mudline.editing.backbone_block import BackboneCurve
     from mudline.editing.migration.migrating import Verdict
-    from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
-    from mudline.model.curves import ForceCurve
     from mudline.tools.exporting.report import Report
     from mudline.tools.touchdown_study.study import Study
 
@@ -232,13 +227,6 @@ def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "
 _SUFFIX = {"moordyn": ".txt", "orcaflex": ".yml"}
 
 
-class BackboneCurve(NamedTuple):
-    """A `curve` of a published model, and the `block` of a deck that holds it."""
-
-    curve: ForceCurve
-    block: SeabedStiffness | Embedment
-
-
 def backbone(  # noqa: PLR0913 - as many as the command has options
     model: str,
     *,
@@ -247,6 +235,7 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
     weight: float = 0.0,
     depth: float | None = None,
     tolerance: float = 0.005,
+    first: float = 0.001,
     name: str | None = None,
     legacy: bool = False,
     extend: bool = False,
@@ -260,55 +249,27 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
         weight: submerged weight of the soil per volume.
         depth: largest ratio z/D; as far as the model is published if None.
         tolerance: largest error of the interpolation, as a share of the largest force.
+        first: smallest ratio of a point above 0; below it a straight line replaces the model.
         name: of the curve, or of the set if `legacy`; that of the model if None.
         legacy: make a block of `*EMBEDMENT`, not of `*SEABED STIFFNESS`.
         extend: let `depth` go beyond the ratios for which the model is published.
 
     Raises ValueError for an argument that the model cannot have.
     """
-    from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness  # noqa: PLC0415 - as above
-    from mudline.model.curves import ForceCurve  # noqa: PLC0415 - as above
-    from mudline.model.curves.backbones import MODELS, Backbone, Soil  # noqa: PLC0415 - as above
+    from mudline.editing.backbone_block import backbone_curve  # noqa: PLC0415 - as above
 
-    expect_word(model, "model", tuple(MODELS), f"one of {', '.join(MODELS)}")
-    for word, flag in (("legacy", legacy), ("extend", extend)):
-        expect(flag, word, bool, "True or False")
-    chosen = MODELS[model]
-    su0, gradient = strength if isinstance(strength, tuple) and len(strength) == 2 else (strength, 0.0)
-    far = chosen.published if depth is None else depth
-    _require_number(diameter, "diameter")
-    _require_number(su0, "strength")
-    _require_number(gradient, "strength", or_zero=True)
-    _require_number(weight, "weight", or_zero=True)
-    _require_number(far, "depth")
-    _require_number(tolerance, "tolerance")
-    if weight and not chosen.weighs:
-        raise ValueError(f"weight: the model {model} has no term of the soil's weight: leave it out")
-    if far > chosen.published and not extend:
-        raise ValueError(f"depth: {model} ends at z/D = {shown(chosen.published)}; extend=True goes on to {far:g}")
-    if not 1e-5 <= tolerance <= 0.1:
-        raise ValueError(f"tolerance must be from 1e-5 to 0.1, not {tolerance!r}")
-    made = Backbone(chosen, Soil(diameter, su0, gradient, weight))
-    with np.errstate(all="ignore"):
-        points = made.points(far, tolerance)
-    title = name if name is not None else model
-    expect(title, "name", str, "a str")
-    curve = ForceCurve(points, title)
-    error = 100.0 * made.deviation(points) / made.largest(far)
-    texts = (
-        f" {chosen.title}: {chosen.formula}, r = z/D",
-        f" Error of interpolation: {error:.2g} % of the largest force",
+    return backbone_curve(
+        model,
+        diameter=diameter,
+        strength=strength,
+        weight=weight,
+        depth=depth,
+        tolerance=tolerance,
+        first=first,
+        name=name,
+        legacy=legacy,
+        extend=extend,
     )
-    given: dict[str, Any] = {
-        "curves": [{"set" if legacy else "name": title, "points": points}],
-        "comments": [{"before": 0, "text": text} for text in texts],
-    }
-    block = (Embedment if legacy else SeabedStiffness).model_validate(given)
-    # What a name may be is known to the reader alone.
-    text = "\n".join(["$MODEL", *block_lines(block), ""])
-    if load_bytes(text.encode(errors="replace"), "").sections[0].blocks != [block]:
-        raise ValueError(f"name {title!r} is not what a deck reads as a name: give letters and digits")
-    return BackboneCurve(curve, block)
 
 
 def study(
@@ -334,14 +295,6 @@ def study(
         expect_word(part, "only", studies.PARTS, "of accuracy, stability and pruning")
     for name, value in (("heave", heave), ("period", period)):
         if value is not None:
-            _require_number(value, name)
+            expect_number(value, name)
     resolved = scenes.resolve(given.alone.placed()).require()
     return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
-
-
-def _require_number(value: object, name: str, *, or_zero: bool = False) -> None:
-    """Raise ValueError for an argument that is not a number above 0, or 0 where it may be."""
-    expect(value, name, (int, float), "a number")
-    number = cast("float", value)
-    if not (0.0 < number < math.inf or (or_zero and number == 0.0)):
-        raise ValueError(f"{name} must be a number {'of 0 or more' if or_zero else 'above 0'}, not {value!r}")

@@ -27,6 +27,7 @@ BACKBONE: dict[str, Any] = {
     "weight": 6000.0,
     "depth": 0.4,
     "tolerance": 0.01,
+    "first": 0.001,
     "name": "clay",
     "legacy": True,
     "extend": True,
