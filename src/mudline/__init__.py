@@ -23,7 +23,20 @@ if TYPE_CHECKING:
         read,
         read_positions,
     )
-    from mudline.commands import backbone, expand, export, fix, format, migrate, study, validate  # noqa: A004
+    from mudline.commands import (
+        backbone,
+        diff,
+        diff_matrix,
+        expand,
+        export,
+        fix,
+        format,  # noqa: A004 - the name of the command
+        migrate,
+        report,
+        show,
+        study,
+        validate,
+    )
     from mudline.language.diagnostics import DeckError, Diagnostic, Severity
     from mudline.model.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.model.curves import CurveError, ForceCurve
@@ -50,6 +63,8 @@ __all__ = [
     "__version__",
     "backbone",
     "contact_warnings",
+    "diff",
+    "diff_matrix",
     "expand",
     "export",
     "fix",
@@ -61,6 +76,8 @@ __all__ = [
     "migrate",
     "read",
     "read_positions",
+    "report",
+    "show",
     "study",
     "validate",
 ]
@@ -68,25 +85,15 @@ __all__ = [
 _HOMES = {
     name: home
     for home, names in {
-        "api": [
-            "Deck",
-            "Scene",
-            "contact_warnings",
-            "from_json",
-            "from_keyword",
-            "from_yaml",
-            "lint",
-            "read",
-            "read_positions",
-        ],
-        "commands": ["backbone", "expand", "export", "fix", "format", "migrate", "study", "validate"],
-        "model.contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
-        "model.curves": ["CurveError", "ForceCurve"],
-        "language.diagnostics": ["DeckError", "Diagnostic", "Severity"],
-        "model.results.warnings": ["ContactWarning"],
-        "tools.touchdown_study.study": ["Study"],
+        "api": "Deck Scene contact_warnings from_json from_keyword from_yaml lint read read_positions",
+        "commands": "backbone diff diff_matrix expand export fix format migrate report show study validate",
+        "model.contact": "ContactModel ContactResult ContactState Plan PositionError",
+        "model.curves": "CurveError ForceCurve",
+        "language.diagnostics": "DeckError Diagnostic Severity",
+        "model.results.warnings": "ContactWarning",
+        "tools.touchdown_study.study": "Study",
     }.items()
-    for name in names
+    for name in names.split()
 }
 
 

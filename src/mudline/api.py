@@ -413,9 +413,9 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
     return public(load_bytes(data, f"<{form}>", form=form, units=units))
 
 
-def given_deck(deck: Deck | str | os.PathLike[str]) -> Deck:
-    """The deck that a function is given, read if it is given as a file."""
-    return deck if isinstance(deck, Deck) else read(given_path(deck, name="deck"))
+def given_deck(deck: Deck | str | os.PathLike[str], name: str = "deck") -> Deck:
+    """The deck that a function is given as an argument, read if it is given as a file."""
+    return deck if isinstance(deck, Deck) else read(given_path(deck, name=name))
 
 
 def public(deck: model.Deck) -> Deck:

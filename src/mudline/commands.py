@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from types import NoneType
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from mudline.api import Deck, decks_in, given_deck, given_path, public
 from mudline.basics.arguments import expect, expect_number, expect_word, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units
 from mudline.language.deck.forms import KEYWORD, form_of
-from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
+    from mudline.checks.overview import Overview
     from mudline.checks.verdict import Judgement
     from mudline.editing.backbone_block import BackboneCurve
+    from mudline.editing.comparison.matrix import DiffRow
+    from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verdict
     from mudline.tools.exporting.report import Report
     from mudline.tools.touchdown_study.study import Study
@@ -191,6 +195,59 @@ def validate(
     return [judge_content(each.read_bytes(), each.as_posix(), units, each.parent) for each in decks_in(path)]
 
 
+def show(deck: GivenDeck) -> Overview:
+    """Return what a deck holds: its `summary`, the `sheet` of its elements, and its `errors`.
+
+    Raises:
+        OSError: the file cannot be read.
+        DeckError: it is no deck. One with errors is shown as far as it can be read.
+    """
+    from mudline.checks.overview import overview  # noqa: PLC0415 - as above
+
+    return overview(deck.alone.placed() if isinstance(deck, Deck) else load_path(given_path(deck, name="deck")))
+
+
+def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict: bool = False) -> Comparison:
+    """Return what differs between two decks in meaning, whatever their forms, layout and order.
+
+    Args:
+        before: a deck, or its file.
+        after: the other one; places and values that `before` lacks are "added".
+        tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger one.
+        strict: count differences of spelling in superseded keywords as `differences` too.
+
+    Raises DeckError for a deck that has errors.
+    """
+    from mudline.editing.comparison.superseded import compare_decks  # noqa: PLC0415 - as above
+
+    expect_number(tolerance, "tolerance", or_zero=True)
+    expect(strict, "strict", bool, "True or False")
+    if tolerance > 1.0:
+        raise ValueError(f"tolerance must be from 0 to 1, not {tolerance!r}")
+    first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
+    return compare_decks(first, second, tolerance, strict=strict)
+
+
+def diff_matrix(
+    before: GivenDeck, decks: Iterable[GivenDeck], *, tolerance: float = 0.0, strict: bool = False
+) -> list[DiffRow]:
+    """Return the values that are not the same in a family of decks: each with its `values`, that of `before` first.
+
+    Args:
+        before: the deck with which the others are compared, or its file.
+        decks: the others, or their files.
+        tolerance: as in `diff`.
+        strict: as in `diff`.
+
+    Raises DeckError for a deck that has errors.
+    """
+    from mudline.editing.comparison.matrix import matrix  # noqa: PLC0415 - as above
+
+    base = given_deck(before, "before")
+    others = several(decks, "decks", (Deck, str, os.PathLike), "several decks")
+    return matrix([diff(base, each, tolerance=tolerance, strict=strict).differences for each in others])
+
+
 class Export(NamedTuple):
     """The model of a deck for another program: `files` by name, and the `report` of what does not carry over."""
 
@@ -298,3 +355,71 @@ def study(
             expect_number(value, name)
     resolved = scenes.resolve(given.alone.placed()).require()
     return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
+
+
+def report(  # noqa: PLR0913 - as many as the command has options
+    decks: GivenDeck | Iterable[GivenDeck],
+    path: str | os.PathLike[str],
+    *,
+    sections: Iterable[str] = (),
+    rest_shape: bool = False,
+    title: str | None = None,
+    document: str | None = None,
+    revision: str | None = None,
+    fields: Mapping[str, str] | None = None,
+    date: str | None = None,
+    template: str | os.PathLike[str] | None = None,
+    logo: str | os.PathLike[str] | None = None,
+) -> list[dict[str, Any]]:
+    """Write a page about a deck to be signed, or an index with a page a deck; returns the rows of the index.
+
+    Args:
+        decks: a deck, its file or a folder with decks below it; or several of them.
+        path: the page; of several decks or a folder the index, with the pages in a folder beside it.
+        sections: some of verdict, findings, inputs, model, curves, contact, study and plan; all but study if empty.
+        rest_shape: evaluate contact at the resting shape, not at the deck's own coordinates.
+        title, document, revision, date: what stands at its head; `document` is a number, the title else the deck's own.
+        fields: what else is to stand there, by name.
+        template: a jinja2 template, which may extend "page.html".
+        logo: a picture for its head, .svg or .png.
+
+    Raises:
+        OSError: a file cannot be read or written, or a folder has no deck.
+        ImportError: the extra mudline[report] is not installed.
+        ValueError: `sections` names none, a template or logo or a configuration cannot be used.
+    """
+    from mudline.checks.configuration import Configured, Given  # noqa: PLC0415 - as above
+    from mudline.checks.registry import code_fault  # noqa: PLC0415 - as above
+    from mudline.checks.settings import Settings  # noqa: PLC0415 - as above
+    from mudline.tools.reporting import content, pages  # noqa: PLC0415 - as above
+
+    target = given_path(path)
+    names = several(sections, "sections", str, "several str")
+    for name in names:
+        expect_word(name, "sections", content.SECTIONS, f"of {', '.join(content.SECTIONS)}")
+    expect(rest_shape, "rest_shape", bool, "True or False")
+    expect(fields, "fields", (Mapping, NoneType), "texts by name")
+    words = {"title": title, "document": document, "revision": revision, "date": date}
+    for name, value in words.items():
+        expect(value, name, (str, NoneType), "a str")
+    head = content.Document(title, document, revision, date, tuple((fields or {}).items()))
+    pictured = [
+        None if one is None else given_path(one, name=name) for one, name in ((template, "template"), (logo, "logo"))
+    ]
+    look = content.Look(*pictured)
+    wanted = pages.Wanted(tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
+    alone = isinstance(decks, Deck | str | bytes | os.PathLike) or not isinstance(decks, Iterable)
+    given: list[content.Given] = []
+    for each in [decks] if alone else decks:
+        if isinstance(each, Deck):
+            given.append(content.Given(_content(each), each.file, each.folder))
+        else:
+            given += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(each)]
+    in_folder = alone and not isinstance(decks, Deck) and given_path(decks).is_dir()
+    many = in_folder or len(given) > 1
+    made = pages.Pages(target, lambda file, text: write_atomically(file, text.encode()), several=many)
+    settings = Settings(Configured(code_fault=code_fault), Given())
+    for each in given:
+        made.add(pages.make_page(each, settings.of(each.name), wanted), each.name)
+    made.finish(look)
+    return made.rows

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import click
 import numpy as np
@@ -65,20 +66,7 @@ def _strength(_context: click.Context, _parameter: click.Parameter, value: str) 
 @options.flag("--extend", help="Go on beyond the ratios for which the model is published.")
 @plot_option("model and curve")
 @options.common
-def command(
-    *,
-    model: str,
-    diameter: float,
-    strength: tuple[float, float],
-    weight: float,
-    depth: float | None,
-    first: float,
-    name: str | None,
-    plot: Plot,
-    extend: bool,
-    tolerance: float,
-    legacy: bool,
-) -> int:
+def command(*, model: str, plot: Plot, depth: float | None, extend: bool, **given: Any) -> int:  # noqa: ANN401 - as the function
     """Print the penetration resistance of a published MODEL as a *SEABED STIFFNESS block.
 
     MODEL: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin. Numbers are in one
@@ -90,23 +78,12 @@ def command(
         notify(f"{end}. Give --extend to go on to {depth:g}")
         return FOUND
     try:
-        curve, block = backbone(
-            model,
-            diameter=diameter,
-            strength=strength,
-            weight=weight,
-            depth=depth,
-            tolerance=tolerance,
-            first=first,
-            name=name,
-            legacy=legacy,
-            extend=extend,
-        )
+        curve, block = backbone(model, depth=depth, extend=extend, **given)
     except ValueError as error:
         raise click.UsageError(f"--{error}") from error
     if plot.path:
         smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * curve.ratios[-1]
-        forces = Backbone(MODELS[model], Soil(diameter, *strength, weight)).force(smooth)
+        forces = Backbone(MODELS[model], Soil(given["diameter"], *given["strength"], given["weight"])).force(smooth)
         drawn = {"model": np.column_stack((smooth, forces)), curve.name: block.curves[0].points}
         rows = [{"name": name, "kind": OF_SEABED, "points": points} for name, points in drawn.items()]
         plot.write(lambda plots: plots.curves_figure(rows, "user"))

@@ -6,10 +6,9 @@ the order given.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Generator
 from contextlib import closing
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,7 +18,7 @@ from mudline.checks.configuration import Configuration, Configured, Given
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.registry import UnknownRule, code_fault, plugin_files
-from mudline.checks.settings import hidden_codes, merged_settings
+from mudline.checks.settings import Settings
 from mudline.checks.suppression import Baseline, BaselineError, read_baseline
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
@@ -28,39 +27,6 @@ from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of
-
-
-@dataclass
-class Settings:
-    """The settings of each deck, made once for decks of the same ones."""
-
-    configured: Configured
-    given: Given
-    fail_on: str | None
-    fixing: Fixing
-    _made: dict[object, LintSettings] = field(default_factory=dict)
-    _of_folder: dict[str, LintSettings] = field(default_factory=dict)
-
-    def of(self, file: Input) -> LintSettings:
-        """The settings of a file."""
-        folder = os.path.dirname(file.path or file.name)  # noqa: PTH120 - asked for each of many files
-        if folder in self._of_folder:
-            return self._of_folder[folder]
-        found = self.configured.of(file.path or file.name)
-        hidden = hidden_codes(found, file.path or file.name)
-        key = (found.path, hidden)
-        if key not in self._made:
-            self._made[key] = self.merged(found, hidden)
-        if not found.table("per-file-ignores"):
-            self._of_folder[folder] = self._made[key]
-        return self._made[key]
-
-    def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
-        """A configuration under a command line; `hidden` are codes that it ignores in a file."""
-        try:
-            return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
-        except UnknownRule as error:
-            raise click.UsageError(str(error)) from error
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
@@ -84,7 +50,10 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
 def checked_settings(config: str | None, given: Given, fixing: str, *, isolated: bool, fail_on: str | None) -> Settings:
     """The settings of a command line; ends the command for a word that names no rule, whatever the files are."""
     settings = Settings(Configured(config, isolated, code_fault), given, fail_on, Fixing(fixing))
-    settings.merged(Configuration())
+    try:
+        settings.merged(Configuration())
+    except UnknownRule as error:
+        raise click.UsageError(str(error)) from error
     return settings
 
 
@@ -111,7 +80,7 @@ def lint_files(
         jobs = 1
     with closing(_lint_all(inputs, settings, known, jobs, report.view)) as results:
         for file, data, result in results:
-            own, content = settings.of(file), data if result.changed is None else result.changed
+            own, content = settings.of(file.path or file.name), data if result.changed is None else result.changed
             if fixing:
                 documents += form_of(file.name) != "keyword"
                 if result.note:
@@ -180,7 +149,7 @@ def _lint_all(
     plugins = plugin_files() if known is not None else ()
 
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
-        own = settings.of(file)
+        own = settings.of(file.path or file.name)
         if known is not None and file in known.clean:
             return _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[file])), None
         data = file.read()

@@ -81,6 +81,10 @@ class Look(NamedTuple):
     logo: Path | None = None
 
 
+class LookError(ValueError):
+    """A template or a logo that cannot be used; the message names the file."""
+
+
 @dataclass
 class Report:
     """The content of a page.
