@@ -137,18 +137,15 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
 
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
-    if not migrating.legacy_blocks(given):
-        return Migrated(content=_content(given), source=given, replaced={}, files={}, verified=None)
     current = _again(given, _content(given))
-    continued_by, extended = continuations_beside(current) if current.folder else ([], False)
+    continued_by, extended = continuations_beside(current)
     made = migrating.migrate(current, continued_by, extended=extended)
-    verified = migrating.verify(made) if verify else None
+    verified = migrating.verify(made) if verify and made.replaced else None
     if verified and verified.differences:
         texts = "; ".join(f"{one.what}: {one.text}" for one in verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
-    return Migrated(
-        content=made.content, source=given, replaced=dict(made.replaced), files=made.files, verified=verified
-    )
+    content, replaced = made.content or _content(given), dict(made.replaced)
+    return Migrated(content=content, source=given, replaced=replaced, files=made.files, verified=verified)
 
 
 def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
@@ -378,7 +375,10 @@ def report(  # noqa: PLR0913 - as many as the command has options
         path: the page; of several decks or a folder the index, with the pages in a folder beside it.
         sections: some of verdict, findings, inputs, model, curves, contact, study and plan; all but study if empty.
         rest_shape: evaluate contact at the resting shape, not at the deck's own coordinates.
-        title, document, revision, date: what stands at its head; `document` is a number, the title else the deck's own.
+        title: what stands at its head, in place of the deck's own.
+        document: its number.
+        revision: its revision.
+        date: its date.
         fields: what else is to stand there, by name.
         template: a jinja2 template, which may extend "page.html".
         logo: a picture for its head, .svg or .png.
@@ -388,9 +388,7 @@ def report(  # noqa: PLR0913 - as many as the command has options
         ImportError: the extra mudline[report] is not installed.
         ValueError: `sections` names none, a template or logo or a configuration cannot be used.
     """
-    from mudline.checks.configuration import Configured, Given  # noqa: PLC0415 - as above
-    from mudline.checks.registry import code_fault  # noqa: PLC0415 - as above
-    from mudline.checks.settings import Settings  # noqa: PLC0415 - as above
+    from mudline.checks.settings import nearest_settings  # noqa: PLC0415 - as above
     from mudline.tools.reporting import content, pages  # noqa: PLC0415 - as above
 
     target = given_path(path)
@@ -399,27 +397,28 @@ def report(  # noqa: PLR0913 - as many as the command has options
         expect_word(name, "sections", content.SECTIONS, f"of {', '.join(content.SECTIONS)}")
     expect(rest_shape, "rest_shape", bool, "True or False")
     expect(fields, "fields", (Mapping, NoneType), "texts by name")
-    words = {"title": title, "document": document, "revision": revision, "date": date}
-    for name, value in words.items():
+    for name, value in (("title", title), ("document", document), ("revision", revision), ("date", date)):
         expect(value, name, (str, NoneType), "a str")
     head = content.Document(title, document, revision, date, tuple((fields or {}).items()))
     pictured = [
-        None if one is None else given_path(one, name=name) for one, name in ((template, "template"), (logo, "logo"))
+        None if file is None else given_path(file, name=name) for file, name in ((template, "template"), (logo, "logo"))
     ]
     look = content.Look(*pictured)
-    wanted = pages.Wanted(tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
-    alone = isinstance(decks, Deck | str | bytes | os.PathLike) or not isinstance(decks, Iterable)
+    wanted = (tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
+    alone = [decks] if isinstance(decks, Deck | str | os.PathLike) else None
+    them: list[GivenDeck] = alone or several(
+        decks, "decks", (Deck, str, os.PathLike), "decks, or their files or folders"
+    )
     given: list[content.Given] = []
-    for each in [decks] if alone else decks:
+    for each in them:
         if isinstance(each, Deck):
             given.append(content.Given(_content(each), each.file, each.folder))
         else:
             given += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(each)]
-    in_folder = alone and not isinstance(decks, Deck) and given_path(decks).is_dir()
-    many = in_folder or len(given) > 1
+    many = len(given) > 1 or any(not isinstance(each, Deck) and given_path(each).is_dir() for each in them)
     made = pages.Pages(target, lambda file, text: write_atomically(file, text.encode()), several=many)
-    settings = Settings(Configured(code_fault=code_fault), Given())
-    for each in given:
-        made.add(pages.make_page(each, settings.of(each.name), wanted), each.name)
+    settings = nearest_settings()
+    for one in given:
+        made.add(pages.make_page(one, settings.of(one.name), wanted), one.name)
     made.finish(look)
     return made.rows

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache, reduce
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from mudline.basics.overwriting import reading
 from mudline.basics.paths import relative_path
 from mudline.basics.patterns import matches
 from mudline.basics.spelling import nearest
 
-T = TypeVar("T")
 Values = dict[str, Any]
 
 LISTS = ("select", "ignore", "extend-select", "include", "exclude", "fixable", "unfixable")
@@ -243,29 +243,6 @@ def _hint(word: str, choices: Iterable[str]) -> str:
     return f": did you mean {near}?" if near else f": choose from {', '.join(choices)}"
 
 
-class Search:
-    """The nearest configuration upwards of a folder, each folder looked at once; `code_fault` as when one is read."""
-
-    def __init__(self, code_fault: CodeFault | None = None) -> None:
-        self._known: dict[Path, Configuration] = {}
-        self._code_fault = code_fault
-
-    def nearest(self, folder: Path) -> Configuration:
-        """mudline.toml before pyproject.toml in one folder. Raises OSError and ConfigurationError."""
-        passed: list[Path] = []
-        found = Configuration()
-        for place in (folder, *folder.parents):
-            if place in self._known:
-                found = self._known[place]
-                break
-            passed.append(place)
-            if here := _in(place, self._code_fault):
-                found = here
-                break
-        self._known.update(dict.fromkeys(passed, found))
-        return found
-
-
 def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     for name in ("mudline.toml", "pyproject.toml"):
         path = folder / name
@@ -287,18 +264,17 @@ class Configured:
     isolated: bool = False
     code_fault: CodeFault | None = None
     _fixed: Configuration | None = field(init=False, default=None)
-    _search: Search = field(init=False)
     _of_folder: dict[str, Configuration] = field(init=False, default_factory=dict)
+    _nearest: dict[Path, Configuration] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.config is not None and self.isolated:
             raise ConfigurationError("--config and --isolated exclude each other: give one of them")
-        self._search = Search(self.code_fault)
         if self.isolated:
             self._fixed = Configuration()
         elif self.config is not None:
-            path = Path(self.config)
-            self._fixed = _readable(lambda: read_configuration(path, code_fault=self.code_fault)) or Configuration()
+            with _reading_one():
+                self._fixed = read_configuration(Path(self.config), code_fault=self.code_fault) or Configuration()
 
     def of(self, path: str | None) -> Configuration:
         """The configuration of a file, by its path or the name that standard input is given."""
@@ -306,9 +282,24 @@ class Configured:
             return self._fixed
         folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
         if folder not in self._of_folder:
-            whole = Path(os.path.abspath(folder))  # noqa: PTH100 - links stay what they are called
-            self._of_folder[folder] = _readable(lambda: self._search.nearest(whole))
+            with _reading_one():
+                self._of_folder[folder] = self._upwards(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
         return self._of_folder[folder]
+
+    def _upwards(self, folder: Path) -> Configuration:
+        """The nearest one upwards of a folder, each looked at once: mudline.toml before pyproject.toml in each."""
+        passed: list[Path] = []
+        found = Configuration()
+        for place in (folder, *folder.parents):
+            if place in self._nearest:
+                found = self._nearest[place]
+                break
+            passed.append(place)
+            if here := _in(place, self.code_fault):
+                found = here
+                break
+        self._nearest.update(dict.fromkeys(passed, found))
+        return found
 
     def wanted(self, path: str) -> bool:
         """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
@@ -333,9 +324,10 @@ class Configured:
         return bool(exclude) and matches(found.relative(path), exclude)
 
 
-def _readable(read: Callable[[], T]) -> T:
+@contextmanager
+def _reading_one() -> Iterator[None]:
     try:
-        return read()
+        yield
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise ConfigurationError(f"{error.filename}: the configuration cannot be read: {reason}") from error
@@ -345,7 +337,7 @@ def _readable(read: Callable[[], T]) -> T:
 def refuses_outside(folder: Path) -> bool:
     """Whether the nearest configuration keeps decks of a folder from files outside; also one that cannot be read."""
     try:
-        found = Search().nearest(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
-    except (OSError, ConfigurationError):
+        found = Configured().of(str(folder / "-"))
+    except ConfigurationError:
         return True
     return bool(found.values.get(NO_OUTSIDE))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from mudline.basics.patterns import matches
 from mudline.checks.configuration import NO_OUTSIDE, Configuration, Configured, Given
 from mudline.checks.engine import Fixing, LintSettings
-from mudline.checks.registry import rules, select
+from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
 
 
@@ -92,3 +92,8 @@ class Settings:
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
         """A configuration under what is given; `hidden` are codes that it ignores in a file."""
         return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
+
+
+def nearest_settings() -> Settings:
+    """The settings of decks where nothing is given but their configurations."""
+    return Settings(Configured(code_fault=code_fault), Given())

@@ -160,7 +160,7 @@ def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, outp
     rows, names = matrix_of(compared), [deck.file for deck in decks]
     if output_format == "json":
         head = {"format": MATRIX_FORMAT, "decks": names, "tolerance": tolerance}
-        emit([*_json_lines(head, "rows", (row.json() for row in rows)), "\n}\n"])
+        emit([*_json_lines(head, "rows", map(asdict, rows)), "\n}\n"])
     elif output_format == "csv":
         emit(csv_lines([["group", "value", *names], *([row.group, row.where, *_cells(row.values)] for row in rows)]))
     elif rows:

@@ -24,7 +24,7 @@ from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import Report
 from mudline.cli.many_files import many_files
-from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
+from mudline.cli.streams import counted, notify, reason, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of
 
@@ -86,7 +86,9 @@ def lint_files(
                 if result.note:
                     notify(f"{file.name}: {result.note}")
                 differs = differs or (diff and content != data)
-                if not _deliver(inputs, file, data, content, report.view, diff=diff):
+                from mudline.cli.changes import deliver  # noqa: PLC0415 - most runs change nothing
+
+                if not deliver(inputs, file, data, content, report.view, diff=diff):
                     unfixed = replace(own, fixing=Fixing.NONE)
                     content, result = data, lint_one(file.name, data, unfixed, file.folder)  # noqa: PLW2901 - of the deck as it stays
             found = list(result.found)
@@ -110,20 +112,6 @@ def lint_files(
     elif report.view.verbose and (gone := recorded.gone()):
         notify(f"{name}: {counted(gone, 'recorded finding')} no longer there: write it again")
     return report.failing or differs
-
-
-def _deliver(inputs: Inputs, file: Input, data: bytes, content: bytes, view: View, *, diff: bool) -> bool:
-    """Show, print or write what was fixed; returns whether the fixes are made."""
-    if diff:
-        if content != data:
-            from mudline.cli.changes import print_changes  # noqa: PLC0415 - most runs change nothing
-
-            print_changes(data, content, file.name, view)
-    elif file.path is None:
-        emit_deck(content)
-    elif content != data:
-        return inputs.replaced(file, data, content)
-    return True
 
 
 # ----------------------------------------------------------------------------------------------------------- many files

@@ -6,7 +6,6 @@ import os
 from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -62,17 +61,14 @@ def command(
     output_format: str,
     sections: str,
     rest_shape: bool,
-    title: str | None,
-    number: str | None,
-    revision: str | None,
     fields: tuple[str, ...],
-    date: str | None,
     template: str | None,
     logo: str | None,
     config: str | None,
     isolated: bool,
     jobs: int,
     view: View,
+    **head: str | None,
 ) -> int:
     """Write a page about a deck for a checker to sign: verdict, findings, inputs, model, curves, contact, plan.
 
@@ -81,7 +77,7 @@ def command(
     files that begin as decks do), or - for standard input.
     """
     names = _sections(sections)
-    document = Document(title, number, revision, date, tuple(map(_field, fields)))
+    document = Document(**head, fields=tuple(map(_field, fields)))
     html = output_format == "html"
     if html and output is None:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
@@ -93,7 +89,7 @@ def command(
     for path in filter(None, (template, logo)) if html else ():
         reading(path)
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
-    wanted = Wanted(names, document, look, rest_shape)
+    wanted = (names, document, look, rest_shape)
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
     page = Path(output) if html and output is not None else None
     pages = Pages(page, lambda path, text: write_text(path, [text]), several=several)
@@ -113,7 +109,7 @@ def command(
     except LookError as error:
         raise click.ClickException(str(error)) from error
     if not html:
-        _print(contents, output)
+        emit_json({"reports": contents}, output)
     elif pages.rows and pages.index is not None and not view.quiet:
         illegal = f", {pages.illegal} of {counted(len(pages.rows), 'deck')} not legal" if pages.illegal else ""
         notify(f"report -> {pages.index.as_posix()}{illegal}")
@@ -133,13 +129,3 @@ def _field(text: str) -> tuple[str, str]:
     if not equals or not name.strip():
         raise click.UsageError(f"--field {text!r}: give NAME=VALUE")
     return name.strip(), value.strip()
-
-
-def _print(contents: list[dict[str, Any]], output: str | None) -> None:
-    found = {"reports": contents}
-    if output is None:
-        emit_json(found)
-    else:
-        import json  # noqa: PLC0415 - pages do without
-
-        write_text(Path(output), [json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False), "\n"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import textwrap
 from collections.abc import Iterator
@@ -19,7 +18,7 @@ from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option
-from mudline.cli.streams import emit, emit_json, notify, write_text
+from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
 from mudline.model.scene.model import resolve
 from mudline.tools.touchdown_study.screen import TABLES, ScreenTable, description, sentences
@@ -70,7 +69,7 @@ def command(
     if plot.path is not None:
         _plot(found, plot, view)
     if output:
-        write_text(Path(output), [json.dumps(found.json(), indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+        emit_json(found.json(), output)
         if not view.quiet:
             notify(f"study -> {Path(output).as_posix()}")
     if output_format == "json":

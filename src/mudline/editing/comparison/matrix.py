@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
-from typing import Any
 
 import numpy as np
 
@@ -29,10 +28,6 @@ class DiffRow:
     group: str
     where: str
     values: Sequence[Value]
-
-    def json(self) -> dict[str, Any]:
-        """The row as JSON has it."""
-        return {"group": self.group, "where": self.where, "values": list(self.values)}
 
 
 def matrix(differences: Sequence[Sequence[Difference]]) -> list[DiffRow]:

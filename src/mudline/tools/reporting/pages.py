@@ -16,15 +16,6 @@ from mudline.tools.reporting.content import Document, Given, Look, LookError, re
 _LEGAL = {"legal", "as far as read"}
 
 
-class Wanted(NamedTuple):
-    """The sections of a page, what it is called, how it looks (None for JSON), and whether contact is that at rest."""
-
-    sections: tuple[str, ...]
-    document: Document
-    look: Look | None
-    rest_shape: bool = False
-
-
 class Made(NamedTuple):
     """The content of a page, the page, None where it is not wanted, and why it could not be made."""
 
@@ -33,16 +24,21 @@ class Made(NamedTuple):
     fault: str = ""
 
 
+Wanted = tuple[tuple[str, ...], Document, Look | None, bool]
+"""The sections of a page, what it is called, how it looks (None for JSON), and whether contact is that at rest."""
+
+
 def make_page(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
-    report = report_on(given, settings, wanted.sections, wanted.document, rest_shape=wanted.rest_shape)
-    if wanted.look is None:
+    sections, document, look, rest_shape = wanted
+    report = report_on(given, settings, sections, document, rest_shape=rest_shape)
+    if look is None:
         return Made(report.json, None)
     from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2
     from mudline.tools.reporting.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
 
     try:
-        return Made(report.json, page(report, *pictures_of(report), wanted.look))
+        return Made(report.json, page(report, *pictures_of(report), look))
     except LookError as error:
         return Made(report.json, None, str(error))
 
@@ -103,7 +99,6 @@ class Pages:
         kind = "as far as read" if words.startswith("legal as far") else words.partition(",")[0]
         address = "" if page is None or self.index is None else relative_path(page, self.index.parent)
         counts = {name: verdict[name] for name in ("errors", "warnings")}
-        keywords = verdict["keywords"]
-        read = {"read": keywords["read"], "total": keywords["total"]}
+        counts |= {name: verdict["keywords"][name] for name in ("read", "total")}
         deck = content["deck"] if os.path.isabs(name) else name  # noqa: PTH117 - Path raises for a long name
-        return {"deck": deck, "page": address, "verdict": words, "kind": kind} | counts | read
+        return {"deck": deck, "page": address, "verdict": words, "kind": kind, **counts}
