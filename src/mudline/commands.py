@@ -144,8 +144,8 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
     if verified and verified.differences:
         texts = "; ".join(f"{one.what}: {one.text}" for one in verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
-    content, replaced = made.content or _content(given), dict(made.replaced)
-    return Migrated(content=content, source=given, replaced=replaced, files=made.files, verified=verified)
+    content, changed = made.content or _content(given), dict(made.replaced)
+    return Migrated(content=content, source=given, replaced=changed, files=made.files, verified=verified)
 
 
 def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
@@ -391,7 +391,6 @@ def report(  # noqa: PLR0913 - as many as the command has options
     from mudline.checks.settings import nearest_settings  # noqa: PLC0415 - as above
     from mudline.tools.reporting import content, pages  # noqa: PLC0415 - as above
 
-    target = given_path(path)
     names = several(sections, "sections", str, "several str")
     for name in names:
         expect_word(name, "sections", content.SECTIONS, f"of {', '.join(content.SECTIONS)}")
@@ -410,13 +409,17 @@ def report(  # noqa: PLR0913 - as many as the command has options
         decks, "decks", (Deck, str, os.PathLike), "decks, or their files or folders"
     )
     given: list[content.Given] = []
+    many = len(them) > 1
     for each in them:
         if isinstance(each, Deck):
             given.append(content.Given(_content(each), each.file, each.folder))
         else:
-            given += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(each)]
-    many = len(given) > 1 or any(not isinstance(each, Deck) and given_path(each).is_dir() for each in them)
-    made = pages.Pages(target, lambda file, text: write_atomically(file, text.encode()), several=many)
+            place = given_path(each, "save it to a file", name="decks")
+            given += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]
+            many = many or place.is_dir()
+    if not given:
+        raise ValueError("decks must be one or more, not none")
+    made = pages.Pages(given_path(path), lambda file, text: write_atomically(file, text.encode()), several=many)
     settings = nearest_settings()
     for one in given:
         made.add(pages.make_page(one, settings.of(one.name), wanted), one.name)

@@ -32,6 +32,19 @@ BACKBONE: dict[str, Any] = {
     "legacy": True,
     "extend": True,
 }
+REPORT: dict[str, Any] = {
+    "decks": DECK,
+    "path": "nowhere/report.html",
+    "sections": ["verdict"],
+    "rest_shape": True,
+    "title": "Riser",
+    "document": "1",
+    "revision": "A",
+    "fields": {"Client": "Us"},
+    "date": "today",
+    "template": None,
+    "logo": None,
+}
 PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "read": (mudline.read, READ),
     "lint": (mudline.lint, {**READ, "select": ["SYN"], "ignore": ["SYN"]}),
@@ -46,6 +59,10 @@ PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "expand": (mudline.expand, {"deck": DECK}),
     "export": (mudline.export, {"deck": DECK, "to": "moordyn", "name": "riser.txt"}),
     "backbone": (mudline.backbone, BACKBONE),
+    "show": (mudline.show, {"deck": DECK}),
+    "diff": (mudline.diff, {"before": DECK, "after": DECK, "tolerance": 0.1, "strict": True}),
+    "diff_matrix": (mudline.diff_matrix, {"before": DECK, "decks": [DECK], "tolerance": 0.1, "strict": True}),
+    "report": (mudline.report, REPORT),
     "contact_warnings": (mudline.contact_warnings, {"scene": SCENE, "result": RESULT, "positions": WHERE}),
     "Deck": (mudline.Deck, DECK_FIELDS),
     "Deck.block": (DECK.block, {"keyword": "OCEAN", "section": "MODEL"}),

@@ -329,8 +329,8 @@ def _reading_one() -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise ConfigurationError(f"{error.filename}: the configuration cannot be read: {reason}") from error
+        what = f"{error.filename}: the configuration cannot be read"
+        raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error
 
 
 @lru_cache(maxsize=256)

@@ -81,10 +81,9 @@ class Settings:
         if folder in self._of_folder:
             return self._of_folder[folder]
         found = self.configured.of(path)
-        hidden = hidden_codes(found, path)
-        key = (found.path, hidden)
+        key = (found.path, hidden_codes(found, path))
         if key not in self._made:
-            self._made[key] = self.merged(found, hidden)
+            self._made[key] = self.merged(found, key[1])
         if not found.table("per-file-ignores"):
             self._of_folder[folder] = self._made[key]
         return self._made[key]

@@ -83,8 +83,8 @@ def command(*, model: str, plot: Plot, depth: float | None, extend: bool, **give
         raise click.UsageError(f"--{error}") from error
     if plot.path:
         smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * curve.ratios[-1]
-        su0, gradient = given["strength"]
-        forces = Backbone(MODELS[model], Soil(given["diameter"], su0, gradient, given["weight"])).force(smooth)
+        soil = Soil(given["diameter"], given["strength"][0], given["strength"][1], given["weight"])
+        forces = Backbone(MODELS[model], soil).force(smooth)
         drawn = {"model": np.column_stack((smooth, forces)), curve.name: block.curves[0].points}
         rows = [{"name": name, "kind": OF_SEABED, "points": points} for name, points in drawn.items()]
         plot.write(lambda plots: plots.curves_figure(rows, "user"))

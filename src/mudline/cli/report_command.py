@@ -89,14 +89,15 @@ def command(
     for path in filter(None, (template, logo)) if html else ():
         reading(path)
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
-    wanted = (names, document, look, rest_shape)
-    several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
-    page = Path(output) if html and output is not None else None
-    pages = Pages(page, lambda path, text: write_text(path, [text]), several=several)
+    many = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
+    pages = Pages(
+        Path(output) if html and output else None, lambda path, text: write_text(path, [text]), several=several
+    )
     contents = []
 
     def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
-        return file, (Given(file.read(), file.name, file.folder), settings.of(file.path or file.name), wanted)
+        own = settings.of(file.path or file.name)
+        return file, (Given(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
     try:
         with closing(many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)) as results:

@@ -98,7 +98,7 @@ def _head(backbone: Backbone, points: FloatArray, depth: float, tolerance: float
     weight = f", submerged weight of soil w {shown(soil.weight)}" if model.weighs else ""
     beyond = "; the last points are beyond it" if depth > model.published else ""
     return [
-        f"{model.title}",
+        model.title,
         f"Force per unit length: {model.formula}, r = z/D",
         f"D {shown(soil.diameter)}, s_u {shown(soil.strength)} + {shown(soil.gradient)} z{weight}",
         f"Error of interpolation: {error:.2g} % of the largest force {shown(largest)}, bound {bound:g} %{below}",
