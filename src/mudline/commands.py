@@ -138,7 +138,7 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
     current = _again(given, _content(given))
-    continued_by, extended = continuations_beside(current)
+    continued_by, extended = continuations_beside(current) if migrating.legacy_blocks(current) else ([], False)
     made = migrating.migrate(current, continued_by, extended=extended)
     verified = migrating.verify(made) if verify and made.replaced else None
     if verified and verified.differences:

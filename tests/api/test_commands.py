@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -190,7 +191,7 @@ def test_report_writes_the_pages_of_the_command(tmp_path: Path) -> None:
     (tmp_path / "decks").mkdir()
     for name in ("legacy-flowline.keyxm", "broken.keyxm"):
         (tmp_path / "decks" / name).write_bytes((SAMPLES / name).read_bytes())
-    head = {"title": "Field", "revision": "B", "date": "today"}
+    head: dict[str, Any] = {"title": "Field", "revision": "B", "date": "today"}
     rows = mudline.report(tmp_path / "decks", tmp_path / "one.html", fields={"Client": "Us"}, **head)
     assert [(Path(row["deck"]).name, row["kind"]) for row in rows] == [
         ("broken.keyxm", "illegal"),

@@ -14,7 +14,7 @@ from mudline.cli.changes import print_changes
 from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, takes_decks
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
-from mudline.editing.migration.migrating import Migration, Verdict, migrate, verify
+from mudline.editing.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump, load_bytes
@@ -76,7 +76,7 @@ class _Run:
         """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
         deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
         reading_named_files(deck)
-        path = Path(self.file.path) if self.file.path else None
+        path = Path(self.file.path) if self.file.path and legacy_blocks(deck) else None
         continued_by = continuations.of(path) if path else []
         with naming_causes(deck):
             migration = migrate(deck, continued_by, extended=path is not None and continuations.extend(path))

@@ -90,9 +90,7 @@ def command(
         reading(path)
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
     many = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
-    pages = Pages(
-        Path(output) if html and output else None, lambda path, text: write_text(path, [text]), several=several
-    )
+    pages = Pages(Path(output) if html and output else None, lambda path, text: write_text(path, [text]), several=many)
     contents = []
 
     def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
