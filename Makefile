@@ -6,7 +6,7 @@ LOWEST := .venv-lowest
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # An installation is as old as the files that say what it consists of.
-INSTALLATION := pyproject.toml hatch_build.py src/mudline/__init__.py $(wildcard grammar/*.lark)
+INSTALLATION := pyproject.toml hatch_build.py src/mudline/basics/version.py $(wildcard grammar/*.lark)
 OUT := demo-output
 CORE := $(addprefix tests/,syntax expression keywords curves contact scene comparison)
 # More arguments for pytest or the benchmarks: make test ARGS="-k curves --no-cov", make bench ARGS=--quick

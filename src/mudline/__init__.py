@@ -9,85 +9,60 @@ result = scene.contact().evaluate(positions)
 
 from __future__ import annotations
 
+from mudline.basics.version import __version__ as __version__
+
 TYPE_CHECKING = False  # as in typing, whose import would take longer than `mudline --version` does otherwise
 
 if TYPE_CHECKING:
-    from mudline.api import (
-        Deck,
-        Scene,
-        contact_warnings,
-        from_json,
-        from_keyword,
-        from_yaml,
-        lint,
-        read,
-        read_positions,
-    )
-    from mudline.commands import backbone, expand, export, fix, format, migrate, study, validate  # noqa: A004
-    from mudline.language.diagnostics import DeckError, Diagnostic, Severity
-    from mudline.model.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
-    from mudline.model.curves import CurveError, ForceCurve
-    from mudline.model.results.warnings import ContactWarning
-    from mudline.tools.touchdown_study.study import Study
-
-__version__ = "0.1.0"
-
-__all__ = [
-    "ContactModel",
-    "ContactResult",
-    "ContactState",
-    "ContactWarning",
-    "CurveError",
-    "Deck",
-    "DeckError",
-    "Diagnostic",
-    "ForceCurve",
-    "Plan",
-    "PositionError",
-    "Scene",
-    "Severity",
-    "Study",
-    "__version__",
-    "backbone",
-    "contact_warnings",
-    "expand",
-    "export",
-    "fix",
-    "format",
-    "from_json",
-    "from_keyword",
-    "from_yaml",
-    "lint",
-    "migrate",
-    "read",
-    "read_positions",
-    "study",
-    "validate",
-]
+    from mudline.api import Deck as Deck
+    from mudline.api import Scene as Scene
+    from mudline.api import contact_warnings as contact_warnings
+    from mudline.api import from_json as from_json
+    from mudline.api import from_keyword as from_keyword
+    from mudline.api import from_yaml as from_yaml
+    from mudline.api import lint as lint
+    from mudline.api import read as read
+    from mudline.api import read_positions as read_positions
+    from mudline.commands import backbone as backbone
+    from mudline.commands import diff as diff
+    from mudline.commands import diff_matrix as diff_matrix
+    from mudline.commands import expand as expand
+    from mudline.commands import export as export
+    from mudline.commands import fix as fix
+    from mudline.commands import format as format  # noqa: A004 - the name of the command
+    from mudline.commands import migrate as migrate
+    from mudline.commands import report as report
+    from mudline.commands import show as show
+    from mudline.commands import study as study
+    from mudline.commands import validate as validate
+    from mudline.language.diagnostics import DeckError as DeckError
+    from mudline.language.diagnostics import Diagnostic as Diagnostic
+    from mudline.language.diagnostics import Severity as Severity
+    from mudline.model.contact import ContactModel as ContactModel
+    from mudline.model.contact import ContactResult as ContactResult
+    from mudline.model.contact import ContactState as ContactState
+    from mudline.model.contact import Plan as Plan
+    from mudline.model.contact import PositionError as PositionError
+    from mudline.model.curves import CurveError as CurveError
+    from mudline.model.curves import ForceCurve as ForceCurve
+    from mudline.model.results.warnings import ContactWarning as ContactWarning
+    from mudline.tools.touchdown_study.study import Study as Study
 
 _HOMES = {
     name: home
     for home, names in {
-        "api": [
-            "Deck",
-            "Scene",
-            "contact_warnings",
-            "from_json",
-            "from_keyword",
-            "from_yaml",
-            "lint",
-            "read",
-            "read_positions",
-        ],
-        "commands": ["backbone", "expand", "export", "fix", "format", "migrate", "study", "validate"],
-        "model.contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
-        "model.curves": ["CurveError", "ForceCurve"],
-        "language.diagnostics": ["DeckError", "Diagnostic", "Severity"],
-        "model.results.warnings": ["ContactWarning"],
-        "tools.touchdown_study.study": ["Study"],
+        "api": "Deck Scene contact_warnings from_json from_keyword from_yaml lint read read_positions",
+        "commands": "backbone diff diff_matrix expand export fix format migrate report show study validate",
+        "model.contact": "ContactModel ContactResult ContactState Plan PositionError",
+        "model.curves": "CurveError ForceCurve",
+        "language.diagnostics": "DeckError Diagnostic Severity",
+        "model.results.warnings": "ContactWarning",
+        "tools.touchdown_study.study": "Study",
     }.items()
-    for name in names
+    for name in names.split()
 }
+__all__ = list(_HOMES)
+__all__ += ["__version__"]
 
 
 def __getattr__(name: str) -> object:
@@ -100,4 +75,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return __all__
+    return sorted(__all__)

@@ -8,7 +8,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from mudline import __version__
+from mudline.basics.version import __version__
 from mudline.cli import INTERRUPTED
 
 _COLLECTION = (5_000_000, 10, 10)

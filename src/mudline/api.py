@@ -18,6 +18,7 @@ import numpy as np
 from mudline.basics.arguments import ArgumentKindError, expect, expect_word, read_only, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units
+from mudline.checks.configuration import Configured
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
@@ -366,35 +367,38 @@ def lint(
     """Return all findings in decks, file by file in the order of each; never raises for their content.
 
     Args:
-        path: a file, a folder with decks below it, or several of them.
+        path: a file, a folder with decks below it, or several of them; its configuration includes and excludes files.
         select: rules by code, prefix of a code, or slug; all rules if empty.
         ignore: rules that are left out, named the same way.
         units: "metric", "imperial" or "user", instead of what the files tell.
 
     Raises:
         OSError: a file cannot be read, or a folder has no deck.
-        ValueError: a word names no rule, or `path` is the text of a deck.
+        ValueError: a word names no rule, `path` is the text of a deck, or a configuration cannot be used.
         TypeError: `path` is not a path, or `select` or `ignore` are not several words.
     """
-    files, units = decks_in(path), _units(units)
+    files, units = decks_in(path, including=True), _units(units)
     words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
     rules = _chosen(*words)
     found = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
     return [*chain.from_iterable(found)]
 
 
-def decks_in(path: Paths) -> list[Path]:
-    """The files that are given, and the decks below folders that are, without what a .gitignore hides.
+def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
+    """The files that are given, and the decks below folders that are, without what .gitignore files hide.
 
-    Raises FileNotFoundError for a folder without a deck.
+    Decks that the nearest configuration excludes are left out, those that it includes taken if `including`.
+    Raises FileNotFoundError for a folder without a deck, and ConfigurationError for a configuration that cannot be
+    used.
     """
     from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many scripts name one file
 
     one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
-    files: list[Path] = []
+    files, own = list[Path](), Configured()
+    wanted = own.wanted if including else lambda file: is_in_any_form(file) and not own.excludes(file)
     for each in [path] if one else cast("Iterable[object]", path):
         place = given_path(each, "save it to a file")
-        found = [Path(file) for _, file in Search(str(place)).files(is_in_any_form)] if place.is_dir() else [place]
+        found = [Path(file) for _, file in Search(str(place)).files(wanted)] if place.is_dir() else [place]
         if not found:
             raise FileNotFoundError(errno.ENOENT, "no deck in this folder", str(place))
         files += found
@@ -409,9 +413,9 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
     return public(load_bytes(data, f"<{form}>", form=form, units=units))
 
 
-def given_deck(deck: Deck | str | os.PathLike[str]) -> Deck:
-    """The deck that a function is given, read if it is given as a file."""
-    return deck if isinstance(deck, Deck) else read(given_path(deck, name="deck"))
+def given_deck(deck: Deck | str | os.PathLike[str], name: str = "deck") -> Deck:
+    """The deck that a function is given as an argument, read if it is given as a file."""
+    return deck if isinstance(deck, Deck) else read(given_path(deck, name=name))
 
 
 def public(deck: model.Deck) -> Deck:

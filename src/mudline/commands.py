@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
-
-import numpy as np
+from types import NoneType
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from mudline.api import Deck, decks_in, given_deck, given_path, public
-from mudline.basics.arguments import expect, expect_word, several
+from mudline.basics.arguments import expect, expect_number, expect_word, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import checked_units, shown
+from mudline.basics.quantities import checked_units
 from mudline.language.deck.forms import KEYWORD, form_of
-from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import Diagnostic
-from mudline.language.keywords.writer import block_lines
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
+    from mudline.checks.overview import Overview
     from mudline.checks.verdict import Judgement
+    from mudline.editing.backbone_block import BackboneCurve
+    from mudline.editing.comparison.matrix import DiffRow
+    from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verdict
-    from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
-    from mudline.model.curves import ForceCurve
     from mudline.tools.exporting.report import Report
     from mudline.tools.touchdown_study.study import Study
 
@@ -138,18 +137,15 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
 
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
-    if not migrating.legacy_blocks(given):
-        return Migrated(content=_content(given), source=given, replaced={}, files={}, verified=None)
     current = _again(given, _content(given))
-    continued_by, extended = continuations_beside(current) if current.folder else ([], False)
+    continued_by, extended = continuations_beside(current) if migrating.legacy_blocks(current) else ([], False)
     made = migrating.migrate(current, continued_by, extended=extended)
-    verified = migrating.verify(made) if verify else None
+    verified = migrating.verify(made) if verify and made.replaced else None
     if verified and verified.differences:
         texts = "; ".join(f"{one.what}: {one.text}" for one in verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
-    return Migrated(
-        content=made.content, source=given, replaced=dict(made.replaced), files=made.files, verified=verified
-    )
+    content, changed = made.content or _content(given), dict(made.replaced)
+    return Migrated(content=content, source=given, replaced=changed, files=made.files, verified=verified)
 
 
 def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
@@ -196,6 +192,59 @@ def validate(
     return [judge_content(each.read_bytes(), each.as_posix(), units, each.parent) for each in decks_in(path)]
 
 
+def show(deck: GivenDeck) -> Overview:
+    """Return what a deck holds: its `summary`, the `sheet` of its elements, and its `errors`.
+
+    Raises:
+        OSError: the file cannot be read.
+        DeckError: it is no deck. One with errors is shown as far as it can be read.
+    """
+    from mudline.checks.overview import overview  # noqa: PLC0415 - as above
+
+    return overview(deck.alone.placed() if isinstance(deck, Deck) else load_path(given_path(deck, name="deck")))
+
+
+def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict: bool = False) -> Comparison:
+    """Return what differs between two decks in meaning, whatever their forms, layout and order.
+
+    Args:
+        before: a deck, or its file.
+        after: the other one; places and values that `before` lacks are "added".
+        tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger one.
+        strict: count differences of spelling in superseded keywords as `differences` too.
+
+    Raises DeckError for a deck that has errors.
+    """
+    from mudline.editing.comparison.superseded import compare_decks  # noqa: PLC0415 - as above
+
+    expect_number(tolerance, "tolerance", or_zero=True)
+    expect(strict, "strict", bool, "True or False")
+    if tolerance > 1.0:
+        raise ValueError(f"tolerance must be from 0 to 1, not {tolerance!r}")
+    first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
+    return compare_decks(first, second, tolerance, strict=strict)
+
+
+def diff_matrix(
+    before: GivenDeck, decks: Iterable[GivenDeck], *, tolerance: float = 0.0, strict: bool = False
+) -> list[DiffRow]:
+    """Return the values that are not the same in a family of decks: each with its `values`, that of `before` first.
+
+    Args:
+        before: the deck with which the others are compared, or its file.
+        decks: the others, or their files.
+        tolerance: as in `diff`.
+        strict: as in `diff`.
+
+    Raises DeckError for a deck that has errors.
+    """
+    from mudline.editing.comparison.matrix import matrix  # noqa: PLC0415 - as above
+
+    base = given_deck(before, "before")
+    others = several(decks, "decks", (Deck, str, os.PathLike), "several decks")
+    return matrix([diff(base, each, tolerance=tolerance, strict=strict).differences for each in others])
+
+
 class Export(NamedTuple):
     """The model of a deck for another program: `files` by name, and the `report` of what does not carry over."""
 
@@ -232,13 +281,6 @@ def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "
 _SUFFIX = {"moordyn": ".txt", "orcaflex": ".yml"}
 
 
-class BackboneCurve(NamedTuple):
-    """A `curve` of a published model, and the `block` of a deck that holds it."""
-
-    curve: ForceCurve
-    block: SeabedStiffness | Embedment
-
-
 def backbone(  # noqa: PLR0913 - as many as the command has options
     model: str,
     *,
@@ -247,6 +289,7 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
     weight: float = 0.0,
     depth: float | None = None,
     tolerance: float = 0.005,
+    first: float = 0.001,
     name: str | None = None,
     legacy: bool = False,
     extend: bool = False,
@@ -260,55 +303,27 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
         weight: submerged weight of the soil per volume.
         depth: largest ratio z/D; as far as the model is published if None.
         tolerance: largest error of the interpolation, as a share of the largest force.
+        first: smallest ratio of a point above 0; below it a straight line replaces the model.
         name: of the curve, or of the set if `legacy`; that of the model if None.
         legacy: make a block of `*EMBEDMENT`, not of `*SEABED STIFFNESS`.
         extend: let `depth` go beyond the ratios for which the model is published.
 
     Raises ValueError for an argument that the model cannot have.
     """
-    from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness  # noqa: PLC0415 - as above
-    from mudline.model.curves import ForceCurve  # noqa: PLC0415 - as above
-    from mudline.model.curves.backbones import MODELS, Backbone, Soil  # noqa: PLC0415 - as above
+    from mudline.editing.backbone_block import backbone_curve  # noqa: PLC0415 - as above
 
-    expect_word(model, "model", tuple(MODELS), f"one of {', '.join(MODELS)}")
-    for word, flag in (("legacy", legacy), ("extend", extend)):
-        expect(flag, word, bool, "True or False")
-    chosen = MODELS[model]
-    su0, gradient = strength if isinstance(strength, tuple) and len(strength) == 2 else (strength, 0.0)
-    far = chosen.published if depth is None else depth
-    _require_number(diameter, "diameter")
-    _require_number(su0, "strength")
-    _require_number(gradient, "strength", or_zero=True)
-    _require_number(weight, "weight", or_zero=True)
-    _require_number(far, "depth")
-    _require_number(tolerance, "tolerance")
-    if weight and not chosen.weighs:
-        raise ValueError(f"weight: the model {model} has no term of the soil's weight: leave it out")
-    if far > chosen.published and not extend:
-        raise ValueError(f"depth: {model} ends at z/D = {shown(chosen.published)}; extend=True goes on to {far:g}")
-    if not 1e-5 <= tolerance <= 0.1:
-        raise ValueError(f"tolerance must be from 1e-5 to 0.1, not {tolerance!r}")
-    made = Backbone(chosen, Soil(diameter, su0, gradient, weight))
-    with np.errstate(all="ignore"):
-        points = made.points(far, tolerance)
-    title = name if name is not None else model
-    expect(title, "name", str, "a str")
-    curve = ForceCurve(points, title)
-    error = 100.0 * made.deviation(points) / made.largest(far)
-    texts = (
-        f" {chosen.title}: {chosen.formula}, r = z/D",
-        f" Error of interpolation: {error:.2g} % of the largest force",
+    return backbone_curve(
+        model,
+        diameter=diameter,
+        strength=strength,
+        weight=weight,
+        depth=depth,
+        tolerance=tolerance,
+        first=first,
+        name=name,
+        legacy=legacy,
+        extend=extend,
     )
-    given: dict[str, Any] = {
-        "curves": [{"set" if legacy else "name": title, "points": points}],
-        "comments": [{"before": 0, "text": text} for text in texts],
-    }
-    block = (Embedment if legacy else SeabedStiffness).model_validate(given)
-    # What a name may be is known to the reader alone.
-    text = "\n".join(["$MODEL", *block_lines(block), ""])
-    if load_bytes(text.encode(errors="replace"), "").sections[0].blocks != [block]:
-        raise ValueError(f"name {title!r} is not what a deck reads as a name: give letters and digits")
-    return BackboneCurve(curve, block)
 
 
 def study(
@@ -334,14 +349,79 @@ def study(
         expect_word(part, "only", studies.PARTS, "of accuracy, stability and pruning")
     for name, value in (("heave", heave), ("period", period)):
         if value is not None:
-            _require_number(value, name)
+            expect_number(value, name)
     resolved = scenes.resolve(given.alone.placed()).require()
     return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
 
 
-def _require_number(value: object, name: str, *, or_zero: bool = False) -> None:
-    """Raise ValueError for an argument that is not a number above 0, or 0 where it may be."""
-    expect(value, name, (int, float), "a number")
-    number = cast("float", value)
-    if not (0.0 < number < math.inf or (or_zero and number == 0.0)):
-        raise ValueError(f"{name} must be a number {'of 0 or more' if or_zero else 'above 0'}, not {value!r}")
+def report(  # noqa: PLR0913 - as many as the command has options
+    decks: GivenDeck | Iterable[GivenDeck],
+    path: str | os.PathLike[str],
+    *,
+    sections: Iterable[str] = (),
+    rest_shape: bool = False,
+    title: str | None = None,
+    document: str | None = None,
+    revision: str | None = None,
+    fields: Mapping[str, str] | None = None,
+    date: str | None = None,
+    template: str | os.PathLike[str] | None = None,
+    logo: str | os.PathLike[str] | None = None,
+) -> list[dict[str, Any]]:
+    """Write a page about a deck to be signed, or an index with a page a deck; returns the rows of the index.
+
+    Args:
+        decks: a deck, its file or a folder with decks below it; or several of them.
+        path: the page; of several decks or a folder the index, with the pages in a folder beside it.
+        sections: some of verdict, findings, inputs, model, curves, contact, study and plan; all but study if empty.
+        rest_shape: evaluate contact at the resting shape, not at the deck's own coordinates.
+        title: what stands at its head, in place of the deck's own.
+        document: its number.
+        revision: its revision.
+        date: its date.
+        fields: what else is to stand there, by name.
+        template: a jinja2 template, which may extend "page.html".
+        logo: a picture for its head, .svg or .png.
+
+    Raises:
+        OSError: a file cannot be read or written, or a folder has no deck.
+        ImportError: the extra mudline[report] is not installed.
+        ValueError: `sections` names none, a template or logo or a configuration cannot be used.
+    """
+    from mudline.checks.settings import nearest_settings  # noqa: PLC0415 - as above
+    from mudline.tools.reporting import content, pages  # noqa: PLC0415 - as above
+
+    names = several(sections, "sections", str, "several str")
+    for name in names:
+        expect_word(name, "sections", content.SECTIONS, f"of {', '.join(content.SECTIONS)}")
+    expect(rest_shape, "rest_shape", bool, "True or False")
+    expect(fields, "fields", (Mapping, NoneType), "texts by name")
+    for name, value in (("title", title), ("document", document), ("revision", revision), ("date", date)):
+        expect(value, name, (str, NoneType), "a str")
+    head = content.Document(title, document, revision, date, tuple((fields or {}).items()))
+    pictured = [
+        None if file is None else given_path(file, name=name) for file, name in ((template, "template"), (logo, "logo"))
+    ]
+    look = content.Look(*pictured)
+    wanted = (tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
+    alone = [decks] if isinstance(decks, Deck | str | os.PathLike) else None
+    them: list[GivenDeck] = alone or several(
+        decks, "decks", (Deck, str, os.PathLike), "decks, or their files or folders"
+    )
+    given: list[content.Given] = []
+    many = len(them) > 1
+    for each in them:
+        if isinstance(each, Deck):
+            given.append(content.Given(_content(each), each.file, each.folder))
+        else:
+            place = given_path(each, "save it to a file", name="decks")
+            given += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]
+            many = many or place.is_dir()
+    if not given:
+        raise ValueError("decks must be one or more, not none")
+    made = pages.Pages(given_path(path), lambda file, text: write_atomically(file, text.encode()), several=many)
+    settings = nearest_settings()
+    for one in given:
+        made.add(pages.make_page(one, settings.of(one.name), wanted), one.name)
+    made.finish(look)
+    return made.rows

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -94,6 +96,19 @@ def test_validate_judges_files_and_folders(tmp_path: Path) -> None:
             mudline.lint(empty)
 
 
+def test_folders_are_searched_as_their_configuration_has_it(tmp_path: Path) -> None:
+    for name in ("kept.keyxm", "old/left.keyxm", "more.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("$MODEL\n*OCAEN\n", encoding="ascii")
+    (tmp_path / "mudline.toml").write_text('exclude = ["old/"]\ninclude = ["*.txt"]\n', encoding="ascii")
+    assert {Path(one.file).name for one in mudline.lint(tmp_path)} == {"kept.keyxm", "more.txt"}
+    assert [Path(one.verdict.file).name for one in mudline.validate(tmp_path)] == ["kept.keyxm"]
+    assert mudline.lint(tmp_path / "old" / "left.keyxm")  # a file that is named is taken
+    (tmp_path / "mudline.toml").write_text("exclude = 1\n", encoding="ascii")
+    with pytest.raises(ValueError, match=r"mudline\.toml:1: exclude"):
+        mudline.lint(tmp_path)
+
+
 @pytest.mark.parametrize("to", ["moordyn", "orcaflex"])
 def test_export_is_that_of_the_command(to: str, tmp_path: Path) -> None:
     found = mudline.export(RISER, to=to, name="model.x")  # type: ignore[arg-type]  # one of both
@@ -138,3 +153,56 @@ def test_what_no_backbone_has(argument: str, value: object, message: str) -> Non
 def test_study_takes_a_file_too() -> None:
     text = mudline.study(LEGACY, only=["stability"]).advice.text
     assert text == mudline.study(mudline.read(LEGACY), only=["stability"]).advice.text
+
+
+def test_show_is_that_of_the_command() -> None:
+    for name in ("scr-touchdown.keyxm", "broken.keyxm"):
+        found = mudline.show(SAMPLES / name)
+        ran = run("show", str(SAMPLES / name), "--output-format", "json")
+        assert json.loads(json.dumps(found.summary)) == {**ran.json(), "file": found.summary["file"]}
+        assert bool(found.errors) is (ran.code == 1)
+    changed = mudline.read(RISER)
+    changed.remove("ELEMENT SETS")
+    assert len(mudline.show(changed).summary["sets"]) < len(mudline.show(RISER).summary["sets"])
+
+
+def test_diff_and_its_matrix() -> None:
+    riser = mudline.read(RISER)
+    deeper, heavier = riser.copy(), riser.copy()
+    deeper.set("OCEAN.depth", 1100)
+    heavier.set("OCEAN.density", 1030)
+    (one,) = mudline.diff(riser, deeper).differences
+    assert (one.where, one.before, one.after) == ("*OCEAN/depth", 1000.0, 1100.0)
+    assert mudline.diff(RISER, deeper, tolerance=0.1).differences == []
+    rows = mudline.diff_matrix(riser, [deeper, heavier, RISER])
+    assert [(row.where, list(row.values)) for row in rows] == [
+        ("*OCEAN/depth", [1000.0, 1100.0, 1000.0, 1000.0]),
+        ("*OCEAN/density", [1025.0, 1025.0, 1030.0, 1025.0]),
+    ]
+    migrated = mudline.migrate(LEGACY).deck
+    assert mudline.diff(LEGACY, migrated).differences == []
+    assert mudline.diff(LEGACY, migrated, strict=True).differences == mudline.diff(LEGACY, migrated).spelling != []
+    with pytest.raises(ValueError, match="tolerance must be from 0 to 1"):
+        mudline.diff(RISER, RISER, tolerance=2.0)
+
+
+def test_report_writes_the_pages_of_the_command(tmp_path: Path) -> None:
+    pytest.importorskip("jinja2")
+    (tmp_path / "decks").mkdir()
+    for name in ("legacy-flowline.keyxm", "broken.keyxm"):
+        (tmp_path / "decks" / name).write_bytes((SAMPLES / name).read_bytes())
+    head: dict[str, Any] = {"title": "Field", "revision": "B", "date": "today"}
+    rows = mudline.report(tmp_path / "decks", tmp_path / "one.html", fields={"Client": "Us"}, **head)
+    assert [(Path(row["deck"]).name, row["kind"]) for row in rows] == [
+        ("broken.keyxm", "illegal"),
+        ("legacy-flowline.keyxm", "as far as read"),
+    ]
+    options = [word for name, value in head.items() for word in (f"--{name}", value)]
+    run("report", str(tmp_path / "decks"), "-o", str(tmp_path / "two.html"), "--field", "Client=Us", *options)
+    first, second = ({file.name: file.read_bytes() for file in (tmp_path / name).iterdir()} for name in ("one", "two"))
+    assert first == second
+    deck = mudline.read(LEGACY)
+    mudline.report(deck, tmp_path / "deck.html", sections=["verdict"])
+    assert "legacy-flowline.keyxm" in (tmp_path / "deck.html").read_text(encoding="utf-8")
+    with pytest.raises(ValueError, match="a logo is a"):
+        mudline.report(deck, tmp_path / "deck.html", logo=RISER)

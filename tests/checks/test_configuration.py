@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.checks.configuration import ConfigurationError, Search, read_configuration
+from mudline.checks.configuration import ConfigurationError, Configured, read_configuration
 from mudline.checks.registry import code_fault
 
 
@@ -37,11 +37,11 @@ def test_the_nearest_file_counts_and_one_without_a_table_does_not(tmp_path: Path
     deep.mkdir(parents=True)
     (tmp_path / "mudline.toml").write_text('ignore = ["LEG"]\n', encoding="utf-8")
     (tmp_path / "a" / "pyproject.toml").write_text("[tool.other]\nx = 1\n", encoding="utf-8")
-    search = Search()
-    assert search.nearest(deep).path == tmp_path / "mudline.toml"
-    assert search.nearest(tmp_path / "a").words("ignore") == ["LEG"]
+    search = Configured()
+    assert search.of(str(deep / "-")).path == tmp_path / "mudline.toml"
+    assert search.of(str(tmp_path / "a" / "-")).words("ignore") == ["LEG"]
     (tmp_path / "a" / "pyproject.toml").write_text('x = 1\n[tool.mudline]\nselect = ["REF"]\n', encoding="utf-8")
-    found = Search().nearest(deep)
+    found = Configured().of(str(deep / "-"))
     path = tmp_path / "a" / "pyproject.toml"
     assert (found.path, found.words("select"), found.origins) == (path, ["REF"], {"select": (path, 3)})
 

@@ -88,15 +88,15 @@ def test_beyond_the_published_range() -> None:
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        (("--diameter", "0", "--strength", "1"), "--diameter 0: expected a number above 0"),
+        (("--diameter", "0", "--strength", "1"), "--diameter must be a number above 0, not 0.0"),
         (("--diameter", "1", "--strength", "0"), "expected su0 > 0, or su0,gradient with a gradient >= 0"),
         (("--diameter", "1", "--strength", "1,-1"), "expected su0 > 0"),
         (("--diameter", "1", "--strength", "1,1,1"), "expected su0 > 0"),
         (("--diameter", "1", "--strength", "a"), "'a': expected su0 > 0"),
-        ((*CLAY, "--weight", "-1"), "--weight -1: expected a submerged weight per volume, 0 or more"),
-        ((*CLAY, "--depth", "-1"), "--depth -1: expected a ratio z/D above 0"),
-        ((*CLAY, "--first", "0.5"), "--first 0.5: expected a ratio z/D from 0 to below 0.5"),
-        ((*CLAY, "--name", "a, b"), "a deck does not read this as a name"),
+        ((*CLAY, "--weight", "-1"), "--weight must be a number of 0 or more, not -1.0"),
+        ((*CLAY, "--depth", "-1"), "--depth must be a number above 0, not -1.0"),
+        ((*CLAY, "--first", "0.5"), "--first must be a ratio z/D below 0.5, not 0.5"),
+        ((*CLAY, "--name", "a, b"), "--name 'a, b' is not what a deck reads as a name"),
         ((*CLAY, "--tolerance", "1"), "1.0 is not in the range"),
         (("--diameter", "1e200", "--strength", "1e200"), "the force is too large or too small for a float64"),
     ],
@@ -140,7 +140,7 @@ def test_a_first_point_that_is_too_near_to_zero_is_refused() -> None:
 def test_models_that_cannot_have_it(monkeypatch: pytest.MonkeyPatch) -> None:
     weighed = run("backbone", "aubeny", *CLAY, "--weight", "6000")
     assert weighed.code == 2
-    assert "this model has no term of the soil's weight" in weighed.err
+    assert "--weight: the model aubeny has no term of the soil's weight" in weighed.err
     twice = np.array([[0.0, 0.0], [0.1, 1.0], [0.1, 2.0]])
     monkeypatch.setattr(Backbone, "points", lambda *_: twice)  # two ratios that rounding makes equal
     fine = run("backbone", "aubeny", *CLAY, "--tolerance", "1e-5")

@@ -13,12 +13,11 @@ from typing import Any
 
 import pytest
 
-from mudline.checks.configuration import Given
+from mudline.checks.configuration import Configured, Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.registry import rules
 from mudline.cli import lint_run
-from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity

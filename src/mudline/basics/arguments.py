@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +30,14 @@ def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: st
     """Raise ValueError for an argument that is not one of the allowed words, which `expected` lists."""
     if not isinstance(value, str) or value not in allowed:
         raise ValueError(f"{name} must be {expected}, not {cut(repr(value), 60)}")
+
+
+def expect_number(value: object, name: str, *, or_zero: bool = False) -> None:
+    """Raise ValueError for an argument that is not a number above 0, or 0 where it may be."""
+    expect(value, name, (int, float), "a number")
+    number = cast("float", value)
+    if not (0.0 < number < math.inf or (or_zero and number == 0.0)):
+        raise ValueError(f"{name} must be a number {'of 0 or more' if or_zero else 'above 0'}, not {value!r}")
 
 
 def several(values: object, name: str, kind: type | tuple[type, ...], expected: str) -> list[Any]:

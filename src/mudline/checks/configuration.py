@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache, reduce
 from pathlib import Path
@@ -12,6 +13,7 @@ from typing import Any, NamedTuple
 
 from mudline.basics.overwriting import reading
 from mudline.basics.paths import relative_path
+from mudline.basics.patterns import matches
 from mudline.basics.spelling import nearest
 
 Values = dict[str, Any]
@@ -241,29 +243,6 @@ def _hint(word: str, choices: Iterable[str]) -> str:
     return f": did you mean {near}?" if near else f": choose from {', '.join(choices)}"
 
 
-class Search:
-    """The nearest configuration upwards of a folder, each folder looked at once; `code_fault` as when one is read."""
-
-    def __init__(self, code_fault: CodeFault | None = None) -> None:
-        self._known: dict[Path, Configuration] = {}
-        self._code_fault = code_fault
-
-    def nearest(self, folder: Path) -> Configuration:
-        """mudline.toml before pyproject.toml in one folder. Raises OSError and ConfigurationError."""
-        passed: list[Path] = []
-        found = Configuration()
-        for place in (folder, *folder.parents):
-            if place in self._known:
-                found = self._known[place]
-                break
-            passed.append(place)
-            if here := _in(place, self._code_fault):
-                found = here
-                break
-        self._known.update(dict.fromkeys(passed, found))
-        return found
-
-
 def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     for name in ("mudline.toml", "pyproject.toml"):
         path = folder / name
@@ -273,11 +252,92 @@ def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     return None
 
 
+@dataclass(eq=False)
+class Configured:
+    """The configuration of each deck: that of a file `config`, none (`isolated`), or the nearest one upwards.
+
+    `code_fault` checks the words that are to name rules, as `read_configuration` says. All raise ConfigurationError for
+    a configuration that cannot be read or used.
+    """
+
+    config: str | None = None
+    isolated: bool = False
+    code_fault: CodeFault | None = None
+    _fixed: Configuration | None = field(init=False, default=None)
+    _of_folder: dict[str, Configuration] = field(init=False, default_factory=dict)
+    _nearest: dict[Path, Configuration] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.config is not None and self.isolated:
+            raise ConfigurationError("--config and --isolated exclude each other: give one of them")
+        if self.isolated:
+            self._fixed = Configuration()
+        elif self.config is not None:
+            with _reading_one():
+                self._fixed = read_configuration(Path(self.config), code_fault=self.code_fault) or Configuration()
+
+    def of(self, path: str | None) -> Configuration:
+        """The configuration of a file, by its path or the name that standard input is given."""
+        if self._fixed is not None:
+            return self._fixed
+        folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder not in self._of_folder:
+            with _reading_one():
+                self._of_folder[folder] = self._upwards(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
+        return self._of_folder[folder]
+
+    def _upwards(self, folder: Path) -> Configuration:
+        """The nearest one upwards of a folder, each looked at once: mudline.toml before pyproject.toml in each."""
+        passed: list[Path] = []
+        found = Configuration()
+        for place in (folder, *folder.parents):
+            if place in self._nearest:
+                found = self._nearest[place]
+                break
+            passed.append(place)
+            if here := _in(place, self.code_fault):
+                found = here
+                break
+        self._nearest.update(dict.fromkeys(passed, found))
+        return found
+
+    def wanted(self, path: str) -> bool:
+        """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
+        from mudline.language.deck.searching import is_deck, is_document, is_in_any_form  # noqa: PLC0415 - help has none
+
+        found = self.of(path)
+        include, exclude = found.words("include"), found.words("exclude")
+        if not (include or exclude):
+            return is_in_any_form(path)
+        relative = found.relative(path)
+        taken = is_deck(path) or matches(relative, include) or is_document(path)
+        return taken and not matches(relative, exclude)
+
+    def encoding(self, path: str) -> str:
+        """Return the encoding that the file's configuration gives, "" where it gives none."""
+        return str(self.of(path).values.get(ENCODING, ""))
+
+    def excludes(self, path: str) -> bool:
+        """Return whether `exclude` of the file's configuration leaves it out."""
+        found = self.of(path)
+        exclude = found.words("exclude")
+        return bool(exclude) and matches(found.relative(path), exclude)
+
+
+@contextmanager
+def _reading_one() -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        what = f"{error.filename}: the configuration cannot be read"
+        raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error
+
+
 @lru_cache(maxsize=256)
 def refuses_outside(folder: Path) -> bool:
     """Whether the nearest configuration keeps decks of a folder from files outside; also one that cannot be read."""
     try:
-        found = Search().nearest(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
-    except (OSError, ConfigurationError):
+        found = Configured().of(str(folder / "-"))
+    except ConfigurationError:
         return True
     return bool(found.values.get(NO_OUTSIDE))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
+from dataclasses import dataclass, field
+
 from mudline.basics.patterns import matches
-from mudline.checks.configuration import NO_OUTSIDE, Configuration, Given
+from mudline.checks.configuration import NO_OUTSIDE, Configuration, Configured, Given
 from mudline.checks.engine import Fixing, LintSettings
-from mudline.checks.registry import rules, select
+from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
 
 
@@ -59,3 +62,37 @@ def _unfixable(found: Configuration) -> frozenset[str]:
 
 def _codes(words: list[str]) -> frozenset[str]:
     return frozenset(rule.code.code for rule in select(words)) if words else frozenset()
+
+
+@dataclass
+class Settings:
+    """The settings of each deck, made once for decks of the same ones; all raise ConfigurationError and UnknownRule."""
+
+    configured: Configured
+    given: Given
+    fail_on: str | None = None
+    fixing: Fixing = Fixing.NONE
+    _made: dict[object, LintSettings] = field(default_factory=dict)
+    _of_folder: dict[str, LintSettings] = field(default_factory=dict)
+
+    def of(self, path: str) -> LintSettings:
+        """The settings of a file, by its path or the name that standard input is given."""
+        folder = os.path.dirname(path)  # noqa: PTH120 - asked for each of many files
+        if folder in self._of_folder:
+            return self._of_folder[folder]
+        found = self.configured.of(path)
+        key = (found.path, hidden_codes(found, path))
+        if key not in self._made:
+            self._made[key] = self.merged(found, key[1])
+        if not found.table("per-file-ignores"):
+            self._of_folder[folder] = self._made[key]
+        return self._made[key]
+
+    def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
+        """A configuration under what is given; `hidden` are codes that it ignores in a file."""
+        return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
+
+
+def nearest_settings() -> Settings:
+    """The settings of decks where nothing is given but their configurations."""
+    return Settings(Configured(code_fault=code_fault), Given())

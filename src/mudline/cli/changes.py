@@ -1,4 +1,4 @@
-"""What would change in a file, as a unified diff."""
+"""The new content of a file: written, printed, or shown as a unified diff."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from difflib import Match, SequenceMatcher
 
 from mudline.checks.output import visible, visible_lines
-from mudline.cli.streams import emit
+from mudline.cli.inputs import Input, Inputs
+from mudline.cli.streams import emit, emit_deck
 from mudline.cli.view import View
 from mudline.language.syntax.source import Source
 
@@ -15,6 +16,24 @@ _LONG = 2000
 """Lines from which on those of texts with equally many are compared in pairs, as looking for moved ones takes long."""
 _NO_END = "\n\\ No newline at end of file\n"
 _STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"}
+
+
+def deliver(
+    inputs: Inputs, file: Input, old: bytes, new: bytes, view: View, *, check: str = "", diff: bool = False
+) -> bool:
+    """Print the new content of standard input, write that of a file; or name the file under `check`, or show a diff.
+
+    Returns False for a file that could not be written, which is reported.
+    """
+    if file.path is None and not (check or diff):
+        emit_deck(new)
+    elif new != old:
+        if check:
+            emit([f"{check}: {file.name}\n"])
+        if diff:
+            print_changes(old, new, file.name, view)
+        return bool(check) or diff or inputs.replaced(file, old, new)
+    return True
 
 
 def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: bool = False) -> None:

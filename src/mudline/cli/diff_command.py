@@ -21,19 +21,17 @@ from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.diff_matrix import MATRIX_FORMAT, matrix_table, value_text
-from mudline.cli.diff_matrix import matrix as matrix_of
 from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
-from mudline.editing.comparison.comparing import compare
+from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
+from mudline.editing.comparison.matrix import matrix as matrix_of
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
-from mudline.editing.comparison.superseded import Comparison, without_spelling
+from mudline.editing.comparison.superseded import Comparison, compare_decks
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import DeckError
-from mudline.model.scene.model import resolve
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
@@ -134,7 +132,7 @@ def command(
     if all(folders):
         return _compare_folders(_Folders(before, after, tolerance, strict, units), output_format, view, every_file)
     first, second = _pair(before, after, stdin_name, units)
-    comparison = _comparison(first, second, tolerance, strict=strict)
+    comparison = compare_decks(first, second, tolerance, strict=strict)
     summary = summary_of(comparison)
     if output_format == "json":
         head = {
@@ -155,21 +153,14 @@ def command(
     return FOUND if comparison.differences else DONE
 
 
-def _comparison(first: Deck, second: Deck, tolerance: float, *, strict: bool) -> Comparison:
-    """The differences of two decks. Raises DeckError for one that cannot be compared."""
-    before, after = resolve(first), resolve(second)
-    found = compare(before, after, tolerance)
-    return Comparison(found, []) if strict else without_spelling(before, after, found, tolerance)
-
-
 def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, output_format: str, view: View) -> int:
     """Print what differs of the first deck in the others."""
     base, *others = decks
-    compared = [_comparison(base, other, tolerance, strict=strict).differences for other in others]
+    compared = [compare_decks(base, other, tolerance, strict=strict).differences for other in others]
     rows, names = matrix_of(compared), [deck.file for deck in decks]
     if output_format == "json":
         head = {"format": MATRIX_FORMAT, "decks": names, "tolerance": tolerance}
-        emit([*_json_lines(head, "rows", (row.json() for row in rows)), "\n}\n"])
+        emit([*_json_lines(head, "rows", map(asdict, rows)), "\n}\n"])
     elif output_format == "csv":
         emit(csv_lines([["group", "value", *names], *([row.group, row.where, *_cells(row.values)] for row in rows)]))
     elif rows:
@@ -245,7 +236,7 @@ class _Folders:
         before, after = (file.name for file, _ in given)
         try:
             first, second = (load_bytes(data, file.name, units=self.units, folder=file.folder) for file, data in given)
-            comparison = _comparison(first, second, self.tolerance, strict=self.strict)
+            comparison = compare_decks(first, second, self.tolerance, strict=self.strict)
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
             found = error.diagnostics[0]

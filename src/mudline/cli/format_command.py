@@ -8,9 +8,9 @@ import click
 
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.changes import print_changes
+from mudline.cli.changes import deliver
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
-from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
+from mudline.cli.streams import notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.diagnostics import DeckError
@@ -50,18 +50,10 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
     except FormatError as error:
         notify(f"{file.name}: {error}")
         return _FAILED
+    if not deliver(inputs, file, data, new, view, check="would reformat" if check else "", diff=diff):
+        return _FAILED
     if file.path is None and not (check or diff):
-        emit_deck(new)
         return ""
-    if new == data:
-        return _SAME
-    if check:
-        emit([f"would reformat: {file.name}\n"])
-    if diff:
-        print_changes(data, new, file.name, view)
-    if not (check or diff):
-        if not inputs.replaced(file, data, new):
-            return _FAILED
-        if view.verbose:
-            notify(f"{file.name}: reformatted")
-    return _CHANGED
+    if new != data and view.verbose and not (check or diff):
+        notify(f"{file.name}: reformatted")
+    return _SAME if new == data else _CHANGED

@@ -16,9 +16,10 @@ from mudline.basics.files import alone_at, recording_looks
 from mudline.checks.configuration import Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
+from mudline.checks.settings import Settings
 from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
-from mudline.cli.lint_run import Settings, checked_settings
+from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View
@@ -102,7 +103,7 @@ def _index(inputs: Inputs, settings: Settings, archive: Archive, view: View, job
     inputs.files = list(files.values())
 
     def prepared(file: Input) -> tuple[tuple[str, str], tuple[bytes, str, LintSettings, Path | None] | None]:
-        place, data, own = archive.place(file.path or file.name), file.read(), settings.of(file)
+        place, data, own = archive.place(file.path or file.name), file.read(), settings.of(file.path or file.name)
         codes = tuple(rule.code.code for rule in own.rules)
         key = archive.memory.key(place, repr((codes, replace(own, rules=(), unfixable=frozenset()))), data)
         given = (data, PurePath(file.path or file.name).name, own, file.folder)

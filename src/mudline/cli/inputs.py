@@ -16,6 +16,7 @@ import click
 
 from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
+from mudline.checks.configuration import Configured
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
@@ -24,7 +25,6 @@ from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be
 from mudline.language.diagnostics import DeckError
 
 if TYPE_CHECKING:
-    from mudline.cli.config_command import Configured
     from mudline.language.deck.model import Deck
 
 STDIN = "-"
@@ -227,8 +227,6 @@ class GivenDeck(NamedTuple):
         """The content of the file and its name in messages; ends the command when the path cannot be read."""
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
-        from mudline.cli.config_command import Configured  # noqa: PLC0415 - it asks this module what decks are
-
         file = _single(self.path, self.stdin_name)
         file = file._replace(encoding=self.encoding or Configured().encoding(file.path or file.name))
         try:
@@ -278,8 +276,6 @@ class GivenDecks(NamedTuple):
 
         With `force_exclude` no file that it excludes is taken, not even by its name.
         """
-        from mudline.cli.config_command import Configured  # noqa: PLC0415 - it asks this module what decks are
-
         own = configured or Configured()
         return collect(
             self.paths,

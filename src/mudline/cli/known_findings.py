@@ -8,8 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mudline.checks.configuration import Given
-from mudline.cli.config_command import Configured
+from mudline.checks.configuration import Configured, Given
 from mudline.cli.inputs import Input, Inputs
 from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.tools.running.remembered import Memory, of_working_folder

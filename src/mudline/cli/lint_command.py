@@ -13,10 +13,9 @@ from typing import NoReturn
 import click
 
 from mudline.basics.overwriting import claim
-from mudline.checks.configuration import Given
+from mudline.checks.configuration import ConfigurationError, Configured, Given
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.config_command import Configured
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
@@ -178,8 +177,8 @@ def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoRetu
         click.clear()
         try:
             once()
-        except click.ClickException as error:
-            notify(error.format_message())
+        except (ConfigurationError, click.ClickException) as error:
+            notify(error.format_message() if isinstance(error, click.ClickException) else str(error))
         if not view.quiet:
             notify(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
         wait_for_change(paths, before)

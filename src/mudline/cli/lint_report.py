@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import click
 
-from mudline import __version__
 from mudline.basics.overwriting import claim
+from mudline.basics.version import __version__
 from mudline.checks.output import TEXT, form, form_names, visible
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View

@@ -6,62 +6,27 @@ the order given.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Generator
 from contextlib import closing
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 import click
 
-from mudline.checks.configuration import Configuration, Given
+from mudline.checks.configuration import Configuration, Configured, Given
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.registry import UnknownRule, code_fault, plugin_files
-from mudline.checks.settings import hidden_codes, merged_settings
+from mudline.checks.settings import Settings
 from mudline.checks.suppression import Baseline, BaselineError, read_baseline
-from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import Report
 from mudline.cli.many_files import many_files
-from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
+from mudline.cli.streams import counted, notify, reason, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of
-
-
-@dataclass
-class Settings:
-    """The settings of each deck, made once for decks of the same ones."""
-
-    configured: Configured
-    given: Given
-    fail_on: str | None
-    fixing: Fixing
-    _made: dict[object, LintSettings] = field(default_factory=dict)
-    _of_folder: dict[str, LintSettings] = field(default_factory=dict)
-
-    def of(self, file: Input) -> LintSettings:
-        """The settings of a file."""
-        folder = os.path.dirname(file.path or file.name)  # noqa: PTH120 - asked for each of many files
-        if folder in self._of_folder:
-            return self._of_folder[folder]
-        found = self.configured.of(file.path or file.name)
-        hidden = hidden_codes(found, file.path or file.name)
-        key = (found.path, hidden)
-        if key not in self._made:
-            self._made[key] = self.merged(found, hidden)
-        if not found.table("per-file-ignores"):
-            self._of_folder[folder] = self._made[key]
-        return self._made[key]
-
-    def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
-        """A configuration under a command line; `hidden` are codes that it ignores in a file."""
-        try:
-            return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
-        except UnknownRule as error:
-            raise click.UsageError(str(error)) from error
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
@@ -85,7 +50,10 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
 def checked_settings(config: str | None, given: Given, fixing: str, *, isolated: bool, fail_on: str | None) -> Settings:
     """The settings of a command line; ends the command for a word that names no rule, whatever the files are."""
     settings = Settings(Configured(config, isolated, code_fault), given, fail_on, Fixing(fixing))
-    settings.merged(Configuration())
+    try:
+        settings.merged(Configuration())
+    except UnknownRule as error:
+        raise click.UsageError(str(error)) from error
     return settings
 
 
@@ -112,13 +80,15 @@ def lint_files(
         jobs = 1
     with closing(_lint_all(inputs, settings, known, jobs, report.view)) as results:
         for file, data, result in results:
-            own, content = settings.of(file), data if result.changed is None else result.changed
+            own, content = settings.of(file.path or file.name), data if result.changed is None else result.changed
             if fixing:
                 documents += form_of(file.name) != "keyword"
                 if result.note:
                     notify(f"{file.name}: {result.note}")
                 differs = differs or (diff and content != data)
-                if not _deliver(inputs, file, data, content, report.view, diff=diff):
+                from mudline.cli.changes import deliver  # noqa: PLC0415 - most runs change nothing
+
+                if not deliver(inputs, file, data, content, report.view, diff=diff):
                     unfixed = replace(own, fixing=Fixing.NONE)
                     content, result = data, lint_one(file.name, data, unfixed, file.folder)  # noqa: PLW2901 - of the deck as it stays
             found = list(result.found)
@@ -144,20 +114,6 @@ def lint_files(
     return report.failing or differs
 
 
-def _deliver(inputs: Inputs, file: Input, data: bytes, content: bytes, view: View, *, diff: bool) -> bool:
-    """Show, print or write what was fixed; returns whether the fixes are made."""
-    if diff:
-        if content != data:
-            from mudline.cli.changes import print_changes  # noqa: PLC0415 - most runs change nothing
-
-            print_changes(data, content, file.name, view)
-    elif file.path is None:
-        emit_deck(content)
-    elif content != data:
-        return inputs.replaced(file, data, content)
-    return True
-
-
 # ----------------------------------------------------------------------------------------------------------- many files
 
 
@@ -181,7 +137,7 @@ def _lint_all(
     plugins = plugin_files() if known is not None else ()
 
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
-        own = settings.of(file)
+        own = settings.of(file.path or file.name)
         if known is not None and file in known.clean:
             return _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[file])), None
         data = file.read()

@@ -14,10 +14,11 @@ from typing import cast
 import click
 from click.shell_completion import shell_complete
 
-from mudline import __version__
 from mudline.basics.outside import refusing_outside
 from mudline.basics.overwriting import OverwriteError, refusing_overwriting
 from mudline.basics.spelling import nearest
+from mudline.basics.version import __version__
+from mudline.checks.configuration import ConfigurationError
 from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
 from mudline.cli.streams import notify, reason
 from mudline.language.diagnostics import PluginError
@@ -120,7 +121,7 @@ def run(arguments: Sequence[str]) -> int:
         code = shell_complete(mudline, {}, "mudline", COMPLETION, completing) if completing else _invoke(arguments)
         sys.stdout.flush()
         sys.stderr.flush()
-    except (OverwriteError, RunError) as error:
+    except (ConfigurationError, OverwriteError, RunError) as error:
         notify(str(error))
         return WRONG_USAGE
     except OSError as error:

@@ -15,7 +15,7 @@ from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, t
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.editing.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
-from mudline.editing.migration.refusals import Continuations, misspelt
+from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import DeckError
@@ -76,17 +76,13 @@ class _Run:
         """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
         deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
         reading_named_files(deck)
-        if not legacy_blocks(deck):
-            if problems := list(misspelt(deck)):
-                raise DeckError(deck.diagnose(problems))
-            self._note("no legacy seabed keyword")
-            if not diff and not self._in_place:
-                self._write(self.data, {})
-            return DONE
-        path = Path(self.file.path) if self.file.path else None
+        path = Path(self.file.path) if self.file.path and legacy_blocks(deck) else None
         continued_by = continuations.of(path) if path else []
         with naming_causes(deck):
             migration = migrate(deck, continued_by, extended=path is not None and continuations.extend(path))
+        if not migration.replaced:
+            self._note("no legacy seabed keyword")
+            return DONE if diff or self._in_place else self._write(self.data, {})
         if proved and not self._proved(verify(migration)):
             return FOUND
         content = self._content(migration)

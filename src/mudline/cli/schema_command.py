@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 import click
@@ -11,7 +9,7 @@ import click
 from mudline.checks.configuration import ENCODING, EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
 from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN
-from mudline.cli.streams import emit_json, write_text
+from mudline.cli.streams import emit_json
 from mudline.language.deck.document import json_schema
 
 
@@ -24,11 +22,7 @@ def command(*, what: str, output: str | None) -> int:
 
     Editors complete and check a mudline.toml by the schema of the configuration.
     """
-    schema = configuration_schema() if what == "config" else json_schema()
-    if output is None or output == STDIN:
-        emit_json(schema)
-    else:
-        write_text(Path(output), [json.dumps(schema, indent=1, ensure_ascii=False), "\n"])
+    emit_json(configuration_schema() if what == "config" else json_schema(), None if output == STDIN else output)
     return DONE
 
 

@@ -16,9 +16,7 @@ from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, shown, unit_names
 from mudline.basics.short_repr import counted
-from mudline.checks.context import LintContext
-from mudline.checks.engine import of_base
-from mudline.checks.verdict import all_findings, errors_of
+from mudline.checks.overview import overview
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.result_files import has_library, write_tables
@@ -29,9 +27,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
 from mudline.model.results.forms.text import write_text
 from mudline.model.results.sheet_tables import sheet_data, sheet_tables
-from mudline.model.results.summary import summarise
 from mudline.model.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
-from mudline.model.scene.sheet import sheet_of
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -53,27 +49,24 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     form = _form(output, output_format)
     if form == "xlsx" and not has_library("xlsx"):
         return WRONG_USAGE
-    context = LintContext(deck.load())
-    scene = context.scene
-    summary = summarise(scene)
-    found = sheet_of(scene)
-    errors = [*errors_of(all_findings(context)), *(one for one in scene.errors() if of_base(context.deck, one))]
+    summary, found, errors = overview(deck.load())
+    units = summary["units"]
     if output is not None:
-        write_tables(sheet_data(found, scene.units), Path(output))
+        write_tables(sheet_data(found, units), Path(output))
     elif form == "csv" or (form == "json" and sheet):
-        write_text(sheet_data(found, scene.units), form, emit, "sheet")
+        write_text(sheet_data(found, units), form, emit, "sheet")
     elif form == "json":
         emit_json(summary)
     else:
         if not sheet:
             _print_summary(summary, view)
-        tables = sheet_tables(found, scene.units)
+        tables = sheet_tables(found, units)
         if sheet and not tables:
-            notify(f"{scene.deck.file}: the deck shows no elements, which a sheet is of")
+            notify(f"{summary['file']}: the deck shows no elements, which a sheet is of")
         for table in tables:
             view.printer().table(table.first(None if view.verbose else SHOWN_ROWS, "more rows: -v shows all"))
     if errors:
-        counts = Counter(diagnostic.file for diagnostic in scene.deck.diagnose(errors))
+        counts = Counter(one.file for one in errors)
         for file, count in counts.items():
             notify(f"{file} has {counted(count, 'error')}: see mudline lint")
     return FOUND if errors else DONE

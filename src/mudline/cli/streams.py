@@ -54,9 +54,13 @@ def emit(pieces: Iterable[str]) -> None:
     _write(encoded(visible_lines(piece) if terminal else piece) for piece in pieces)
 
 
-def emit_json(value: object) -> None:
-    """Write a value to standard output as JSON."""
-    emit([json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+def emit_json(value: object, output: str | None = None) -> None:
+    """Write a value as JSON to standard output, or into a file."""
+    pieces = [json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False), "\n"]
+    if output is None:
+        emit(pieces)
+    else:
+        write_text(Path(output), pieces)
 
 
 def emit_deck(data: bytes) -> None:

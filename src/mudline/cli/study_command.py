@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import textwrap
 from collections.abc import Iterator
@@ -17,9 +16,9 @@ from mudline.basics.files import suffix_of
 from mudline.basics.quantities import csv_lines
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
-from mudline.cli.inputs import GivenDeck, refuses_bad_decks
+from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option
-from mudline.cli.streams import emit, emit_json, notify, write_text
+from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
 from mudline.model.scene.model import resolve
 from mudline.tools.touchdown_study.screen import TABLES, ScreenTable, description, sentences
@@ -32,7 +31,6 @@ _WIDTH = 110
 
 
 @options.command("study")
-@options.deck
 @options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
 @options.option("--heave", type=float, metavar="A", help="Set the amplitude of the hang-off's heave, without surge.")
 @options.option("--period", type=float, metavar="T", help="Set the period of its motion.")
@@ -41,21 +39,16 @@ _WIDTH = 110
     "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE.json", help="Write the study as JSON into this file."
 )
 @options.output_format("text", "json", "csv")
-@options.stdin_name
-@options.units
-@options.common
-@refuses_bad_decks
+@takes_deck
 def command(
     *,
-    deck: str,
+    deck: GivenDeck,
     only: tuple[str, ...],
     heave: float | None,
     period: float | None,
     plot: Plot,
     output: str | None,
     output_format: str,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Study the touchdown zone of a deck: is its time step short enough, does its soil let a solver converge.
@@ -69,14 +62,14 @@ def command(
     for name, value in (("--heave", heave), ("--period", period)):
         if value is not None and not (math.isfinite(value) and value > 0.0):
             raise click.UsageError(f"{name} is {value!r}: it must be greater than 0")
-    given = GivenDeck(deck, stdin_name, units).load()
+    given = deck.load()
     with naming_causes(given):
         scene = resolve(given).require()
         found = study(scene, only or PARTS, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
     if plot.path is not None:
         _plot(found, plot, view)
     if output:
-        write_text(Path(output), [json.dumps(found.json(), indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+        emit_json(found.json(), output)
         if not view.quiet:
             notify(f"study -> {Path(output).as_posix()}")
     if output_format == "json":

@@ -8,7 +8,6 @@ from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, fields
 from textwrap import indent
-from typing import NamedTuple
 
 import click
 
@@ -72,13 +71,13 @@ def command(
     as decks do), or - for standard input. Of many decks -q shows the table without the errors.
     """
     inputs = decks.collect(is_in_any_form)
-    total, wanted = Total(), Wanted(decks.units, no_outside, view.verbose or output_format == "json")
+    total, listing = Total(), view.verbose or output_format == "json"
     progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
-    with closing(_judged(inputs, wanted, total, progress, jobs)) as judged:
+    with closing(_judged(inputs, (decks.units, no_outside, listing), total, progress, jobs)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
-            emit(csv_lines(_csv(one.verdict for one in judged)))
+            emit(csv_lines(_csv(verdict for verdict, _, _ in judged)))
         else:
             _print_text(judged, total, view)
     failing = {"error": False, "warning": total.warnings > 0, "unread": not total.keywords.whole}[fail_on]
@@ -125,46 +124,30 @@ class Total:
         return f"{self.legal} of {counted(self.decks, 'deck')} {legal}" + (f": {rest}" if rest else "")
 
 
-class Judged(NamedTuple):
-    """A deck with its errors, the warnings too where they are asked for, and its content, which is not kept."""
-
-    verdict: Verdict
-    found: list[Diagnostic]
-    data: bytes
+Judged = tuple[Verdict, list[Diagnostic], bytes]
+"""The verdict on a deck, its errors, the warnings too where they are asked for, and its content, which is not kept."""
 
 
-class Wanted(NamedTuple):
-    """How decks are read.
-
-    Attributes:
-        units: their units, None for those of each file.
-        no_outside: they may name no file outside of their project.
-        warnings: list their warnings in addition to their errors.
-    """
-
-    units: str | None
-    no_outside: bool
-    warnings: bool
-
-
-def judge_file(file: Input, data: bytes, wanted: Wanted) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on a deck and its errors, with its warnings where they are listed; in any process."""
-    with refusing_outside(lambda folder: wanted.no_outside or refuses_outside(folder)):
-        verdict, errors, warnings = judge_content(data, file.name, wanted.units, file.folder)
-    return verdict, sorted([*errors, *warnings], key=lambda one: one.sort_key) if wanted.warnings else errors
+def judge_file(
+    file: Input, data: bytes, units: str | None, no_outside: bool, listing: bool
+) -> tuple[Verdict, list[Diagnostic]]:
+    """The verdict on a deck and its errors, with its warnings if they are for `listing`; in any process."""
+    with refusing_outside(lambda folder: no_outside or refuses_outside(folder)):
+        verdict, errors, warnings = judge_content(data, file.name, units, file.folder)
+    return verdict, sorted([*errors, *warnings], key=lambda one: one.sort_key) if listing else errors
 
 
 # ------------------------------------------------------------------------------------------------------- all files
 
 
 def _judged(
-    inputs: Inputs, wanted: Wanted, total: Total, progress: Progress, jobs: int
+    inputs: Inputs, wanted: tuple[str | None, bool, bool], total: Total, progress: Progress, jobs: int
 ) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
 
-    def prepared(file: Input) -> tuple[bytes, tuple[Input, bytes, Wanted]]:
+    def prepared(file: Input) -> tuple[bytes, tuple[Input, bytes, str | None, bool, bool]]:
         data = file.read()
-        return data, (file, data, wanted)
+        return data, (file, data, *wanted)
 
     with closing(many_files(inputs, prepared, judge_file, progress, jobs=jobs)) as results:
         for data, made in results:
@@ -173,7 +156,7 @@ def _judged(
                 total.add(verdict)
                 if found:
                     progress.hide()
-                yield Judged(verdict, found, data)
+                yield verdict, found, data
     total.unreadable = len(inputs.undone)
 
 
@@ -183,8 +166,8 @@ def _judged(
 def _print_json(judged: Iterable[Judged], total: Total) -> None:
     """Print one object; its decks are written when they are judged."""
     mark = '{\n "decks": ['
-    for one in judged:
-        row = {**asdict(one.verdict), "findings": [as_object(each) for each in one.found]}
+    for verdict, found, _ in judged:
+        row = {**asdict(verdict), "findings": [as_object(each) for each in found]}
         emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
         mark = ","
     end = "\n ]" if mark == "," else f"{mark}]"

@@ -11,12 +11,14 @@ import numpy as np
 from mudline.editing.comparison.comparing import (
     Followed,
     Values,
+    compare,
     follow_differently,
     numbers_given,
     seabed_points,
     shown_points,
 )
 from mudline.editing.comparison.model import Difference, Pair, Side, Tolerance, plain
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.model.contact.input import LawKind
@@ -31,6 +33,16 @@ class Comparison(NamedTuple):
 
     differences: list[Difference]
     spelling: list[Difference]
+
+
+def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:
+    """The differences of two decks; if `strict`, those of spelling count like the others.
+
+    Raises DeckError for a deck that cannot be compared.
+    """
+    before, after = resolve(first), resolve(second)
+    found = compare(before, after, tolerance)
+    return Comparison(found, []) if strict else without_spelling(before, after, found, tolerance)
 
 
 def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], tolerance: float = 0.0) -> Comparison:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.editing.migration.refusals import refusals, superseded_blocks
+from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
 from mudline.editing.migration.rewriting import Rewriting, rewrite, unused_definitions
 from mudline.language.codes import MIG001
 from mudline.language.deck.forms import form_of
@@ -56,12 +56,15 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
     """Rewrite the legacy seabed keywords of a deck in the new family; the deck keeps its form.
 
     `continued_by` names decks that continue this one with seabed keywords of their own; `extended` says that one may
-    have more elements, so that what no element of this deck follows is kept. Raises DeckError for a deck
-    with errors, and (MIG001) for what the new family cannot say.
+    have more elements, so that what no element of this deck follows is kept. A deck without legacy keywords stays as it
+    is: nothing is `replaced`, and there is no `content`. Raises DeckError for a deck with errors, and (MIG001) for what
+    the new family cannot say.
     """
-    before = resolve(deck).require()
-    if problems := list(refusals(deck, before, continued_by)):
+    before, replaced = resolve(deck), legacy_blocks(deck)
+    if problems := list(refusals(deck, before.require(), continued_by) if replaced else misspelt(deck)):
         raise DeckError(deck.diagnose(problems))
+    if not replaced:
+        return Migration(before, before, deck, b"", {}, replaced)
     text = as_text(deck)
     made = rewrite(text, unused_definitions(before, extended=extended))
     origin = text.origin
@@ -73,7 +76,7 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
     if not isinstance(deck.origin, TextOrigin):
         content = dump(changed, form_of(deck.file)).encode()
     files = {name: lines.encode() for name, lines in made.files.items()}
-    return Migration(before, after, changed, content, files, legacy_blocks(deck))
+    return Migration(before, after, changed, content, files, replaced)
 
 
 def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene:

@@ -74,11 +74,6 @@ class Evaluation:
     """Sentences about a resting shape."""
 
     @property
-    def own_positions(self) -> bool:
-        """Whether the positions are the deck's own coordinates."""
-        return self.source == "deck"
-
-    @property
     def steps(self) -> int:
         """Number of steps; 1 for a single state."""
         return len(self.positions)

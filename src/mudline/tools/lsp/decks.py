@@ -16,12 +16,12 @@ from pygls.exceptions import JsonRpcException
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
 from mudline.basics.patterns import matches
-from mudline.checks.configuration import Configuration, ConfigurationError, Given, Search
+from mudline.checks.configuration import Configuration, ConfigurationError, Given
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_context, read_deck
 from mudline.checks.fixing import with_severities
-from mudline.checks.registry import UnknownRule, code_fault
-from mudline.checks.settings import hidden_codes, merged_settings
+from mudline.checks.registry import UnknownRule
+from mudline.checks.settings import Settings, merged_settings, nearest_settings
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.model import Deck
@@ -139,7 +139,7 @@ class Decks:
     faults: list[str] = field(default_factory=list)
     """What is wrong with configurations, to be shown once."""
     _analyses: dict[str, Analysis] = field(default_factory=dict)
-    _search: Search = field(default_factory=lambda: Search(code_fault))
+    _configured: Settings = field(default_factory=nearest_settings)
     _shown: set[str] = field(default_factory=set)
 
     def open(self, uri: str, text: str, version: int, language: str) -> Document:
@@ -155,7 +155,7 @@ class Decks:
 
     def forget_configurations(self) -> None:
         """Read all configurations again: one of them has changed."""
-        self._search = Search(code_fault)
+        self._configured = nearest_settings()
         self._shown.clear()
         self._analyses.clear()
 
@@ -205,10 +205,8 @@ class Decks:
         if document.path is None:
             return Configuration(), merged_settings(Configuration(), Given())
         try:
-            found = self._search.nearest(document.path.parent)
-            return found, merged_settings(found, Given(), hidden_codes(found, str(document.path)))
-        except OSError as error:
-            self._fault(f"{error.filename}: the configuration cannot be read: {error.strerror or error}")
+            path = str(document.path)
+            return self._configured.configured.of(path), self._configured.of(path)
         except (ConfigurationError, UnknownRule) as error:
             self._fault(str(error))
         return Configuration(), merged_settings(Configuration(), Given())

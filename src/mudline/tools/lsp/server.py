@@ -13,8 +13,8 @@ from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams, JsonRpcInva
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
-from mudline import __version__
 from mudline.basics.limits import LARGEST_OPEN
+from mudline.basics.version import __version__
 from mudline.language.deck.forms import SUFFIXES
 from mudline.tools.lsp import findings
 from mudline.tools.lsp.decks import Analysis, Decks

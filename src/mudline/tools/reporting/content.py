@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline import __version__
 from mudline.basics.quantities import finite
+from mudline.basics.version import __version__
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, joined_problems, named_causes
 from mudline.checks.fixing import lint_one
@@ -79,6 +79,10 @@ class Look(NamedTuple):
 
     template: Path | None = None
     logo: Path | None = None
+
+
+class LookError(ValueError):
+    """A template or a logo that cannot be used; the message names the file."""
 
 
 @dataclass

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.output import visible
-from mudline.tools.reporting.content import Look, Report
+from mudline.tools.reporting.content import Look, LookError, Report
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
@@ -33,10 +33,6 @@ _LONGEST_LINE = 160
 """Characters of a line of the deck that a page shows."""
 _AROUND = 1
 """Lines of the deck above and below that of a finding."""
-
-
-class LookError(ValueError):
-    """A template or a logo that cannot be used; the message names the file."""
 
 
 def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look) -> str:

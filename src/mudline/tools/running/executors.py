@@ -22,10 +22,10 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
-from mudline import __version__
 from mudline.basics.installed import install_hint
 from mudline.basics.outside import refusing_outside
 from mudline.basics.overwriting import Outputs, OverwriteError, continue_run, outputs
+from mudline.basics.version import __version__
 from mudline.language.diagnostics import PluginError
 
 if TYPE_CHECKING:  # imported by runs that are large enough

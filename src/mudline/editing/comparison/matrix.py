@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
-from typing import Any
 
 import numpy as np
 
@@ -23,19 +22,15 @@ _Key = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class DiffRow:
     """A value that is not the same in all decks: its group, its path, and what each deck has, the base first."""
 
     group: str
     where: str
     values: Sequence[Value]
 
-    def json(self) -> dict[str, Any]:
-        """The row as JSON has it."""
-        return {"group": self.group, "where": self.where, "values": list(self.values)}
 
-
-def matrix(differences: Sequence[Sequence[Difference]]) -> list[Row]:
+def matrix(differences: Sequence[Sequence[Difference]]) -> list[DiffRow]:
     """Return the values that differ between a base and each of some decks, from the differences of each to the base.
 
     Groups stand together, in the order in which they are first met. Elements that differ otherwise in one deck than in
@@ -48,7 +43,7 @@ def matrix(differences: Sequence[Sequence[Difference]]) -> list[Row]:
             base.setdefault(key, _there(one, "added", one.before))
             others.setdefault(key, {})[deck] = _there(one, "removed", one.after)
     rows = [
-        Row(*key, [before, *(others[key].get(deck, before) for deck in range(len(differences)))])
+        DiffRow(*key, [before, *(others[key].get(deck, before) for deck in range(len(differences)))])
         for key, before in base.items()
     ]
     with_more = {prefix for _, where in base for prefix in accumulate(where.split("/")[:-1], "{}/{}".format)}
@@ -93,10 +88,10 @@ def _there(one: Difference, absent: str, value: Value) -> Value:
     return GIVEN if value is None and one.kind not in (absent, "changed") else value
 
 
-def matrix_table(rows: Sequence[Row], names: Sequence[str]) -> DisplayTable:
+def matrix_table(rows: Sequence[DiffRow], names: Sequence[str]) -> DisplayTable:
     """Return the matrix for people."""
 
-    def cell(at: int, row: Row) -> Cell:
+    def cell(at: int, row: DiffRow) -> Cell:
         found = "-" if row.values[at] is None else value_text(row.values[at])
         return found if at == 0 or row.values[at] == row.values[0] else (found, "yellow")
 

@@ -1,0 +1,104 @@
+"""The pages about decks: what goes on each, in which file it is, and the index of many."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mudline.basics.paths import relative_path
+from mudline.basics.version import __version__
+from mudline.checks.engine import LintSettings
+from mudline.tools.reporting.content import Document, Given, Look, LookError, report_on
+
+_LEGAL = {"legal", "as far as read"}
+
+
+class Made(NamedTuple):
+    """The content of a page, the page, None where it is not wanted, and why it could not be made."""
+
+    content: dict[str, Any]
+    html: str | None
+    fault: str = ""
+
+
+Wanted = tuple[tuple[str, ...], Document, Look | None, bool]
+"""The sections of a page, what it is called, how it looks (None for JSON), and whether contact is that at rest."""
+
+
+def make_page(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
+    """Make the page about a deck, in any process."""
+    sections, document, look, rest_shape = wanted
+    report = report_on(given, settings, sections, document, rest_shape=rest_shape)
+    if look is None:
+        return Made(report.json, None)
+    from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2
+    from mudline.tools.reporting.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
+
+    try:
+        return Made(report.json, page(report, *pictures_of(report), look))
+    except LookError as error:
+        return Made(report.json, None, str(error))
+
+
+class Pages:
+    """Where pages go: one file, or the `index` with a folder beside it, which has its name without the suffix.
+
+    `rows` are those of the index, a deck each. Without a path no page is written.
+    """
+
+    def __init__(self, path: Path | None, write: Callable[[Path, str], None], *, several: bool) -> None:
+        self.index, self.folder = path, None
+        if path is not None and several:
+            is_index = path.suffix.lower() in {".html", ".htm"}
+            self.index, self.folder = (path, path.with_suffix("")) if is_index else (path / "index.html", path)
+        self.rows: list[dict[str, Any]] = []
+        self._write = write
+        self._names: set[str] = set()
+
+    @property
+    def illegal(self) -> int:
+        """How many decks are not legal."""
+        return sum(row["kind"] not in _LEGAL for row in self.rows)
+
+    def add(self, made: Made, name: str) -> None:
+        """Write the page about a deck; raises LookError."""
+        if made.fault:
+            raise LookError(made.fault)
+        page = None if made.html is None else self._page(name)
+        if page is not None and made.html is not None:
+            self._write(page, made.html)
+        self.rows.append(self._row(made.content, name, page))
+
+    def finish(self, look: Look) -> None:
+        """Write the index, if there is one; raises LookError."""
+        if self.folder is not None and self.index is not None:
+            from mudline.tools.reporting.page import index_page  # noqa: PLC0415 - needs jinja2
+
+            self._write(self.index, index_page(self.rows, __version__, look))
+
+    def _page(self, deck: str) -> Path | None:
+        """The file of the page about a deck; no two of a run are the same."""
+        if self.folder is None:
+            return self.index
+        self.folder.mkdir(parents=True, exist_ok=True)
+        stem = re.sub(r"[^\w.-]+", "-", deck).strip("-.")[-100:] or "deck"
+        name, count = f"{stem}.html", 1
+        while name.lower() in self._names or name.lower() == "index.html":
+            count += 1
+            name = f"{stem}-{count}.html"
+        self._names.add(name.lower())
+        return self.folder / name
+
+    def _row(self, content: dict[str, Any], name: str, page: Path | None) -> dict[str, Any]:
+        """A row of the index; decks of the folder that the run was started in have their paths from there."""
+        verdict = content["verdict"]
+        words = verdict["verdict"].partition(":")[0]
+        kind = "as far as read" if words.startswith("legal as far") else words.partition(",")[0]
+        address = "" if page is None or self.index is None else relative_path(page, self.index.parent)
+        counts = {name: verdict[name] for name in ("errors", "warnings")}
+        counts |= {name: verdict["keywords"][name] for name in ("read", "total")}
+        deck = content["deck"] if os.path.isabs(name) else name  # noqa: PTH117 - Path raises for a long name
+        return {"deck": deck, "page": address, "verdict": words, "kind": kind, **counts}
