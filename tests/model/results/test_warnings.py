@@ -207,6 +207,21 @@ def test_nothing_under_the_line() -> None:
     assert "the line lies outside the seabed" in message(pipe(planes + LAW), "GEO005")
 
 
+def test_line_that_leaves_the_surveyed_seabed_at_one_step() -> None:
+    planes = "*SEABED PLANES\n PLANE=Near\n POINT=0, 0, 0\n SLOPE=0\n DIRECTION=0\n BOUNDS=-1, 1, -1, 101\n"
+    places = heights(-0.02, -0.02, -0.02)
+    places[1:, 9:, 1] = 3.0
+    (found,) = watched(pipe(planes + LAW), places)[0]
+    assert found.diagnostic.code == "GEO017"
+    assert (found.diagnostic.line, found.elements, found.first) == (7, 3, 8)  # the nodes 9 and 10 are generated
+    assert found.diagnostic.message.startswith(
+        "2 nodes (first: 9) lie outside of the bounds of all planes of the seabed, from time 1 on: no seabed holds"
+    )
+    (again,) = contact_warnings(scene := legal_scene(pipe(planes + LAW)), scene.contact().evaluate(places), places)
+    assert again.diagnostic.code == "GEO017"
+    assert watched(pipe(planes + LAW), places[:1])[0] == []
+
+
 # --------------------------------------------------------------------------------------------------------- equilibrium
 
 
