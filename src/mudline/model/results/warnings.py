@@ -310,7 +310,8 @@ class ContactWatch:
     def _beyond(self) -> Iterator[ContactWarning]:
         """Nodes that lie beyond the end of the surveyed seabed at some step."""
         left = np.flatnonzero(self._left)
-        if self._survey is None or not left.size:
+        all_without = not self._acts and self._clearance.node < 0  # GEO005 says so of the line
+        if self._survey is None or not left.size or all_without:
             return
         scene, number = self._scene, self._scene.node_ids[left[0]]
         which = f"node {number} lies" if left.size == 1 else f"{left.size} nodes (first: {number}) lie"
@@ -328,8 +329,6 @@ class ContactWatch:
         scene, (gap, node, step) = self._scene, self._clearance
         if self._acts or not self._elements.size:
             return
-        if node < 0 and self._left.any():
-            return  # that they lie beyond its end says the same
         if node < 0:
             message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
             yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
