@@ -281,9 +281,11 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
 
     Raises:
         OSError: the file cannot be read.
-        DeckError: it has faults, or nodes that the scene lacks.
+        DeckError: it has faults, or nodes that the scene lacks, or is without numbers and in another order than that of
+            ascending ones.
     """
     from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.scene.given_positions import require_order  # noqa: PLC0415 - as above
     from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
@@ -293,11 +295,14 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
         raise ValueError(f"columns: no column {', '.join(unknown)}; expected some of {', '.join(positions.COLUMNS)}")
     resolved = scene._resolved  # noqa: SLF001 - a class of this module
     if any(hasattr(path, name) for name in ("iloc", "dims")):
-        return positions.positions_of(path, resolved.nodes, headings)
+        given = positions.positions_of(path, resolved.nodes, headings)
+        return require_order(given, resolved, f"<{type(path).__name__}>")
     file = given_path(path)
     of_program = not headings and file.suffix.lower() not in {".npz", ".npy"}
     found = read_returned(file, resolved) if of_program else None
-    return positions.read_positions(file, resolved.nodes, headings) if found is None else found
+    if found is not None:
+        return found
+    return require_order(positions.read_positions(file, resolved.nodes, headings), resolved, file.as_posix())
 
 
 def contact_warnings(

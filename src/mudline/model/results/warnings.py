@@ -24,9 +24,11 @@ from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, S
 from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.arrays import StepReader
+from mudline.model.contact.input import ContactInput
 from mudline.model.contact.result import Part
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
+from mudline.model.scene.given_positions import PositionDoubt, position_doubts
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.sections import surroundings
@@ -55,7 +57,7 @@ class ContactWarning:
         diagnostic: code, message and place, as those of lint.
         elements: how many elements it is about; 0 for what is about none, as a curve that nothing uses.
         first: the number of the first of them, or None.
-        brief: the message in a few words, for the caption of a plot.
+        brief: the message in a few words, for the caption of a plot; "" where the plot shows it.
     """
 
     diagnostic: Diagnostic
@@ -91,7 +93,9 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     if not len(places):
         raise ValueError("positions must have one step or more")
     source = "deck" if positions is None else "file"
-    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:]), source)
+    steps = places.reshape(-1, *places.shape[-2:])
+    watch = ContactWatch(scene, result.evaluated, steps, source)
+    watch.look_at_positions(result.known, result.present)
     watch.take(Part(0, result.as_series()))
     return watch.warnings()
 
@@ -120,9 +124,8 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
 
 def caption(warnings: Sequence[ContactWarning]) -> str:
     """The line of a plot that says what is doubtful, "" where nothing is."""
-    if not warnings:
-        return ""
-    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _CAPTION)
+    briefs = [one.brief for one in warnings if one.brief]
+    return cut(f"{counted(len(briefs), 'warning')}: {'; '.join(briefs)}", _CAPTION) if briefs else ""
 
 
 class _Clearance(NamedTuple):
@@ -190,12 +193,22 @@ class ContactWatch:
         self._lawful = np.unique(scene.element_nodes[lawful])
         self._thickest = float(np.fmax.reduce(scene.diameter[lawful], initial=0.0))
         self._left, self._left_at = np.zeros(len(scene.nodes), dtype=np.bool_), -1
+        self._doubts: list[PositionDoubt] = []
 
     @classmethod
     def of(cls, evaluation: Evaluation) -> ContactWatch:
         """What watches an evaluation."""
-        weight, times = evaluation.model.input.weight, evaluation.time
-        return cls(evaluation.scene, evaluation.evaluated, evaluation.positions, evaluation.source, times, weight)
+        given, times = evaluation.model.input, evaluation.time
+        positions, source = evaluation.positions, evaluation.source
+        watch = cls(evaluation.scene, evaluation.evaluated, positions, source, times, given.weight)
+        watch.look_at_positions(given, evaluation.present)
+        return watch
+
+    def look_at_positions(self, given: ContactInput, present: Mask) -> None:
+        """Judge positions of a file by the last step; `present` (n,) are the nodes that have any."""
+        if self._source == "file":
+            last = np.asarray(self._positions[len(self._positions) - 1], dtype=np.float64)
+            self._doubts = position_doubts(given, self._scene, present, last)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
@@ -264,7 +277,8 @@ class ContactWatch:
 
     def warnings(self) -> list[ContactWarning]:
         """What is doubtful, in the order of the deck; ask when all steps are taken."""
-        found = [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
+        found = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
+        found += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
         found += [*self._floating(), *self._curves()]
         return sorted(found, key=lambda one: one.diagnostic.sort_key)
 
