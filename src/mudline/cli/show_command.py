@@ -20,7 +20,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import of_base
 from mudline.checks.verdict import all_findings, errors_of
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import GivenDeck, takes_deck
+from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.result_files import has_library, write_tables
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
@@ -53,7 +53,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     form = _form(output, output_format)
     if form == "xlsx" and not has_library("xlsx"):
         return WRONG_USAGE
-    context = LintContext(deck.load())
+    context = LintContext(require_text(deck.load()))
     scene = context.scene
     summary = summarise(scene)
     found = sheet_of(scene)
