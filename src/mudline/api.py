@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from functools import cached_property
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 
-from mudline.basics.arguments import ArgumentKindError, expect, expect_word, read_only, several
+from mudline.basics.arguments import expect, expect_word, given_path, read_only, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units
 from mudline.checks.configuration import Configured
@@ -38,10 +37,6 @@ if TYPE_CHECKING:
     from mudline.model.results.warnings import ContactWarning
     from mudline.model.scene.numbering import Floats, Ids, Indices
     from mudline.model.scene.resolved import ByName
-
-_KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
-_SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
-_YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
 
 
 class Deck(TypedDeck):
@@ -282,9 +277,11 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
 
     Raises:
         OSError: the file cannot be read.
-        DeckError: it has faults, or nodes that the scene lacks.
+        DeckError: it has faults, or nodes that the scene lacks, or is without numbers and in another order than that of
+            ascending ones.
     """
     from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.scene.given_positions import require_order  # noqa: PLC0415 - as above
     from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
@@ -294,11 +291,14 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
         raise ValueError(f"columns: no column {', '.join(unknown)}; expected some of {', '.join(positions.COLUMNS)}")
     resolved = scene._resolved  # noqa: SLF001 - a class of this module
     if any(hasattr(path, name) for name in ("iloc", "dims")):
-        return positions.positions_of(path, resolved.nodes, headings)
+        given = positions.positions_of(path, resolved.nodes, headings)
+        return require_order(given, resolved, f"<{type(path).__name__}>")
     file = given_path(path)
     of_program = not headings and file.suffix.lower() not in {".npz", ".npy"}
     found = read_returned(file, resolved) if of_program else None
-    return positions.read_positions(file, resolved.nodes, headings) if found is None else found
+    if found is not None:
+        return found
+    return require_order(positions.read_positions(file, resolved.nodes, headings), resolved, file.as_posix())
 
 
 def contact_warnings(
@@ -425,27 +425,3 @@ def public(deck: model.Deck) -> Deck:
 
 def _units(units: str | None) -> str | None:
     return None if units is None else checked_units(units)
-
-
-def given_path(given: object, advice: str = "use mudline.{}(text)", *, name: str = "path") -> Path:
-    """The path that is given; raises ValueError for the text of a deck, TypeError for what is not a path."""
-    path = os.fspath(given) if isinstance(given, os.PathLike) else given
-    text = bytes(path).decode("utf-8-sig", "replace") if isinstance(path, bytes | bytearray) else path
-    function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
-    if function and not os.path.exists(str(text)):  # noqa: PTH110 - Path raises for names that are too long
-        raise ValueError(f"expected a path, found the text of a deck: {advice.format(function)}")
-    if isinstance(path, str) and (not path or "\0" in path):
-        raise ValueError(f"{name} must be the name of a file, not {path!r}")
-    if not isinstance(path, str):
-        raise ArgumentKindError(f"{name} must be a str or os.PathLike, not {type(path).__name__}")
-    return Path(path)
-
-
-def _function_for(text: str) -> str | None:
-    """Name of the function that reads a text; None for what may be a path."""
-    several = any(end in text for end in "\r\n")
-    if text.lstrip().startswith("{"):
-        return "from_json" if several or text.rstrip().endswith("}") else None
-    if several:
-        return "from_yaml" if _YAML.search(text) and not _SECTION.search(text) else "from_keyword"
-    return "from_keyword" if _KEYWORD.fullmatch(text) else None

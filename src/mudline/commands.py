@@ -10,8 +10,8 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from mudline.api import Deck, decks_in, given_deck, given_path, public
-from mudline.basics.arguments import expect, expect_number, expect_word, several
+from mudline.api import Deck, decks_in, given_deck, public
+from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units
 from mudline.language.deck.forms import KEYWORD, form_of

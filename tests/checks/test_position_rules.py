@@ -1,4 +1,4 @@
-"""GEO005, GEO006, SBD023, SBD024, SBD025: lines off the seabed, repeated sections, values without effect."""
+"""GEO005, GEO006, GEO017, SBD023, SBD024, SBD025: lines off the seabed, repeated sections, values without effect."""
 
 from __future__ import annotations
 
@@ -46,6 +46,36 @@ def line(start: str, end: str, more: str = LAW + OCEAN) -> str:
 )
 def test_where_a_line_lies(start: str, end: str, expected: str) -> None:
     told = messages(line(start, end), "GEO005")
+    assert len(told) == bool(expected)
+    assert all(expected in message for message in told)
+
+
+PROFILE = "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n"
+SURFACE = "*SEABED PROFILE\n TYPE=3D\n FILE=bed.xyz\n"
+PLANE = "*SEABED PLANES\n PLANE=Shelf\n POINT=0.0, 0.0, 0.0\n SLOPE=10.0\n DIRECTION=0.0\n BOUNDS=-5.0, 80.0\n"
+
+
+@pytest.mark.parametrize(
+    ("seabed", "end", "expected"),
+    [
+        (PLANE, "-0.05, 80.0", ""),
+        (PLANE, "14.0, 80.1", "node 11 lies outside of the bounds of all planes of the seabed: no seabed holds"),
+        (PLANE, "60.0, 100.0", ""),  # over 100 diameters above its border
+        (PROFILE, "-0.05, 100.0", ""),
+        (PROFILE, "-0.05, 100.1", "beyond the ends of the seabed profile (Y = 0 to 100): it is taken as level there"),
+        (PROFILE + " DIRECTION=180.0\n", "-0.05, 50.0", "10 nodes (first: 11) lie beyond the ends"),
+        (PROFILE, "40.0, 150.0", ""),
+        (SURFACE, "-0.05, 100.0", ""),
+        (SURFACE, "-0.05, 100.1", "node 11 lies outside of the hull of the seabed's 4 points: no seabed holds"),
+        (SURFACE, "40.0, 150.0", ""),  # over 100 diameters above the highest point
+    ],
+)
+def test_line_that_goes_on_beyond_the_survey(seabed: str, end: str, expected: str, tmp_path: Path) -> None:
+    (tmp_path / "bed.txt").write_text("0.0, -1.0\n50.0, 1.0\n100.0, 0.0\n")
+    (tmp_path / "bed.xyz").write_text("0.0, 0.0, -9.0\n1.0, 0.0, 9.0\n0.0, 100.0, -9.0\n0.0, 100.0, 9.0\n")
+    deck = line("-0.05, 0.0", end, LAW + seabed).encode()
+    chosen = select(("GEO017",))
+    told = [one.message for one in lint_bytes(deck, "deck.keyxm", chosen, folder=tmp_path)]
     assert len(told) == bool(expected)
     assert all(expected in message for message in told)
 

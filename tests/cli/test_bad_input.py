@@ -181,3 +181,22 @@ def test_damaged_deck_never_breaks_a_command(data: st.DataObject) -> None:
     outcome = run(command[0], "-", *command[1:], stdin=bytes(body))
     assert outcome.code in {0, 1}
     assert "\x1b" not in outcome.err
+
+
+@pytest.mark.parametrize("command", [("show",), ("set", "OCEAN.depth=3"), ("migrate",)], ids=["show", "set", "migrate"])
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (CLEAN.encode() + b"<<<<<<< HEAD\n*OCEAN\n", "SYN018 a merge conflict is not solved: keep one of its versions"),
+        (BINARY, "SYN012 the file looks like binary data"),
+    ],
+    ids=["merge conflict", "binary"],
+)
+def test_a_file_that_is_no_text_of_its_own_is_named_by_its_cause(
+    place: Place, command: tuple[str, ...], content: bytes, told: str
+) -> None:
+    name = place(content)
+    outcome = run(*command, name)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert told in outcome.err.splitlines()[0]
+    assert Path(name).read_bytes() == content

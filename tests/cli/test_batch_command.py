@@ -134,7 +134,7 @@ def test_series_and_pulls(place: Place, folder: Path) -> None:
 
 def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
     np.save(folder / "steps.npy", np.array([[[-0.1, 0.0, 0.0], [-0.1, 10.0, 0.0], [0.3, 20.0, 0.0]]] * 3))
-    np.save(folder / "state.npy", np.zeros((3, 3)))
+    np.save(folder / "state.npy", np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 20.0, 0.0]]))
     options = ("--positions", "steps.npy", "--time-step", "0.5", "--summary-only")
     assert rows(two, *options, "--form", "json")["a"]["steps"] == 3
     assert run("evaluate", "decks/a.keyxm", *options, "-q", "-o", "one.json").code == 0

@@ -117,7 +117,7 @@ def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
 def test_positions_of_some_nodes(folder: Path) -> None:
     outcome = run("evaluate", SCR, "--positions", SAMPLES / "positions.csv", "--output-format", "json")
     assert outcome.code == 0
-    assert "mudline: no positions for 140 nodes: 140 elements left out\n" in outcome.err
+    assert "RUN007 no positions for 140 nodes: 140 elements (first: 1) are left out\n" in outcome.err
     found = outcome.json()
     assert_fits(found, "evaluate")
     assert {len(step["elements"]) for step in found["steps"]} == {60}
@@ -137,7 +137,9 @@ def test_positions_of_one_node_leave_nothing_to_evaluate(place: Place, folder: P
     (folder / "p.csv").write_text("time,node,x,y,z\n0,2,-0.1,0,0\n", encoding="utf-8")
     outcome = run("evaluate", place(), "--positions", "p.csv")
     assert outcome.code == 0
-    assert outcome.err == "mudline: no positions for 2 nodes: 2 elements left out\n"
+    assert outcome.err == (
+        "mudline: warning: deck.keyxm:1: RUN007 no positions for 2 nodes: 2 elements (first: 1) are left out\n"
+    )
     assert outcome.out.splitlines()[5].split() == ["0", "0", "0"]
     found = run("evaluate", place(), "--positions", "p.csv", "--output-format", "json").json()
     assert found["steps"][0]["elements"] == []

@@ -130,7 +130,7 @@ def test_terminal_shows_what_a_whole_run_does(place: Place) -> None:
     ],
 )
 def test_options_that_do_not_fit(place: Place, folder: Path, options: tuple[str, ...], message: str) -> None:
-    np.save(folder / "state.npy", np.zeros((3, 3)))
+    np.save(folder / "state.npy", np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 20.0, 0.0]]))
     outcome = run("evaluate", place(), *options)
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err

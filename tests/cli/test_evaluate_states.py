@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from mudline.model.contact import ContactModel
 from mudline.model.scene.positions import StepFile
@@ -70,6 +71,11 @@ def test_json_names_the_states(pulled: tuple[str, ...]) -> None:
     assert found["steps"][2]["nodes"][0]["normal_force"] < 0.0
 
 
+def at_zero(steps: int) -> NDArray[np.float64]:
+    """The line at X = 0 in each step."""
+    return np.tile([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 20.0, 0.0]], (steps, 1, 1))
+
+
 def test_velocities_of_the_file_are_used(place: Place) -> None:
     lines = PULL.splitlines()
     still = [lines[0] + ",vx,vy,vz", *(f"{line},0,0,0" for line in lines[1:])]
@@ -94,7 +100,7 @@ def test_velocities_of_an_archive(place: Place, folder: Path) -> None:
 
 
 def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
-    places = np.zeros((3, 3, 3))
+    places = at_zero(3)
     np.save(folder / "p.npy", places)
     name = place(UPLIFT)
     outcome = run("evaluate", name, "--positions", "p.npy")
@@ -112,8 +118,7 @@ def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
 def test_times_of_an_archive_rise_for_laws_with_history(
     place: Place, folder: Path, law: str, times: list[float]
 ) -> None:
-    places = np.zeros((3, 3, 3))
-    places[..., 1] = [0.0, 10.0, 20.0]
+    places = at_zero(3)
     np.savez(folder / "p.npz", positions=places, time=times, velocities=0 * places)
     outcome = run(
         "evaluate", place({"suction": UPLIFT, "friction": SLIDING, "none": CLEAN}[law]), "--positions", "p.npz"
@@ -126,7 +131,7 @@ def test_times_of_an_archive_rise_for_laws_with_history(
 
 
 def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    np.save(folder / "p.npy", np.zeros((20000, 3, 3)))
+    np.save(folder / "p.npy", at_zero(20000))
     first = ContactModel.stream
 
     def shortened(self: ContactModel, positions: StepFile, **others: Any) -> Iterator[Any]:  # noqa: ANN401 - passed on
@@ -143,8 +148,8 @@ def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monke
 
 
 def test_time_step(place: Place, folder: Path) -> None:
-    np.save(folder / "p.npy", np.zeros((3, 3, 3)))
-    np.save(folder / "one.npy", np.zeros((3, 3)))
+    np.save(folder / "p.npy", at_zero(3))
+    np.save(folder / "one.npy", at_zero(1)[0])
     options = (place(), "--positions", "p.npy", "--time-step")
     found = run("evaluate", *options, "0.25", "--output-format", "json").json()
     assert [step["time"] for step in found["steps"]] == [0.0, 0.25, 0.5]

@@ -70,7 +70,7 @@ def test_a_profile_is_written_beside_the_new_deck(place: Place) -> None:
     outcome = run("migrate", place(PROFILE), "-o", "out/new.keyxm")
     assert outcome.err == "mudline: deck.keyxm: 1 *RIGID SURFACE -> out/new.keyxm, out/deck-profile.txt\n"
     assert Path("out/deck-profile.txt").read_text(encoding="utf-8").endswith("0.0, 0.0\n10.0, 1.0\n")
-    assert run("lint", "out/new.keyxm").code == 0
+    assert [one["code"] for one in run("lint", "out/new.keyxm", "--output-format", "json").json()] == ["GEO017"]
     place("C other\n0, 0\n", "deck-profile.txt")
     run("migrate", "deck.keyxm")
     assert "FILE=deck-profile-2.txt" in Path("deck.keyxm").read_text(encoding="utf-8")

@@ -30,7 +30,7 @@ ROOT = Path(__file__).parents[2]
 
 CONFIG_SCHEMA = "docs/schemas/config.json"
 
-BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", *(f"RUN00{n}" for n in range(1, 6))})
+BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", *(f"RUN00{n}" for n in range(1, 9))})
 """Codes that are no rules; their pages are written by hand."""
 
 

@@ -44,6 +44,9 @@ is doubtful in the results of one:
 | [RUN003](RUN003.md) | `no-equilibrium` | warning | Positions are far from an equilibrium. |
 | [RUN004](RUN004.md) | `floating-pipe` | warning | Elements in contact float: their submerged weight is negative. |
 | [RUN005](RUN005.md) | `rigid-reaction` | warning | A rigid seabed holds elements with a force that is not known. |
+| [RUN006](RUN006.md) | `other-lengths` | warning | Positions whose distances are not the lengths of the elements. |
+| [RUN007](RUN007.md) | `no-positions` | warning | Elements that get no position. |
+| [RUN008](RUN008.md) | `rounded-positions` | warning | Coordinates rounded so much that it makes the friction. |
 """
 
 _PAGE = """{made}

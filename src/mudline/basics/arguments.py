@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
+import re
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -61,3 +64,32 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     view = array.view()
     view.flags.writeable = False
     return view
+
+
+_KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
+_SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
+_YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
+
+
+def given_path(given: object, advice: str = "use mudline.{}(text)", *, name: str = "path") -> Path:
+    """The path that is given; raises ValueError for the text of a deck, TypeError for what is not a path."""
+    path = os.fspath(given) if isinstance(given, os.PathLike) else given
+    text = bytes(path).decode("utf-8-sig", "replace") if isinstance(path, bytes | bytearray) else path
+    function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
+    if function and not os.path.exists(str(text)):  # noqa: PTH110 - Path raises for names that are too long
+        raise ValueError(f"expected a path, found the text of a deck: {advice.format(function)}")
+    if isinstance(path, str) and (not path or "\0" in path):
+        raise ValueError(f"{name} must be the name of a file, not {path!r}")
+    if not isinstance(path, str):
+        raise ArgumentKindError(f"{name} must be a str or os.PathLike, not {type(path).__name__}")
+    return Path(path)
+
+
+def _function_for(text: str) -> str | None:
+    """Name of the function that reads a text; None for what may be a path."""
+    several = any(end in text for end in "\r\n")
+    if text.lstrip().startswith("{"):
+        return "from_json" if several or text.rstrip().endswith("}") else None
+    if several:
+        return "from_yaml" if _YAML.search(text) and not _SECTION.search(text) else "from_keyword"
+    return "from_keyword" if _KEYWORD.fullmatch(text) else None

@@ -218,10 +218,6 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], vie
 
 def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
     """Report what is left out, and what is guessed."""
-    missing = len(evaluation.present) - len(evaluation.nodes)
-    if missing:
-        skipped = len(evaluation.scene.element_ids) - len(evaluation.elements)
-        notify(f"no positions for {counted(missing, 'node')}: {counted(skipped, 'element')} left out")
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
     for note in evaluation.notes:

@@ -20,6 +20,7 @@ from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.model.scene.csv_file import read_external
+from mudline.model.scene.given_positions import require_order
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.positions import COLUMNS, read_positions
 
@@ -68,7 +69,7 @@ class EvaluateInputs:
 
             if (found := read_returned(path, scene)) is not None:
                 return found
-        return read_positions(path, scene.nodes, self.headings)
+        return require_order(read_positions(path, scene.nodes, self.headings), scene, path.as_posix())
 
     def _placed(self, scene: Scene) -> Positions | None:
         """Positions of a scene's nodes; with `time_step` those without times get them."""

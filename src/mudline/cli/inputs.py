@@ -33,6 +33,15 @@ CHANGED = "it has changed during the run: left unchanged, run it again"
 """Said of a file that somebody else has written."""
 
 
+def require_text(deck: Deck) -> Deck:
+    """Return a deck of a file that is a text of its own; raises DeckError for others: a merge conflict, binary data."""
+    from mudline.language.deck.reading import TextOrigin  # noqa: PLC0415 - completion does without it
+
+    if isinstance(deck.origin, TextOrigin) and not deck.origin.source.readable:
+        raise DeckError(deck.diagnose(deck.origin.source.problems))
+    return deck
+
+
 class Input(NamedTuple):
     """A file by the name that it is reported under; `path` None is standard input.
 

@@ -11,7 +11,7 @@ from mudline.basics.short_repr import counted
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, takes_decks
+from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, require_text, takes_decks
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.editing.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
@@ -74,7 +74,7 @@ class _Run:
 
     def migrate(self, units: str | None, continuations: Continuations, *, diff: bool, proved: bool) -> int:
         """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
-        deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
+        deck = require_text(load_bytes(self.data, self.file.name, units=units, folder=self.file.folder))
         reading_named_files(deck)
         path = Path(self.file.path) if self.file.path and legacy_blocks(deck) else None
         continued_by = continuations.of(path) if path else []

@@ -15,7 +15,7 @@ from mudline.checks.registry import rules
 from mudline.checks.rules.unusual import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, takes_decks
+from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, require_text, takes_decks
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
@@ -23,7 +23,7 @@ from mudline.editing.assignment.fields import ConditionError, DeckCondition, Tar
 from mudline.editing.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes
-from mudline.language.diagnostics import Diagnostic, Severity
+from mudline.language.diagnostics import DeckError, Diagnostic, Severity
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.source import Source
 
@@ -124,6 +124,9 @@ class _Run:
             notify(f"{file.name}{f':{line}' if line else ''}: {error}")
             notify_diagnostics(getattr(error, "diagnostics", ()))
             return _REFUSED, None
+        except DeckError as error:
+            notify_diagnostics(error.diagnostics)
+            return _REFUSED, None
         if isinstance(found, str):
             return found, None
         if not found.edits:
@@ -136,7 +139,7 @@ class _Run:
         """The changed deck, or which decks without a change it belongs to. Raises what a deck is refused for."""
         if form_of(file.name) != KEYWORD:
             raise AssignmentError("only decks in keyword text are changed: convert it first")
-        deck = load_bytes(data, file.name, units=self.units, folder=file.folder)
+        deck = require_text(load_bytes(data, file.name, units=self.units, folder=file.folder))
         if self.condition is not None and not self.condition.holds(deck):
             return _UNMET
         found = assigned(deck, self.assignment, self.target, self.units)

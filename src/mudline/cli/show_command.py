@@ -18,7 +18,7 @@ from mudline.basics.quantities import UnitNames, shown, unit_names
 from mudline.basics.short_repr import counted
 from mudline.checks.overview import overview
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import GivenDeck, takes_deck
+from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.result_files import has_library, write_tables
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
@@ -49,7 +49,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     form = _form(output, output_format)
     if form == "xlsx" and not has_library("xlsx"):
         return WRONG_USAGE
-    summary, found, errors = overview(deck.load())
+    summary, found, errors = overview(require_text(deck.load()))
     units = summary["units"]
     if output is not None:
         write_tables(sheet_data(found, units), Path(output))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from mudline import from_keyword
 from mudline.checks import registry
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes
 from mudline.checks.fixing import lint_one
+from mudline.language.diagnostics import DeckError, Severity
 
 DECK = "$MODEL\n*OCEAN\n {}, 1025.0, 9.81\n*NODE\n 1, {}, 0.0\n 2, -0.02, 5.0\n*ELEMENT\n 1, 1, 2\n{}"
 LAW = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={}\n"
@@ -30,6 +32,8 @@ def messages(text: str) -> list[str]:
         ("10\u2075", "", ""),
         ("\xbd", "", ""),
         ("\u22120.0O2", "", ""),
+        ("\u201c2.0\u201d", "2.0", "U+201C"),
+        ("\u201e\u22120.02\u201c", "-0.02", "U+201E"),
     ],
 )
 def test_a_number_of_a_word_processor(written: str, plain: str, character: str) -> None:
@@ -46,3 +50,59 @@ def test_its_repair_leaves_a_legal_deck() -> None:
     report = lint_one("deck.keyxm", deck.encode(), LintSettings(registry.select(), fixing=Fixing.UNSAFE))
     assert report.changed == DECK.format("500.0", "-0.02", LAW.format("2.0E5")).encode()
     assert report.found == ()
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("7.0+2", "if +2 is its exponent, write 7.0E+2 for x"),
+        ("-.5-103", "if -103 is its exponent, write -.5E-103 for x"),
+        ("7+2", "expected a number or an equation =[...] for x"),
+        ("****", "asterisks stand for one too wide for its column, write x itself"),
+    ],
+)
+def test_a_number_as_other_programs_print_it(written: str, told: str) -> None:
+    assert messages(DECK.format("500.0", written, "")) == [f"5:5 {written!r} is not a number: {told}"]
+
+
+def told_by_every_command(deck: str) -> list[str]:
+    """The messages of errors, which are the same where the deck is linted and where it is only read."""
+    with pytest.raises(DeckError) as refused:
+        from_keyword(deck)
+    read = [one.message for one in refused.value.diagnostics]
+    settings = LintSettings(registry.select())
+    linted = [
+        one.message for one in lint_one("deck.keyxm", deck.encode(), settings).found if one.severity is Severity.ERROR
+    ]
+    assert linted == read
+    return read
+
+
+@pytest.mark.parametrize(
+    ("row", "meant"),
+    [
+        (" 1 -0.02, 0.0", "1, -0.02"),
+        (" 1, -0.02 0.0", "-0.02, 0.0"),
+        (" 1, -0.02 0.0,", "-0.02, 0.0"),
+        (" 1, -0.02 0.0, 4.0", "-0.02, 0.0"),
+    ],
+)
+def test_a_missing_comma_is_one_finding(row: str, meant: str) -> None:
+    deck = DECK.format("500.0", "-0.02", "").replace(" 1, -0.02, 0.0", row)
+    assert told_by_every_command(deck) == [
+        f"a comma is missing between {' and '.join(meant.split(', '))}: write {meant}"
+    ]
+    report = lint_one("deck.keyxm", deck.encode(), LintSettings(registry.select(), fixing=Fixing.UNSAFE))
+    assert (report.changed or b"").decode().splitlines()[4].startswith(" 1, -0.02, 0.0")
+
+
+def test_a_missing_comma_in_a_line_of_one_row() -> None:
+    deck = DECK.format("500.0", "-0.02", "").replace("500.0, 1025.0", "500.0 1025.0")
+    assert told_by_every_command(deck) == ["a comma is missing between 500.0 and 1025.0: write 500.0, 1025.0"]
+
+
+def test_blanks_that_are_no_missing_comma() -> None:
+    grouped = DECK.format("500.0", "1 000", "")
+    assert messages(grouped) == ["5:5 '1 000' is not a number because its digits are grouped: write 1000 for x"]
+    too_many = DECK.format("500.0", "-0.02 1.0 2.0 3.0", "")
+    assert messages(too_many)[0].startswith("5:5 '-0.02 1.0 2.0 3.0' is not a number")

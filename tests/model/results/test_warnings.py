@@ -77,7 +77,7 @@ def heights(*steps: float) -> Floats:
     """The pipe at a height for each step; the deck gives the nodes 1 and 11 first, then those between."""
     places = np.zeros((len(steps), 11, 3))
     places[..., 0] = np.array(steps)[:, np.newaxis]
-    places[..., 2] = np.linspace(0.0, 100.0, 11)
+    places[..., 2] = [0.0, 100.0, *range(10, 100, 10)]
     return places
 
 
@@ -205,6 +205,21 @@ def test_rigid_seabed_touches_at_no_depth() -> None:
 def test_nothing_under_the_line() -> None:
     planes = "*SEABED PLANES\n PLANE=Far\n POINT=0, 0, 0\n SLOPE=0\n DIRECTION=0\n BOUNDS=-1, 1, 500, 600\n"
     assert "the line lies outside the seabed" in message(pipe(planes + LAW), "GEO005")
+
+
+def test_line_that_leaves_the_surveyed_seabed_at_one_step() -> None:
+    planes = "*SEABED PLANES\n PLANE=Near\n POINT=0, 0, 0\n SLOPE=0\n DIRECTION=0\n BOUNDS=-1, 1, -1, 101\n"
+    places = heights(-0.02, -0.02, -0.02)
+    places[1:, 9:, 1] = 3.0
+    (found,) = watched(pipe(planes + LAW), places)[0]
+    assert found.diagnostic.code == "GEO017"
+    assert (found.diagnostic.line, found.elements, found.first) == (7, 3, 8)  # the nodes 9 and 10 are generated
+    assert found.diagnostic.message.startswith(
+        "2 nodes (first: 9) lie outside of the bounds of all planes of the seabed, from time 1 on: no seabed holds"
+    )
+    (again,) = contact_warnings(scene := legal_scene(pipe(planes + LAW)), scene.contact().evaluate(places), places)
+    assert again.diagnostic.code == "GEO017"
+    assert watched(pipe(planes + LAW), places[:1])[0] == []
 
 
 # --------------------------------------------------------------------------------------------------------- equilibrium
@@ -435,3 +450,66 @@ def test_caption_is_one_short_line() -> None:
 )
 def test_what_a_deck_lacks_whatever_its_shape(text: str, codes: list[str]) -> None:
     assert [one.diagnostic.code for one in seabed_warnings(scene_of(text))] == codes
+
+
+# ----------------------------------------------------------------------------------------------------- given positions
+
+
+def test_elements_without_positions_are_counted() -> None:
+    scene = legal_scene(pipe(LAW))
+    places = heights(-0.02)
+    present = np.arange(11) != 3  # node 3
+    places[:, ~present] = np.nan
+    evaluation = evaluate_scene(scene, Positions(places, present, None))
+    evaluation.run([watch := ContactWatch.of(evaluation)])
+    (found,) = watch.warnings()
+    assert found.row() == {
+        "code": "RUN007",
+        "message": "no positions for 1 node: 2 elements (first: 2) are left out",
+        "line": 1,
+        "elements": 2,
+        "first": 2,
+    }
+    assert caption([found]) == ""
+
+
+def test_distances_that_are_not_the_lengths_of_elements() -> None:
+    places = heights(-0.02)
+    places[0, 5, 2] += 1.5
+    (found,) = watched(pipe(LAW), places)[0]
+    assert (found.diagnostic.code, found.elements, found.first) == ("RUN006", 2, 4)
+    assert found.diagnostic.message.startswith(
+        "the ends of 2 of 10 elements are over a tenth nearer or further apart than the element is long (first: 4, "
+        "11.5 instead of 10)"
+    )
+    places[0, 5, 2] -= 0.6
+    assert watched(pipe(LAW), places)[0] == []
+
+
+@pytest.mark.parametrize(
+    ("digits", "mobilisation", "expected"),
+    [
+        (2, 0.0027, "2 decimals, and rounding them makes up to all of the friction, which 0.0027 mobilise: give 5"),
+        (
+            3,
+            0.0027,
+            "3 decimals, and rounding them makes up to 19 % of the friction, which 0.0027 mobilise: give 5",
+        ),
+        (4, 0.0027, ""),
+        (3, 0.01, ""),
+        (3, 0.0099, "up to 5.1 %"),
+        (17, 0.0027, ""),
+    ],
+)
+def test_rounding_that_makes_the_friction(digits: int, mobilisation: float, expected: str) -> None:
+    places = heights(-0.02)
+    places[0, :, 2] += 0.01 * np.sin(np.arange(11.0))
+    places[0, :, 1] = 0.1 * np.cos(np.arange(11.0))
+    law = f"{LAW} FRICTION=0.35, 0.6, {mobilisation}, 0.1\n"
+    told = [one.diagnostic for one in watched(pipe(law), places.round(digits))[0]]
+    assert [one.code for one in told] == ["RUN008"] * bool(expected)
+    assert all(expected in one.message for one in told)
+
+
+def test_coordinates_written_by_hand_are_not_rounded() -> None:
+    assert watched(pipe(f"{LAW} FRICTION=0.35, 0.6, 0.0027, 0.1\n"), heights(-0.02))[0] == []

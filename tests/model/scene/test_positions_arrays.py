@@ -15,7 +15,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from mudline.language.diagnostics import DeckError
+from mudline.model.scene.given_positions import require_order
 from mudline.model.scene.positions import StepFile, read_positions
+from tests.helpers.builders.scenes import legal_scene
+from tests.model.results.test_warnings import pipe
 from tests.model.scene.file_nodes import NODES, assert_same, refusal
 
 STATE = np.arange(9, dtype=np.float64).reshape(3, 3)
@@ -259,3 +262,38 @@ def test_an_array_that_promises_more_than_there_is(tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "p.npz", "w") as archive:
         archive.writestr("positions.npy", head.getvalue() + bytes(80))
     assert "the array positions of 24000000000000 bytes has only" in refusal(tmp_path / "p.npz").message
+
+
+# --------------------------------------------------------------------------------------------------------------- order
+
+
+@pytest.mark.parametrize("form", ["npy", "npz", "series"])
+def test_without_numbers_nodes_are_in_ascending_order_of_them(tmp_path: Path, form: str) -> None:
+    scene = legal_scene(pipe(""))
+    assert scene.node_ids.tolist() == [1, 11, *range(2, 11)]
+    ascending = scene.coordinates[np.argsort(scene.node_ids)]
+    given_steps = np.stack([ascending, ascending + 1.0])
+    if form == "npz":
+        path = saved(tmp_path, positions=given_steps, velocities=given_steps)
+    else:
+        path = one(tmp_path, given_steps if form == "series" else ascending)
+    found = require_order(read_positions(path, scene.nodes), scene, path.as_posix())
+    assert np.array_equal(found.values[0], scene.coordinates)
+    assert np.array_equal(found.values[len(found.values) - 1], scene.coordinates + (form != "npy"))
+    if form == "npz":
+        assert found.velocities is not None
+        assert np.array_equal(found.velocities[1], scene.coordinates + 1.0)
+
+
+def test_another_order_is_refused_by_its_name(tmp_path: Path) -> None:
+    scene = legal_scene(pipe(""))
+    path = one(tmp_path, scene.coordinates)
+    with pytest.raises(DeckError) as refused:
+        require_order(read_positions(path, scene.nodes), scene, path.as_posix())
+    assert refused.value.diagnostics[0].message == (
+        "the positions are not in ascending order of the node numbers: nodes 1 and 2 of element 1 are 100 apart, and "
+        "its length is 10 (2 of 10 elements differ by over 1.5 times); sort them, or give their numbers in a CSV, or "
+        "in the array node of an NPZ"
+    )
+    numbered = saved(tmp_path, positions=scene.coordinates, node=scene.node_ids)
+    assert require_order(read_positions(numbered, scene.nodes), scene, "").numbered

@@ -1,4 +1,4 @@
-"""Geometry that does not fit the seabed as a whole: lines that hang far above it, a vertical axis Z."""
+"""Lines that do not fit the seabed: far above it, with Z as the vertical axis, or beyond the end of its survey."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.seabed_position import bounds_of, depths
-from mudline.language.codes.contact import GEO005
+from mudline.checks.rules.seabed_position import bounds_of, depths, first_of
+from mudline.language.codes.contact import GEO005, GEO017
 from mudline.language.diagnostics import Problem
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, blocks_of
+from mudline.model.scene.survey import survey_of
 from mudline.model.scene.vertical_axis import FLAT, NEAR
 
 HIGHEST = 100.0
@@ -63,6 +64,54 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
         lowest = int(np.where(line.used, context.once(depths), -np.inf).argmax())
         message = message.format(node=f"node {scene.node_ids[lowest]}")
         yield Problem(GEO005, message, where=scene.nodes.where(lowest))
+
+
+@rule(GEO017)
+def beyond_the_survey(context: LintContext) -> Iterator[Problem]:
+    """The line goes on where the seabed that the deck gives has ended.
+
+    Outside of the hull of scattered points, and of the bounds of all planes, there is no seabed: a pipe gets no force
+    there, and no warning from a run. Beyond its ends a profile is taken as level, whatever the ground does. Give the
+    seabed as far as the line goes, or correct the coordinates.
+
+    Reported are the nodes of elements with a seabed law that lie beyond the end and not more than 100 diameters above
+    the level there: that of the end of a profile, of the nearest place of a plane, of the highest point of a surface.
+    `mudline evaluate` reports the same of the positions of every step. Compiled profiles are left out.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0, 0.0
+          2, -0.05, 0.0, 50.0
+        - 3, -0.05, 0.0, 150.0
+        + 3, -0.05, 0.0, 100.0
+         *ELEMENT
+          1, 1, 2
+          2, 2, 3
+         *SEABED PLANES
+          PLANE=Shelf
+          POINT=0.0, 0.0, 0.0
+          SLOPE=0.0
+          DIRECTION=0.0
+          BOUNDS=-50.0, 50.0, 0.0, 120.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+
+    Finds: 5:2
+    """
+    scene = context.scene
+    survey = survey_of(scene.seabed)
+    if survey is None:
+        return
+    held = scene.element_nodes[scene.law != LawKind.NONE]
+    used = np.unique(held[held >= 0])
+    diameter = float(np.fmax.reduce(scene.diameter, initial=0.0, where=scene.law != LawKind.NONE))
+    left = used[survey.left(scene.coordinates[used], diameter)]
+    if left.size:
+        which = f"{first_of('node', scene.node_ids[left[0]], left.size)} lie{'s' * (left.size == 1)}"
+        yield Problem(GEO017, f"{which} {survey.end}: {survey.consequence}", where=scene.nodes.where(int(left[0])))
 
 
 class _Line(NamedTuple):

@@ -23,6 +23,7 @@ from mudline.language.keywords.text import (
     decimal_comma,
     hint,
     instead,
+    missing_comma,
     mixed_commas,
     read_value,
     semicolons,
@@ -341,6 +342,9 @@ class Builder:
         if len(columns) > 1 and (problem := semicolons(self.text, fields)):
             self.problems.append(problem)
             return fields[:1]
+        if len(columns) > 1 and (problem := missing_comma(fields, [slot.kind for slot in columns], fewest)):
+            self.problems.append(problem)
+            return [one for one in fields[:1] if one.span != problem.span]
         if fewest <= len(fields) <= len(columns):
             if len(fields) >= MIXED_FIELDS and (
                 problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)

@@ -14,6 +14,10 @@ _GROUPED = re.compile(r"[-+]?[0-9]{1,3}(?:[ '_\xa0\u202f][0-9]{3})+(?:\.[0-9]*)?
 """A number with its digits in groups of three."""
 _MINUS = "\u2010\u2011\u2012\u2013\u2014\u2212\ufe63\uff0d"
 """Hyphens, dashes and minus signs of word processors."""
+_QUOTES = "\u2018\u2019\u201a\u201c\u201d\u201e\xab\xbb"
+"""Quotes of word processors."""
+_BARE_EXPONENT = re.compile(r"([-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+))([-+][0-9]{1,3})")
+"""A number whose exponent has no letter, as Fortran writes those of three digits."""
 _BLANKS = "\xa0\u2007\u2009\u200b\u202f\ufeff"
 """Blanks that word processors put around a number, and marks that nobody sees."""
 
@@ -33,6 +37,11 @@ def not_finite(text: str) -> bool:
     return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
 
 
+def is_grouped(text: str) -> bool:
+    """Whether a text may be one number with its digits in groups of three."""
+    return _GROUPED.fullmatch(text) is not None
+
+
 def cut_number(text: str) -> bool:
     """Whether a text is the beginning of a number: a sign, or digits with an exponent that has none."""
     return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
@@ -40,6 +49,10 @@ def cut_number(text: str) -> bool:
 
 def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) -> Problem:
     """The problem of a field that is not a number; a number with characters of a word processor has its repair."""
+    if bare := _BARE_EXPONENT.fullmatch(text):
+        meant = f"{bare[1]}E{bare[2]}"
+        message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {meant} for {label}"
+        return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {meant}", ((span, meant),)))
     plain = _plain(text)
     if not plain:
         return Problem(SYN002, _fault(text, label, kind), span)
@@ -52,9 +65,8 @@ def _plain(text: str) -> str:
     """The number that a text is in plain characters; "" where it is none, or has no others."""
     if text.isascii():
         return ""
-    plain = "".join(
-        "-" if char in _MINUS else str(int(char)) if char.isdecimal() else char for char in text.strip(_BLANKS)
-    )
+    bare = text.strip(_BLANKS + _QUOTES)
+    plain = "".join("-" if char in _MINUS else str(int(char)) if char.isdecimal() else char for char in bare)
     return plain if spells_number(plain) else ""
 
 
@@ -65,6 +77,8 @@ def _fault(text: str, label: str, kind: Kind | None) -> str:
         return f"{text!r} is not a finite number: {label} needs a number"
     if kind is Kind.IDENT and Equation.match(text):
         return f"{cut(text, 60)!r} is an equation: expected {kind.value} for {label}"
+    if text and not text.strip("*"):
+        return f"{text!r} is not a number: asterisks stand for one too wide for its column, write {label} itself"
     if text.startswith(("[", "=")):
         return f"{text!r} is not an equation: write =[...] for {label}"
     if lower[:1].isdigit() and any(mark in lower for mark in "ed"):

@@ -16,7 +16,7 @@ from mudline.language.diagnostics import Problem, Span
 from mudline.language.keywords.model import FieldSpec, ListRow, Part, Record, record_schema
 from mudline.language.keywords.numbers import not_a_number
 from mudline.language.keywords.table import Column, Table, from_rows, row_format
-from mudline.language.keywords.text import Value, decimal_comma, in_braces, maybe_label, semicolons
+from mudline.language.keywords.text import Value, decimal_comma, in_braces, maybe_label, missing_comma, semicolons
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
 from mudline.language.keywords.values import Equation, Kind, Label
 from mudline.language.syntax.fields import Field, split
@@ -91,7 +91,7 @@ class TableBuilder:
             reported += 1
             if reported > MOST_REPORTED:
                 continue
-            if row not in broken and self._brackets(line(row)):
+            if row not in broken and (self._brackets(line(row)) or self._comma(line(row))):
                 broken.add(row)
             if row not in broken:
                 self._fault(line(row), row, column, fault, raw)
@@ -117,6 +117,15 @@ class TableBuilder:
             if problem.span != self.builder.unclosed:
                 self.builder.problems.append(problem)
         return bool(problems)
+
+    def _comma(self, line: Span) -> bool:
+        """Whether the fault of a row is a comma that is missing, which is then reported instead."""
+        fields, _ = split(self.builder.text, line)
+        required = sum(column.required for column in self.columns)
+        problem = missing_comma(fields, [column.kind for column in self.columns], required)
+        if problem is not None:
+            self.builder.problems.append(problem)
+        return problem is not None
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
         text = self.builder.text

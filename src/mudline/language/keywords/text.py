@@ -12,11 +12,11 @@ from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005
 from mudline.language.diagnostics import Problem, Repair, Severity, Span
 from mudline.language.keywords.model import FieldSpec, record_schema
-from mudline.language.keywords.numbers import looks_numeric, maybe_number, not_a_number, not_finite
+from mudline.language.keywords.numbers import is_grouped, looks_numeric, maybe_number, not_a_number, not_finite
 from mudline.language.keywords.table import LARGEST_WHOLE, not_whole
 from mudline.language.keywords.values import Equation, Kind, Label
 from mudline.language.syntax.fields import Field, is_one_field, trimmed
-from mudline.language.syntax.rows import read_number, spells_number
+from mudline.language.syntax.rows import blank_separated, read_number, spells_number
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
@@ -29,6 +29,8 @@ _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
 _NAME, _TITLE, _OTHER, _IDENT = Kind.NAME, Kind.TITLE, Kind.OTHER, Kind.IDENT
 _WHOLE_KINDS = (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+_NUMBERS = (*_REAL, *_WHOLE_KINDS)
+_BEGINS = frozenset("+-.0123456789")
 
 
 class UnreadableError(Exception):
@@ -154,6 +156,24 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
     message = "the numbers are separated by semicolons: write commas between them"
     repair = Repair("unsafe", f"write {', '.join(numbers)}", ((span, ", ".join(numbers)),))
     return Problem(SYN003, message, span, repair=repair)
+
+
+def missing_comma(fields: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a field of several numbers, in a row whose count is right with commas between them."""
+    given = fields
+    while given and not given[-1].text:
+        given = given[:-1]
+    joined = [at for at, field in enumerate(given) if field.text[:1] in _BEGINS and blank_separated(field.text)]
+    words = [given[at].text.split() for at in joined]
+    count = len(given) + sum(len(each) - 1 for each in words)
+    if not joined or not fewest <= count <= len(kinds) or any(kinds[at] not in _NUMBERS for at in joined):
+        return None
+    if len(words[0]) == 2 and is_grouped(given[joined[0]].text) and len(given) >= fewest:
+        return None
+    one, two = words[0][:2]
+    span, meant = given[joined[0]].span, ", ".join(words[0])
+    message = f"a comma is missing between {one} and {two}: write {meant}"
+    return Problem(SYN003, message, span, repair=Repair("unsafe", f"write {meant}", ((span, meant),)))
 
 
 def _is_tight(one: Field, two: Field) -> bool:

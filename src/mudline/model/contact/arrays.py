@@ -49,7 +49,7 @@ class Positions:
 
     `present` (nodes,) says which nodes the file has; `time` (steps,) is None for a single state without a time.
     `velocities`, where the file has them, are as the positions; `timed` says whether the file has times, else `time`
-    counts the steps.
+    counts the steps; `numbered` whether it has the numbers of the nodes, else they are in ascending order.
     """
 
     values: NDArray[np.floating] | StepReader
@@ -57,6 +57,7 @@ class Positions:
     time: FloatArray | None
     velocities: NDArray[np.floating] | None = None
     timed: bool = True
+    numbered: bool = True
 
     __repr__ = short_repr
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity
-from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput
 from mudline.model.contact.result import ContactResult, Part
 
@@ -199,6 +199,12 @@ class NodeTable(Table):
 
     def _force(self, force: Values | None) -> Values:
         return np.zeros(self.rows) if force is None else kept(force, self._chosen)
+
+
+def by_number(given: ContactInput, present: BoolArray) -> IndexArray:
+    """Return the indices of the nodes that have a position, in ascending order of their numbers."""
+    found = np.flatnonzero(present)
+    return found[given.node_ids[found].argsort(kind="stable")]
 
 
 def coded(texts: Sequence[str | None]) -> tuple[NDArray[np.int32], Names]:

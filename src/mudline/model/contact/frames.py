@@ -15,7 +15,7 @@ from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
 from mudline.basics.short_repr import counted
-from mudline.model.contact.columns import Column, ElementTable, NodeTable, Table, Values
+from mudline.model.contact.columns import Column, ElementTable, NodeTable, Table, Values, by_number
 from mudline.model.contact.result import ContactResult, Part, TableName
 from mudline.model.contact.touchdown import LineTable, line_summaries
 
@@ -141,7 +141,7 @@ def _table(result: ContactResult, name: str) -> Table:
     given = result.known
     elements = np.flatnonzero(result.evaluated)
     if name == "nodes":
-        return NodeTable(given, np.flatnonzero(result.present))
+        return NodeTable(given, by_number(given, result.present))
     return ElementTable(given, elements) if name == "elements" else LineTable(given, elements)
 
 

@@ -15,7 +15,7 @@ from mudline.basics.short_repr import counted, cut, outline, short_repr
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.arrays import Positions, StepReader
-from mudline.model.contact.columns import ElementTable, NodeTable, Others
+from mudline.model.contact.columns import ElementTable, NodeTable, Others, by_number
 from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import LineTable, Touchdown
 from mudline.model.scene.deck_values import unread_makers
@@ -102,8 +102,8 @@ class Evaluation:
 
     @cached_property
     def nodes(self) -> Indices:
-        """Indices of the nodes that have a position."""
-        return np.flatnonzero(self.present)
+        """Indices of the nodes that have a position, in ascending order of their numbers."""
+        return by_number(self.model.input, self.present)
 
     @property
     def has_seabed_law(self) -> bool:

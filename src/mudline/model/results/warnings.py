@@ -13,21 +13,26 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.basics.arguments import as_array
 from mudline.basics.quantities import shown, unit_names
 from mudline.basics.short_repr import counted, cut
-from mudline.language.codes.contact import GEO005, RUN003, RUN004, RUN005, SBD006
+from mudline.language.codes.contact import GEO005, GEO017, RUN003, RUN004, RUN005, SBD006
 from mudline.language.codes.lines import SYN009
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.model.contact import ContactResult, LawKind
+from mudline.model.contact.arrays import StepReader
+from mudline.model.contact.input import ContactInput
 from mudline.model.contact.result import Part
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
+from mudline.model.scene.given_positions import PositionDoubt, position_doubts
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.sections import surroundings
+from mudline.model.scene.survey import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import Contents, attached, contents, left_out, operating_weight
 
@@ -52,7 +57,7 @@ class ContactWarning:
         diagnostic: code, message and place, as those of lint.
         elements: how many elements it is about; 0 for what is about none, as a curve that nothing uses.
         first: the number of the first of them, or None.
-        brief: the message in a few words, for the caption of a plot.
+        brief: the message in a few words, for the caption of a plot; "" where the plot shows it.
     """
 
     diagnostic: Diagnostic
@@ -88,7 +93,9 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     if not len(places):
         raise ValueError("positions must have one step or more")
     source = "deck" if positions is None else "file"
-    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], source)
+    steps = places.reshape(-1, *places.shape[-2:])
+    watch = ContactWatch(scene, result.evaluated, steps, source)
+    watch.look_at_positions(result.known, result.present)
     watch.take(Part(0, result.as_series()))
     return watch.warnings()
 
@@ -117,9 +124,8 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
 
 def caption(warnings: Sequence[ContactWarning]) -> str:
     """The line of a plot that says what is doubtful, "" where nothing is."""
-    if not warnings:
-        return ""
-    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _CAPTION)
+    briefs = [one.brief for one in warnings if one.brief]
+    return cut(f"{counted(len(briefs), 'warning')}: {'; '.join(briefs)}", _CAPTION) if briefs else ""
 
 
 class _Clearance(NamedTuple):
@@ -152,7 +158,7 @@ class _Balance(NamedTuple):
 class ContactWatch:
     """Takes the results of a few steps at a time, and keeps what the warnings need.
 
-    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions, which are those of `source`:
+    `evaluated` (m,) are the elements with positions, `places` (steps, n, 3) the positions, which are those of `source`:
     "deck", "file" or "rest shape", which is in equilibrium. `weight` (m,) is the submerged weight per length, None for
     the operating one.
     """
@@ -161,12 +167,13 @@ class ContactWatch:
         self,
         scene: Scene,
         evaluated: Mask,
-        places: Floats,
+        places: NDArray[np.floating] | StepReader,
         source: str,
         times: Floats | None = None,
         weight: Floats | None = None,
     ) -> None:
-        self._scene, self._places, self._source, self._times = scene, places, source, times
+        self._scene, self._source, self._times = scene, source, times
+        self._positions, self._places = places, np.asarray(places[0], dtype=np.float64)
         self._own, self._weight = source == "deck", operating_weight(scene) if weight is None else weight
         self._elements = np.flatnonzero(evaluated)
         self._rows = self._elements if len(self._elements) < len(evaluated) else slice(None)
@@ -181,13 +188,27 @@ class ContactWatch:
         self._acts = False
         self._clearance = _Clearance(math.inf, -1, 0)
         self.balance: _Balance | None = None
+        self._survey = survey_of(scene.seabed)
+        lawful = self._elements[scene.law[self._elements] != LawKind.NONE]
+        self._lawful = np.unique(scene.element_nodes[lawful])
+        self._thickest = float(np.fmax.reduce(scene.diameter[lawful], initial=0.0))
+        self._left, self._left_at = np.zeros(len(scene.nodes), dtype=np.bool_), -1
+        self._doubts: list[PositionDoubt] = []
 
     @classmethod
     def of(cls, evaluation: Evaluation) -> ContactWatch:
         """What watches an evaluation."""
-        places = np.asarray(evaluation.positions[0], dtype=np.float64)
-        weight = evaluation.model.input.weight
-        return cls(evaluation.scene, evaluation.evaluated, places, evaluation.source, evaluation.time, weight)
+        given, times = evaluation.model.input, evaluation.time
+        positions, source = evaluation.positions, evaluation.source
+        watch = cls(evaluation.scene, evaluation.evaluated, positions, source, times, given.weight)
+        watch.look_at_positions(given, evaluation.present)
+        return watch
+
+    def look_at_positions(self, given: ContactInput, present: Mask) -> None:
+        """Judge positions of a file by the last step; `present` (n,) are the nodes that have any."""
+        if self._source == "file":
+            last = np.asarray(self._positions[len(self._positions) - 1], dtype=np.float64)
+            self._doubts = position_doubts(given, self._scene, present, last)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
@@ -203,6 +224,12 @@ class ContactWatch:
             if not self._acts:
                 self._measure(part.start, result.gap[:, self._columns])
         self.balance = self._weigh(result.contact, result.normal_force, self.balance)
+        if self._survey is not None:
+            for step, places in enumerate(self._positions[part.steps], part.start):
+                left = self._survey.left(np.asarray(places, dtype=np.float64)[self._lawful], self._thickest)
+                if left.any():
+                    self._left_at = step if self._left_at < 0 else self._left_at
+                    self._left[self._lawful[left]] = True
 
     def _measure(self, start: int, gap: Floats) -> None:
         """Keep the smallest distance of the nodes above the seabed; NaN is where there is none."""
@@ -250,7 +277,8 @@ class ContactWatch:
 
     def warnings(self) -> list[ContactWarning]:
         """What is doubtful, in the order of the deck; ask when all steps are taken."""
-        found = [*self._without_law(), *self._on_rigid(), *self._apart(), *self._unbalanced()]
+        found = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
+        found += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
         found += [*self._floating(), *self._curves()]
         return sorted(found, key=lambda one: one.diagnostic.sort_key)
 
@@ -292,6 +320,19 @@ class ContactWatch:
             law = self._scene.set_law(int(held[0]))
             where = None if law is None else law.where
             yield self._warning(RUN005, message, where, held, "reaction of a rigid seabed not known")
+
+    def _beyond(self) -> Iterator[ContactWarning]:
+        """Nodes that lie beyond the end of the surveyed seabed at some step."""
+        left = np.flatnonzero(self._left)
+        all_without = not self._acts and self._clearance.node < 0  # GEO005 says so of the line
+        if self._survey is None or not left.size or all_without:
+            return
+        scene, number = self._scene, self._scene.node_ids[left[0]]
+        which = f"node {number} lies" if left.size == 1 else f"{left.size} nodes (first: {number}) lie"
+        at = "" if self._times is None else f", from time {shown(float(self._times[self._left_at]))} on"
+        message = f"{which} {self._survey.end}{at}: {self._survey.consequence}"
+        elements = self._elements[self._left[scene.element_nodes[self._elements]].any(axis=1)]
+        yield self._warning(GEO017, message, scene.nodes.where(int(left[0])), elements, "beyond the survey")
 
     @cached_property
     def _unknown(self) -> list[UnknownKeyword]:

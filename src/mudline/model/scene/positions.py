@@ -51,12 +51,16 @@ _ARRAYS = frozenset({"positions", "node", "time", "velocities"})
 class StepFile(StepReader):
     """The steps of an NPY file, an array (steps, nodes, 3) in C order, read when they are asked for.
 
-    They are read and not mapped: a file that becomes shorter while it is mapped ends the program.
+    They are read and not mapped: a file that becomes shorter while it is mapped ends the program. `order` (nodes,) says
+    which node of the file is each of the deck.
     """
 
-    def __init__(self, path: Path, mapped: np.memmap[tuple[int, ...], np.dtype[np.floating]]) -> None:
+    def __init__(
+        self, path: Path, mapped: np.memmap[tuple[int, ...], np.dtype[np.floating]], order: Indices | None = None
+    ) -> None:
         self.shape, self.dtype, self.ndim = mapped.shape, mapped.dtype, mapped.ndim
         self._file, self._offset = path.as_posix(), mapped.offset
+        self._order = order
         self._stream = path.open("rb", buffering=0)
         weakref.finalize(self, self._stream.close)
 
@@ -79,7 +83,7 @@ class StepFile(StepReader):
                 message = "the file has become shorter while it was read: wait until it is written, and try again"
                 raise data_error(self._file, message)
             left = left[count:]
-        return found
+        return found if self._order is None else found[:, self._order]
 
 
 def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
@@ -203,8 +207,8 @@ def _from_npy(path: Path, nodes: Numbered) -> Positions:
             given = mapped if in_steps else np.load(path, allow_pickle=False)
     except _UNREADABLE as error:
         raise data_error(file, f"not an NPY array: {error}") from error
-    found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes)
-    return replace(found, values=StepFile(path, mapped)) if in_steps else found
+    found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes, ordered=in_steps)
+    return replace(found, values=StepFile(path, mapped, _ranks(nodes))) if in_steps else found
 
 
 def _load_npz(path: Path) -> dict[str, Reals]:
@@ -257,8 +261,18 @@ def _from_old_python() -> Iterator[None]:
         yield
 
 
-def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:
-    """Arrays (steps, nodes, 3) or (nodes, 3) in the order of the deck's nodes, or in that of the array `node`."""
+def _ranks(nodes: Numbered) -> Indices | None:
+    """The place of each node among their ascending numbers; None where they are in that order."""
+    if not (nodes.ids[1:] <= nodes.ids[:-1]).any():
+        return None
+    return np.sort(nodes.ids).searchsorted(nodes.ids)
+
+
+def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordered: bool = False) -> Positions:
+    """Arrays (steps, nodes, 3) or (nodes, 3) in ascending order of the node numbers, or in that of the array `node`.
+
+    With `ordered` they are left as they are.
+    """
     ids = None
     if "node" in arrays:
         if arrays["node"].ndim != 1:
@@ -288,7 +302,9 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positi
             raise data_error(file, "a node is listed twice in the array node")
         values = _spread(values, where, len(nodes))
         velocities = None if velocities is None else _spread(velocities, where, len(nodes))
-    return Positions(values, present, time, velocities, "time" in arrays)
+    elif not ordered and (ranks := _ranks(nodes)) is not None:
+        values, velocities = values[:, ranks], None if velocities is None else velocities[:, ranks]
+    return Positions(values, present, time, velocities, "time" in arrays, ids is not None)
 
 
 def _times(file: str, given: Reals, steps: int) -> Floats:

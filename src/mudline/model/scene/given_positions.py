@@ -1,0 +1,135 @@
+"""What is doubtful about positions of a file before they are evaluated: their order, their nodes, their digits."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import shown
+from mudline.basics.short_repr import counted
+from mudline.language.codes.contact import RUN006, RUN007, RUN008
+from mudline.language.diagnostics import Code
+from mudline.model.contact.arrays import Positions
+from mudline.model.contact.input import ContactInput
+from mudline.model.scene.csv_file import data_error
+from mudline.model.scene.mesh import distances
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices, Mask
+
+GROSS = 1.5, 0.1
+"""Factor between length and distance, and share of the elements that are off by it: nodes in a wrong order."""
+_SLIGHT = 1.1
+"""Factor beyond which an element is another one than that of the deck: no pipe stretches by a tenth."""
+_ROUNDED = 0.05, 0.01
+"""Half a unit of the last digit over the mobilisation length: what is warned of, and what the digits needed leave."""
+_MOST = 9
+_ENOUGH, _DIGITS = 10, 0.6
+"""How many different coordinates there must be, and which share needs the last digit, to be called rounded."""
+
+
+class PositionDoubt(NamedTuple):
+    """What is doubtful: its code, the message, the elements (indices), the message for the caption of a plot."""
+
+    code: Code
+    message: str
+    elements: Indices
+    brief: str
+
+
+def off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, Indices]:
+    """Return the elements whose ends at `places` (n, 3) are apart by their length times or over `factor`; and all.
+
+    Springs, and elements whose length or positions are not known, are left out of both.
+    """
+    ends = places[scene.element_nodes]
+    apart = distances(ends[:, 0], ends[:, 1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = apart / scene.length
+        known = np.flatnonzero((scene.length > 0.0) & np.isfinite(apart) & np.isfinite(scene.length))
+        off = known[~((ratio[known] <= factor) & (ratio[known] >= 1.0 / factor))]
+    return off, known
+
+
+def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
+    """Return positions of a file; those without node numbers must fit the elements of the deck.
+
+    Raises DeckError where so many are longer or shorter that the nodes are in another order.
+    """
+    if positions.numbered:
+        return positions
+    places = np.asarray(positions.values[0], dtype=np.float64)
+    off, known = off_lengths(scene, places, GROSS[0])
+    if len(off) < 1 or len(off) < GROSS[1] * len(known):
+        return positions
+    first = int(off[0])
+    one, other = scene.node_ids[scene.element_nodes[first]].tolist()
+    ends = places[scene.element_nodes[first]]
+    apart = float(distances(ends[:1], ends[1:])[0])
+    message = (
+        f"the positions are not in ascending order of the node numbers: nodes {one} and {other} of element "
+        f"{scene.element_ids[first]} are {shown(apart)} apart, and its length is {shown(float(scene.length[first]))} "
+        f"({len(off)} of {counted(len(known), 'element')} differ by over {GROSS[0]:g} times); sort them, or give their "
+        "numbers in a CSV, or in the array node of an NPZ"
+    )
+    raise data_error(file, message)
+
+
+def position_doubts(given: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+    """Return what is doubtful about positions (n, 3) of a file: elements without any, other lengths, few digits."""
+    found = []
+    lost = np.flatnonzero(~present[scene.element_nodes].all(axis=1))
+    if lost.size:
+        missing = counted(int((~present).sum()), "node")
+        message = f"no positions for {missing}: {scene.describe(lost, 'is', 'are')} left out"
+        found.append(PositionDoubt(RUN007, message, lost, ""))
+    off, known = off_lengths(scene, places, _SLIGHT)
+    if off.size:
+        first = int(off[0])
+        ends = places[scene.element_nodes[first]]
+        apart = shown(float(distances(ends[:1], ends[1:])[0]))
+        message = (
+            f"the ends of {len(off)} of {counted(len(known), 'element')} are over a tenth nearer or further apart than "
+            f"the element is long (first: {scene.element_ids[first]}, {apart} instead of "
+            f"{shown(float(scene.length[first]))}): check that the positions are of this deck, and their units"
+        )
+        found.append(PositionDoubt(RUN006, message, off, "distances differ from lengths"))
+    return [*found, *_few_digits(given, scene, present, places)]
+
+
+def _few_digits(given: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+    """Coordinates whose rounding moves nodes by much of what mobilises their friction."""
+    friction = given.assigned.get("friction")
+    if friction is None:
+        return []
+    here = present[friction.rows]
+    lengths = np.fmin(friction["axial_mobilisation"], friction["lateral_mobilisation"])[here]
+    nodes, least = friction.rows[here], float(np.fmin.reduce(lengths, initial=np.inf))
+    digits = _digits(places[nodes]) if math.isfinite(least) and least > 0.0 else None
+    if digits is None or 0.5 * 10.0**-digits <= _ROUNDED[0] * least:
+        return []
+    share = 0.5 * 10.0**-digits / least
+    needed = math.ceil(-math.log10(2.0 * _ROUNDED[1] * least))
+    part = "all" if share >= 1.0 else f"{shown(100.0 * share, 2)} %"
+    message = (
+        f"the coordinates have {counted(digits, 'decimal')}, and rounding them makes up to {part} of the friction, "
+        f"which {shown(least)} mobilise: give {needed} decimals"
+    )
+    held = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    held[nodes] = True
+    elements = np.flatnonzero(held[scene.element_nodes].any(axis=1))
+    return [PositionDoubt(RUN008, message, elements, "coordinates rounded")]
+
+
+def _digits(places: Floats) -> int | None:
+    """Decimals to which coordinates (n, 3) were rounded; None for those that were not, or are few or even numbers."""
+    values = np.unique(np.abs(places[np.isfinite(places)]))
+    if len(values) < _ENOUGH:
+        return None
+    near = np.spacing(values[-1])
+    for digits in range(_MOST):
+        if (np.abs(values - np.round(values, digits)) <= near).all():
+            uneven = np.abs(values - np.round(values, digits - 1)) > near
+            return digits if np.count_nonzero(uneven) >= _DIGITS * len(values) else None
+    return None
