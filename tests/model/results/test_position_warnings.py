@@ -9,7 +9,7 @@ from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.results.warnings import ContactWatch, caption
 from tests.helpers.builders.scenes import legal_scene
-from tests.model.results.test_warnings import LAW, pipe, watched
+from tests.model.results.test_warnings import LAW, heights, pipe, watched
 
 
 def test_elements_without_positions_are_counted() -> None:
@@ -70,3 +70,10 @@ def test_rounding_that_makes_the_friction(digits: int, mobilisation: float, expe
 
 def test_coordinates_written_by_hand_are_not_rounded() -> None:
     assert watched(pipe(f"{LAW} FRICTION=0.35, 0.6, 0.0027, 0.1\n"), heights(-0.02))[0] == []
+
+
+def test_caption_is_one_short_line() -> None:
+    two = watched(pipe(LAW.replace("50000", "900000") + " SET=East\n FRICTION=0.3, 0.5\n"))[0]
+    assert caption(two) == "2 warnings: reaction / submerged weight 38.4; 5 elements in contact without a seabed law"
+    assert caption([]) == ""
+    assert len(caption(two * 9)) <= 90

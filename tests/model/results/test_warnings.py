@@ -9,7 +9,7 @@ from mudline import ContactWarning
 from mudline.model.contact.arrays import Positions
 from mudline.model.contact.result import Part
 from mudline.model.results.evaluation import evaluate_scene
-from mudline.model.results.warnings import ContactWatch, caption, contact_warnings, seabed_warnings
+from mudline.model.results.warnings import ContactWatch, contact_warnings, seabed_warnings
 from mudline.model.scene.numbering import Floats
 from tests.helpers.builders.scenes import legal_scene, scene_of
 
@@ -428,13 +428,6 @@ def test_from_python_without_positions_are_the_decks_own() -> None:
     assert [one.diagnostic.code for one in contact_warnings(scene, result)] == ["RUN003"]
     (given,) = contact_warnings(scene, result, scene.coordinates)
     assert given.diagnostic.message.startswith("the positions are far from equilibrium: total reaction 180000 N")
-
-
-def test_caption_is_one_short_line() -> None:
-    two = watched(pipe(LAW.replace("50000", "900000") + " SET=East\n FRICTION=0.3, 0.5\n"))[0]
-    assert caption(two) == "2 warnings: reaction / submerged weight 38.4; 5 elements in contact without a seabed law"
-    assert caption([]) == ""
-    assert len(caption(two * 9)) <= 90
 
 
 @pytest.mark.parametrize(
