@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from mudline.basics.outside import project_of
 from mudline.checks.configuration import Configured, Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
@@ -228,4 +229,17 @@ def test_entries_of_another_user_are_not_read(place: Place, linted: Linted, monk
     assert len(linted) == 1
     monkeypatch.setattr(os, "getuid", lambda: 12345, raising=False)
     run("lint", "deck.keyxm")
+    assert len(linted) == 2
+
+
+def test_another_project_is_another_run(place: Place, folder: Path, linted: Linted) -> None:
+    """A file beside the folder of the deck is outside once the repository above both is gone."""
+    (folder / "work" / ".git").mkdir(parents=True)
+    place("0.0, 0.0\n", "work/other/named.csv")
+    name = place(CLEAN + "*SEABED PROFILE\n FILE=../other/named.csv\n", "work/decks/deck.keyxm")
+    words = ("lint", name, "--no-outside", "--output-format", "concise")
+    assert "outside of the project" not in run(*words).out
+    (folder / "work" / ".git").rmdir()
+    project_of.cache_clear()
+    assert "outside of the project" in run(*words).out
     assert len(linted) == 2

@@ -40,7 +40,7 @@ def joined_findings(context: LintContext, problems: list[Problem]) -> list[Probl
     for problem in problems:
         if problem.message != MORE:
             by_code.setdefault(problem.code.code, []).append(problem)
-    declared = (join(context, by_code) for codes, join in JOINTS if text and not codes.isdisjoint(by_code))
+    declared = (join(context, by_code) for codes, join in JOINTS if not codes.isdisjoint(by_code))
     repeated = _repeated(text, by_code) if text else ()
     under: dict[int, Problem] = {}
     hidden: set[int] = set()

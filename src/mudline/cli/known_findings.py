@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mudline.basics.outside import project_of
 from mudline.checks.configuration import Configured, Given
 from mudline.cli.inputs import Input, Inputs
 from mudline.language.diagnostics import Coverage, Diagnostic
@@ -36,12 +37,16 @@ class KnownFindings:
         return bool(self.clean) and len(self.clean) == len(self.inputs.files)
 
     def key(self, file: Input, data: bytes) -> str:
-        """What the findings of a file are kept under; its name gives units and form, and is named in findings."""
+        """What the findings of a file are kept under; its name gives units and form, and is named in findings.
+
+        What lies outside of its project is not shown, and may be refused.
+        """
         configuration = self.configured.of(file.path)
         place = configuration.path
         if place not in self._settings:
             self._settings[place] = repr((str(place), configuration.content))
-        return self.memory.key(self._settings[place], file.name, data)
+        project = str(project_of(file.folder)) if file.folder else ""
+        return self.memory.key(self._settings[place], project, file.name, data)
 
     def get(self, key: str) -> tuple[tuple[Diagnostic, ...], Coverage] | None:
         """The findings of a file, and how much of it was read.

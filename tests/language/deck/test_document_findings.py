@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 
 from mudline.basics.limits import MOST_REPORTED
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import rules
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.diagnostics import DeckError, Diagnostic
@@ -288,3 +290,13 @@ def test_a_whole_number_beyond_doubles_is_told_as_that() -> None:
     (found,) = refused(made(section({"keyword": "SEABED PROPERTIES", "type": "ELASTIC", "sets": [entry]})))
     assert found.message.startswith("sections[0].blocks[0].sets[0].stiffness: expected a number or a text, found 1000")
     assert found.message.endswith("..., too large for double precision")
+
+
+def test_what_is_joined_in_a_text_is_joined_in_a_document() -> None:
+    text = "$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.1, 700.0\n 0.5, -1500.0\n"
+    deck = load_bytes(text.encode(), "deck.keyxm")
+    forms = {"deck.keyxm": text, "deck.yaml": dump(deck, "yaml"), "deck.json": dump(deck, "json")}
+    codes = {name: [one.code for one in lint_bytes(form.encode(), name, rules())] for name, form in forms.items()}
+    assert "CRV012" in codes["deck.keyxm"]
+    assert "CRV005" not in codes["deck.keyxm"]
+    assert codes["deck.yaml"] == codes["deck.json"] == codes["deck.keyxm"]
