@@ -312,3 +312,13 @@ def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch
 
 def test_number_that_is_none(place: Place) -> None:
     assert run("lint", place(), "--jobs", "-1").code == 2
+
+
+def test_findings_of_one_rule_of_style_are_one_entry_in_text_alone(place: Place) -> None:
+    name = place(CLEAN.replace("*NODE", "*node").replace("*ELEMENT\n", "*element\n").replace("$MODEL", "$model"))
+    text = run("lint", name).out
+    assert text.count("STY006") == 1
+    assert "; 2 more in lines 4, 8 [keyword-case]" in text
+    assert "Found 3 info" in text
+    for words in (("-v",), ("--output-format", "concise")):
+        assert run("lint", name, *words).out.count("STY006") == 3

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -82,7 +82,8 @@ class Report:
         self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
         as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
         if as_they_come and found:
-            self.view.printer().findings(found, Source.from_bytes(data, name), following=self.view.verbose)
+            shown = found if self.view.verbose else [*_with_style_folded(found)]
+            self.view.printer().findings(shown, Source.from_bytes(data, name), following=self.view.verbose)
         if self.view.verbose:
             notify(f"{name}: {counted(len(found), 'finding')}")
 
@@ -127,6 +128,27 @@ class Report:
     def _fixed_summary(self, found: list[Diagnostic]) -> str:
         total = counted(self.fixed + len(found), "finding")
         return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(self.files, 'file')}."
+
+
+_MOST_ALIKE = 2
+"""Findings of one rule of style in a file that stand on their own; more are one entry."""
+_LINES_NAMED = 5
+
+
+def _with_style_folded(found: list[Diagnostic]) -> Iterator[Diagnostic]:
+    """Return the findings with many of one rule of style under the first: an old deck has one on most of its lines."""
+    alike: dict[str, list[Diagnostic]] = {}
+    for one in found:
+        if one.code.startswith("STY"):
+            alike.setdefault(one.code, []).append(one)
+    for one in found:
+        first, *others = alike.get(one.code, [one])
+        if len(others) < _MOST_ALIKE:
+            yield one
+        elif one is first:
+            lines = [str(each.line) for each in others[:_LINES_NAMED]]
+            more = ", ..." if len(others) > _LINES_NAMED else ""
+            yield replace(one, message=f"{one.message}; {len(others)} more in lines {', '.join(lines)}{more}")
 
 
 def fixable(found: list[Diagnostic]) -> str:

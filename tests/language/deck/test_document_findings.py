@@ -293,7 +293,9 @@ def test_a_whole_number_beyond_doubles_is_told_as_that() -> None:
 
 
 def test_what_is_joined_in_a_text_is_joined_in_a_document() -> None:
-    text = "$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.1, 700.0\n 0.5, -1500.0\n"
+    text = (
+        "$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.1, 700.0\n 0.5, -1500.0\n"
+    )
     deck = load_bytes(text.encode(), "deck.keyxm")
     forms = {"deck.keyxm": text, "deck.yaml": dump(deck, "yaml"), "deck.json": dump(deck, "json")}
     codes = {name: [one.code for one in lint_bytes(form.encode(), name, rules())] for name, form in forms.items()}
