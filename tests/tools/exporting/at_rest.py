@@ -81,12 +81,12 @@ def at_rest(deck: Path, folder: Path, statics: float = 100.0) -> Rest:
     )
 
 
-def run(model: LineModel, folder: Path, statics: float) -> Json:
-    """What MoorDyn has at rest: places and forces of the nodes of each line."""
+def run(model: LineModel, folder: Path, statics: float, *, seconds: float = SECONDS, moved: float = 0.0) -> Json:
+    """What MoorDyn has at rest: places and forces of the nodes of each line; its top may be `moved` so many metres."""
     for name, text in moordyn.write(model, "model.txt").items():
         (folder / name).write_text(text.replace("100.0 TmaxIC", f"{statics} TmaxIC"), encoding="ascii")
-    child = [sys.executable, str(Path(__file__).with_name("resting.py")), str(folder / "model.txt"), str(SECONDS)]
-    output = subprocess.run(child, check=True, capture_output=True, text=True, timeout=280).stdout
+    child = [sys.executable, str(Path(__file__).with_name("resting.py")), str(folder / "model.txt"), str(seconds)]
+    output = subprocess.run([*child, str(moved)], check=True, capture_output=True, text=True, timeout=280).stdout
     return json.loads(output.strip().splitlines()[-1])
 
 

@@ -1,7 +1,8 @@
 """Run by an interpreter with MoorDyn: a model that was exported, brought to rest, as JSON in the last line of output.
 
-`python tests/tools/exporting/resting.py MODEL SECONDS`. MoorDyn's own statics come first, then so many seconds of its
-dynamics with the ends held; `change` is the largest change of the total reaction in the last second, as a share of it.
+`python tests/tools/exporting/resting.py MODEL SECONDS [METRES]`. MoorDyn's own statics come first, then so many seconds
+of its dynamics with the ends held, or with the last coupled point moved along X within the first third of them;
+`change` is the largest change of the total reaction in the last second, as a share of it.
 """
 
 from __future__ import annotations
@@ -49,9 +50,12 @@ def main() -> None:
     system = moordyn.Create(model.name)
     if moordyn.Init(system, held, [0.0] * len(held)):
         sys.exit("MoorDyn did not start")
-    totals, time = [], 0.0
+    metres = float(sys.argv[3]) if len(sys.argv) > 3 else 0.0
+    totals, time, speed = [], 0.0, [0.0] * len(held)
     while time < seconds:
-        moordyn.Step(system, held, [0.0] * len(held), time, _STEP)
+        speed[-3] = metres / (seconds / 3.0) if time < seconds / 3.0 else 0.0
+        held[-3] += speed[-3] * _STEP
+        moordyn.Step(system, held, speed, time, _STEP)
         time += _STEP
         totals.append(sum(sum(line["forces"]) for line in state(moordyn, system, lines)))
     found = state(moordyn, system, lines)
