@@ -35,7 +35,10 @@ def refusing_outside(refuses: Callable[[Path], bool]) -> Iterator[None]:
 def project_of(folder: Path) -> Path:
     """The folder of the project that a folder is in: the nearest with a repository or a configuration, else itself."""
     here = Path(os.path.realpath(folder))
-    return next((each for each in (here, *here.parents) if any((each / name).exists() for name in _PROJECT)), here)
+    for each in (here, *here.parents):
+        if any(os.path.exists(each / name) for name in _PROJECT):  # noqa: PTH110 - Path raises where nobody may search
+            return each
+    return here
 
 
 def is_outside(path: Path, folder: Path) -> bool:

@@ -53,8 +53,9 @@ def main() -> None:
     metres = float(sys.argv[3]) if len(sys.argv) > 3 else 0.0
     totals, time, speed = [], 0.0, [0.0] * len(held)
     while time < seconds:
-        speed[-3] = metres / (seconds / 3.0) if time < seconds / 3.0 else 0.0
-        held[-3] += speed[-3] * _STEP
+        if metres:
+            speed[-3] = metres / (seconds / 3.0) if time < seconds / 3.0 else 0.0
+            held[-3] += speed[-3] * _STEP
         moordyn.Step(system, held, speed, time, _STEP)
         time += _STEP
         totals.append(sum(sum(line["forces"]) for line in state(moordyn, system, lines)))
