@@ -391,11 +391,15 @@ def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
     Raises FileNotFoundError for a folder without a deck, and ConfigurationError for a configuration that cannot be
     used.
     """
-    from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many scripts name one file
+    from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck  # noqa: PLC0415 - many name one file
 
     one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
     files, own = list[Path](), Configured()
-    wanted = own.wanted if including else lambda file: is_in_any_form(file) and not own.excludes(file)
+
+    def wanted(file: str) -> bool:
+        taken = own.includes(file) if including else is_in_any_form(file)
+        return taken and not own.excludes(file) and may_be_deck(file)
+
     for each in [path] if one else cast("Iterable[object]", path):
         place = given_path(each, "save it to a file")
         found = [Path(file) for _, file in Search(str(place)).files(wanted)] if place.is_dir() else [place]

@@ -197,7 +197,7 @@ def show(deck: GivenDeck) -> Overview:
 
     Raises:
         OSError: the file cannot be read.
-        DeckError: it is no deck. One with errors is shown as far as it can be read.
+        DeckError: it is not a deck. One with errors is shown as far as it can be read.
     """
     from mudline.checks.overview import overview  # noqa: PLC0415 - as above
 

@@ -262,3 +262,9 @@ def test_scene_of_a_deck_with_errors(path: Path) -> None:
     with pytest.raises(mudline.DeckError, match="REF001") as caught:
         deck.scene()
     assert caught.value.diagnostics[0].line == 20
+
+
+def test_a_key_file_of_a_password_manager_is_no_deck_of_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "vault.keyx").write_text('<?xml version="1.0"?>\n<KeyFile>\n</KeyFile>\n', encoding="utf-8")
+    (tmp_path / "deck.keyxm").write_text("$MODEL\n*OCEAN\n 100.0, x, 9.81\n", encoding="utf-8")
+    assert {one.file.rpartition("/")[2] for one in mudline.lint(tmp_path)} == {"deck.keyxm"}

@@ -301,17 +301,13 @@ class Configured:
         self._nearest.update(dict.fromkeys(passed, found))
         return found
 
-    def wanted(self, path: str) -> bool:
-        """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
-        from mudline.language.deck.searching import is_deck, is_document, is_in_any_form  # noqa: PLC0415 - help has none
+    def includes(self, path: str) -> bool:
+        """Return whether a file is a deck in any form, or `include` of its configuration takes it for one."""
+        from mudline.language.deck.searching import is_in_any_form  # noqa: PLC0415 - help has none
 
         found = self.of(path)
-        include, exclude = found.words("include"), found.words("exclude")
-        if not (include or exclude):
-            return is_in_any_form(path)
-        relative = found.relative(path)
-        taken = is_deck(path) or matches(relative, include) or is_document(path)
-        return taken and not matches(relative, exclude)
+        include = found.words("include")
+        return is_in_any_form(path) or (bool(include) and matches(found.relative(path), include))
 
     def encoding(self, path: str) -> str:
         """Return the encoding that the file's configuration gives, "" where it gives none."""

@@ -21,7 +21,7 @@ from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
-from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_file
+from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_deck
 from mudline.language.diagnostics import DeckError
 
 if TYPE_CHECKING:
@@ -173,7 +173,7 @@ def collect(
     """
 
     def taken(path: str) -> bool:
-        found = wanted(path) and may_be_file(path) and not is_key_file(path)
+        found = wanted(path) and may_be_deck(path)
         if not found and skipped is not None:
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found

@@ -116,7 +116,7 @@ def command(
     def once() -> int:
         configured = Configured(config, isolated)
         skipped: list[str] | None = [] if view.verbose else None
-        inputs = decks.collect(configured.wanted, configured=configured, skipped=skipped, force_exclude=force_exclude)
+        inputs = decks.collect(configured.includes, configured=configured, skipped=skipped, force_exclude=force_exclude)
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))

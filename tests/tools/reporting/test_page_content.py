@@ -78,6 +78,10 @@ def test_the_page_has_the_qualifications_of_evaluate(tmp_path: Path) -> None:
 def test_five_numbers_beside_the_verdict(tmp_path: Path) -> None:
     text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="verdict")
     assert row_of(text, "305.1") == "305.1 | 305.1 | 0.0366 | 283300 | 0.7325"
+    assert "at the deck&#39;s own coordinates; no load case is solved" in text
+    assert "at the resting shape; no load case is solved" in made(
+        tmp_path, str(SAMPLES / "scr-vessel.keyxm"), "--rest-shape", sections="verdict"
+    )
     text = made(tmp_path, str(SAMPLES / "full-cycle.keyxm"), sections="verdict")
     (codes,) = re.findall("warnings about these numbers: (.*?)</p>", text)
     warned = run("evaluate", str(SAMPLES / "full-cycle.keyxm")).err

@@ -12,7 +12,7 @@ import pytest
 
 import mudline
 from mudline.tools.touchdown_study import accuracy, stability
-from mudline.tools.touchdown_study.screen import extremes_table
+from mudline.tools.touchdown_study.screen import extremes_table, steps_table
 from mudline.tools.touchdown_study.study import Study, study
 from mudline.tools.touchdown_study.zone import Variant, Zone, touchdown_zone
 from tests.helpers.samples import SAMPLES
@@ -319,6 +319,14 @@ def test_extremes_of_a_short_step_are_run_with_a_longer_one(monkeypatch: pytest.
     table = extremes_table(found)
     assert table is not None
     assert table.title == "Stiff and extreme: 160 ms, as 20 ms would take long, and what half of it changes"
+
+
+def test_the_row_of_the_mesh_names_the_length_where_there_is_one() -> None:
+    found = sample("scr-dynamic.keyxm")
+    assert found.mesh is not None
+    uneven = replace(found, mesh=found.mesh._replace(element_length=(4.0, 2.0)))
+    tables = steps_table(found), steps_table(uneven)
+    assert [table.rows[-1][0] for table in tables if table] == ["2 m -> 1 m", "elements halved"]
 
 
 def test_friction_stands_against_the_step() -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import number
@@ -39,18 +40,17 @@ def repeated_depth(context: LintContext) -> Iterator[Problem]:
 
     Finds: 22:8
     """
-    for where, block in context.scene.deck.blocks_that(lambda declared: declared.facts.soil_springs):
-        for index, entry in enumerate(block.sets):
-            before: list[float] = []
-            for at, curve in enumerate(entry.curves):
-                depth = number(curve, "depth", math.inf)  # one that is not known is deeper than all others
-                place = where.inside("sets", index, "curves", at, "depth")
-                if depth in before and depth < math.inf:
-                    yield Problem(CRV015, f"there is already a curve at depth {depth:g}: correct one", where=place)
-                elif before and depth < max(before):
-                    message = f"depth {depth:g} follows {max(before):g}: write the curves from the mudline downwards"
-                    yield Problem(CRV015, message, where=place, severity=Severity.INFO)
-                before.append(depth)
+    for place, curves in _springs(context):
+        before: list[float] = []
+        for at, curve in enumerate(curves):
+            depth = number(curve, "depth", math.inf)  # one that is not known is deeper than all others
+            where = place.inside(at, "depth")
+            if depth in before and depth < math.inf:
+                yield Problem(CRV015, f"there is already a curve at depth {depth:g}: correct one", where=where)
+            elif before and depth < max(before):
+                message = f"depth {depth:g} follows {max(before):g}: write the curves from the mudline downwards"
+                yield Problem(CRV015, message, where=where, severity=Severity.INFO)
+            before.append(depth)
 
 
 @rule(CRV016)
@@ -74,17 +74,22 @@ def soil_gains_again(context: LintContext) -> Iterator[Problem]:
 
     Finds: 22:2
     """
+    for place, curves in _springs(context):
+        for at, curve in enumerate(curves):
+            if isinstance(curve.points, Table) and (lowest := _gains_again(curve.points)) is not None:
+                resistance, displacement = (float(curve.points.column(each)[lowest]) for each in (0, 1))
+                message = (
+                    f"resistance falls to {resistance:g} at {displacement:g} and rises again farther out, as no soil "
+                    "does that has softened: correct a point, or leave it if it was measured"
+                )
+                yield Problem(CRV016, message, where=place.inside(at, "points", lowest))
+
+
+def _springs(context: LintContext) -> Iterator[tuple[Where, list[Any]]]:
+    """Return the curves of each set of soil springs, and their place."""
     for where, block in context.scene.deck.blocks_that(lambda declared: declared.facts.soil_springs):
         for index, entry in enumerate(block.sets):
-            for at, curve in enumerate(entry.curves):
-                if isinstance(curve.points, Table) and (lowest := _gains_again(curve.points)) is not None:
-                    resistance, displacement = (float(curve.points.column(each)[lowest]) for each in (0, 1))
-                    message = (
-                        f"resistance falls to {resistance:g} at {displacement:g} and rises again farther out, as no "
-                        "soil does that has softened: correct a point, or leave it if it was measured"
-                    )
-                    place = where.inside("sets", index, "curves", at, "points", lowest)
-                    yield Problem(CRV016, message, where=place)
+            yield where.inside("sets", index, "curves"), entry.curves
 
 
 def _gains_again(points: Table) -> int | None:

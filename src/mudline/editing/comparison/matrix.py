@@ -48,8 +48,8 @@ def matrix(differences: Sequence[Sequence[Difference]]) -> list[DiffRow]:
     ]
     with_more = {prefix for _, where in base for prefix in accumulate(where.split("/")[:-1], "{}/{}".format)}
     order = {group: place for place, group in enumerate(dict.fromkeys(row.group for row in rows))}
-    told = [row for row in rows if row.where not in with_more or any(one not in (GIVEN, None) for one in row.values)]
-    return sorted(told, key=lambda row: order[row.group])
+    listed = [row for row in rows if row.where not in with_more or any(one not in (GIVEN, None) for one in row.values)]
+    return sorted(listed, key=lambda row: order[row.group])
 
 
 def _apart(differences: Sequence[Sequence[Difference]]) -> list[list[tuple[_Key, Difference]]]:

@@ -235,7 +235,7 @@ SYN018 = Code(
     "not-a-deck",
     Severity.ERROR,
     """
-    The file is no deck, or two versions of one that were not merged.
+    The file is not a deck, or holds two versions of one that were not merged.
 
     A merge that stopped at a conflict leaves both versions in the file, between marks of `<`, `=` and `>`: nobody knows
     which lines hold, so none is read. A pointer of Git LFS stands where `git lfs pull` was forgotten, a web page where

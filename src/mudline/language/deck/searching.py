@@ -53,6 +53,11 @@ def is_key_file(path: str) -> bool:
         return False
 
 
+def may_be_deck(path: str) -> bool:
+    """Return whether a path is a file, or cannot be looked at, and not the key of a password manager."""
+    return may_be_file(path) and not is_key_file(path)
+
+
 def may_be_file(path: str) -> bool:
     """Whether a path is a file, or cannot be looked at; not a hidden link to nothing: editors lock files by such."""
     try:

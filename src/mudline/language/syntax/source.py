@@ -164,7 +164,7 @@ _INSTEAD = {
 
 
 def _not_a_deck(text: str) -> Problem | None:
-    """What a text is that is no deck; None for one that may be."""
+    """Return the finding on a text that is not a deck; None for one that may be."""
     if found := _NO_DECK.match(text):
         return Problem(SYN018, _INSTEAD[str(found.lastgroup)], Span(*found.span()))
     marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern takes long in a large file

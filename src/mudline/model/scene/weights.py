@@ -26,7 +26,7 @@ class Contents(NamedTuple):
     """What is in the elements (m,) in a load case, in the deck's units; 0 where nothing is.
 
     `number` counts the load cases of the file from 1. `mass` is per length of pipe. What an earlier load case fills
-    stays as it is until a later one fills it anew.
+    stays as it is until a later one gives its contents again.
     """
 
     number: int

@@ -168,6 +168,7 @@ def _figures(made: Report, contact: dict[str, Any] | None, missing: str) -> dict
         "depth": None if contact["deepest"] is None else contact["deepest"]["depth"],
         "reaction": contact["reaction"],
         "ratio": contact["ratio"],
+        "positions": contact["positions"],
         "weights_without": contact["weights_without"],
         "warnings": sorted({one["code"] for one in contact["warnings"]}),
         "missing": "",

@@ -67,12 +67,19 @@ def _more(count: int, what: str) -> str:
     return f"{counted(count, f'more {what}')}: the JSON of this report has all" if count > 0 else ""
 
 
+_SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shape"}
+"""Where the line is in the numbers of a page, by the source of its positions."""
+
+
 def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
     """Return the five numbers beside the verdict as a table of one row."""
     places = [float(four_digits(place)) for place in found["touchdown"]]
     words = touchdown_words(places, found["contact_length"], found["length"], _MOST_TOUCHDOWNS)
     doubt = f"warnings about these numbers: {', '.join(found['warnings'])}" if found["warnings"] else ""
-    notes = filter(None, [weight_note(found["weights_without"]), doubt])
+    notes = filter(
+        None,
+        [f"at {_SHAPES[found['positions']]}; no load case is solved", weight_note(found["weights_without"]), doubt],
+    )
     columns = (
         number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
@@ -193,9 +200,10 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     if deepest := found["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    shape = "the resting shape" if found["positions"] == "rest shape" else "the deck's own coordinates"
     notes = [weight_note(found["weights_without"]), *found["notes"]]
-    yield _on_page(DisplayTable(f"Equilibrium of {shape}", _FIGURES, figures, "; ".join(filter(None, notes))))
+    yield _on_page(
+        DisplayTable(f"Equilibrium of {_SHAPES[found['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes)))
+    )
     yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from mudline.basics.quantities import headed, shown, unit_names
 from mudline.basics.short_repr import cut
 from mudline.model.scene.load_case import in_words
@@ -80,9 +82,11 @@ def steps_table(found: Study) -> ScreenTable | None:
     rows = [_step_cells(found, row) for row in found.steps]
     if found.mesh is not None:
         unit = unit_names(found.units).behind("length")
-        whole, half = (f"{each:.3g}{unit}" for each in found.mesh.element_length)
+        own, half = found.mesh.element_length
+        even = found.zone is None or bool(np.allclose(found.zone.beam.lengths[found.zone.landing], own, rtol=0.01))
+        row = f"{own:.3g}{unit} -> {half:.3g}{unit}" if even else "elements halved"
         shares = found.mesh.changes or (None, None, None)
-        rows.append([f"{whole} -> {half}", "", *(_share(each) for each in shares), "", "", ""])
+        rows.append([row, "", *(_share(each) for each in shares), "", "", ""])
     title = "Errors of the time step, and of the elements"
     return ScreenTable(title, heads, rows, heads[:1], _mesh_note(found))
 

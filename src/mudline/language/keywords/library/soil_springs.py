@@ -12,8 +12,6 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import OF_ITS_CURVE, SOIL_CURVES, Usual
 from mudline.language.keywords.values import Facts, Ident, Name, Names, Other, Real
 
-_SOIL_POINTS = "points of the curve: resistance and displacement"
-
 
 class SoilPoint(Row):
     """A point of a curve: resistance first."""
@@ -34,6 +32,16 @@ class SoilPoint(Row):
     ]
 
 
+_CURVE = curve_points(
+    SoilPoint,
+    "points of the curve: resistance and displacement",
+    "soil spring curve",
+    abscissa="displacement",
+    ends="value",
+    usual=SOIL_CURVES,
+)
+
+
 class DepthCurve(OpenRecord):
     """The curve of a depth."""
 
@@ -49,14 +57,7 @@ class DepthCurve(OpenRecord):
     ]
     points: Annotated[
         Table,
-        curve_points(
-            SoilPoint,
-            _SOIL_POINTS,
-            "soil spring curve",
-            abscissa="displacement",
-            ends="value",
-            usual=SOIL_CURVES,
-        ),
+        _CURVE,
     ]
 
 
@@ -70,14 +71,7 @@ class NodeCurve(OpenRecord):
     ]
     points: Annotated[
         Table,
-        curve_points(
-            SoilPoint,
-            _SOIL_POINTS,
-            "soil spring curve",
-            abscissa="displacement",
-            ends="value",
-            usual=SOIL_CURVES,
-        ),
+        _CURVE,
     ]
 
 
