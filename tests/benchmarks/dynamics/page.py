@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import log2
 
-from tests.benchmarks.dynamics.beam import DECKS
 from tests.benchmarks.dynamics.peers import CORRECTED, HELD, LOWERED, PULLED, REST
-from tests.benchmarks.dynamics.schemes import DECK
 from tests.benchmarks.studies.schemes import SCHEMES
 from tests.benchmarks.tables import Row, load, table
 
@@ -15,13 +13,6 @@ CLOSE = 0.01
 """What a run may be off to be called good enough: of the peak force, of the force (root mean square), of the work."""
 CLOSE_TOUCHDOWN = 0.02
 """The same for the touchdown point, root mean square, m."""
-_KEYWORDS = {
-    "EA": "*GEOMETRIC SETS",
-    "EI": "*GEOMETRIC SETS",
-    "linear": "*SEABED PROPERTIES",
-    "suction": "*SEABED SUCTION",
-    "friction": "*SEABED FRICTION",
-}
 
 
 def short(value: float) -> str:
@@ -33,44 +24,6 @@ def power(value: str | float) -> str:
     """A small number, with one digit."""
     number = float(value)
     return f"{number:.0e}".replace("e-0", "e-").replace("e+0", "e") if number else "0"
-
-
-def deck_line(what: str) -> int:
-    """The line of the deck where the keyword stands that a limit comes from."""
-    keyword = _KEYWORDS[what.replace(",", "").split()[0]]
-    return (DECKS / DECK).read_text(encoding="utf-8").splitlines().index(keyword) + 1
-
-
-def _limits() -> str:
-    shown = ("central-difference", "velocity-verlet", "rk4")
-    cells = [
-        [
-            row["what"],
-            str(deck_line(row["what"])),
-            f"{float(row['value']):,.0f} {row['unit']}" if row["value"] else "",
-            *(f"{float(row[heading]):.1f}" if row[heading] else "" for heading in ("omega [rad/s]", "rate [1/s]")),
-            *(f"{1000 * float(row[f'{name} [s]']):.1f}" for name in shown),
-        ]
-        for row in load("benchmark-limits")
-    ]
-    heads = [f"{SCHEMES[name].title} below [ms]" for name in shown]
-    return table(["what", "deck line", "largest", "omega [rad/s]", "c / m [1/s]", *heads], cells)
-
-
-def _reference() -> str:
-    names = ("displacement [m]", "force [N]", "seabed work [J]", "touchdown [m]")
-    keys = [f"to the tightest: {names[0]}", *names[1:]]
-    cells = [
-        [
-            power(row["relative tolerance"]),
-            row["events"],
-            f"{int(row['evaluations']):,}",
-            power(row["energy balance [J]"]),
-            *(power(row[key]) if row[key] else "" for key in keys),
-        ]
-        for row in load("benchmark-reference")
-    ]
-    return table(["tolerance", "events", "evaluations", "energy balance [J]", *names], cells)
 
 
 # -------------------------------------------------------------------------------------------------------------- schemes
@@ -110,12 +63,6 @@ def _order(own: dict[float, Row], heading: str) -> str:
         return ""
     fine, coarse = abs(fine), abs(coarse)
     return f"{log2(coarse / fine) + 0.0:.1f}".replace("-0.0", "0.0") if fine > 1e-9 and coarse > 0.0 else ""
-
-
-def _failures() -> str:
-    failed = [row for row in load("benchmark-schemes") if row["failure"]]
-    rows = [[row["title"], f"{1000 * _step(row):g} ms", row["failure"]] for row in failed]
-    return table(["scheme", "step [ms]", "at"], rows)
 
 
 def cheapest(runs: Iterable[Row]) -> dict[str, Row]:
@@ -199,13 +146,7 @@ def _bounces() -> str:
 
 
 TABLES = {
-    "limits": _limits,
-    "reference": _reference,
     "touchdown": lambda: _matrix("touchdown rms [m]", "Touchdown, mm", 1000.0),
-    "peak-force": lambda: _matrix("peak force", "Peak force, %", 100.0),
-    "seabed-work": lambda: _matrix("seabed work", "Work of the seabed, %", 100.0),
-    "energy": lambda: _matrix("energy balance", "Energy balance, %", 100.0),
-    "failures": _failures,
     "enough": _enough,
     "chains-at-rest": lambda: _chains(REST, ("published", LOWERED, "catenary", CORRECTED, "mudline", "MoorDyn")),
     "chains-pulled": lambda: _chains(

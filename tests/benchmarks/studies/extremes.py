@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tests.benchmarks.tables import Cell, digits, load, save, table
+from tests.benchmarks.tables import Cell, save
 from tests.model.contact.extreme_decks import FAMILIES, Verdict, judge
 
 NAME = "stability-ladder"
@@ -28,10 +28,5 @@ def run(progress: Callable[[str], None]) -> None:
     save(NAME, heads, rows)
 
 
-def _table() -> str:
-    rows = load(NAME)
-    texts = {"number", "values"}
-    return table(list(rows[0]), [[cell if key in texts else digits(cell) for key, cell in row.items()] for row in rows])
-
-
-TABLES = {"ladder": _table}
+TABLES: dict[str, Callable[[], str]] = {}
+"""None: the page says in words what the file has."""

@@ -119,9 +119,9 @@ def run(progress: Callable[[str], None]) -> None:
     save(RELEASE, ["velocity [m/s]", "needed [N/m2]", *(f"at {share:g} of it" for share in SHARES)], found)
 
 
-def _all(name: str) -> str:
-    rows = load(name)
+def _release() -> str:
+    rows = load(RELEASE)
     return table(list(rows[0]), [[digits(cell) for cell in row.values()] for row in rows])
 
 
-TABLES = {"newton": lambda: _all(CYCLES), "release": lambda: _all(RELEASE)}
+TABLES = {"release": _release}

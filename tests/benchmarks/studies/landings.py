@@ -149,17 +149,6 @@ def _draw_gain(gains: Mapping[str, Sequence[tuple[float, float]]], figure: Figur
     legend_below(figure, axes)
 
 
-def _landings() -> str:
-    rows = [row for row in load(LANDINGS) if row["omega dt [-]"] in {"0.1", "0.5", "1.0", "1.9", "10.0"}]
-    return pivot(
-        rows,
-        "scheme",
-        "omega dt [-]",
-        lambda row: " / ".join(f"{float(row[key]):.4f}" for key in ("least [-]", "mean [-]", "largest [-]")),
-        lambda omega_dt: f"omega dt = {float(omega_dt):g}",
-    )
-
-
 def _limits() -> str:
     last = digits(TRIED[-1])
 
@@ -187,4 +176,4 @@ def _seabeds() -> str:
     return pivot(load(LIMITS), "scheme", "seabed", lambda row: digits(row["within 1 % up to [-]"]) or "none")
 
 
-TABLES = {"landings": _landings, "landing-limits": _limits, "landing-seabeds": _seabeds}
+TABLES = {"landing-limits": _limits, "landing-seabeds": _seabeds}

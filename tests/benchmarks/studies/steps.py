@@ -154,15 +154,4 @@ def _cells(row: Row) -> str:
     return "; ".join(parts)
 
 
-def _time(row: Row) -> str:
-    """The run time for 1 % in times that of velocity Verlet."""
-    key = "run time for 1 % [s/s]"
-    verlet = next(one for one in load(NAME) if one["case"] == row["case"] and one["scheme"] == "velocity Verlet")
-    return f"{float(row[key]) / float(verlet[key]):.1f}" if row[key] else "none"
-
-
-TABLES = {
-    "goals": lambda: pivot(load(NAME), "scheme", "case", _cells),
-    "orders": lambda: pivot(load(NAME), "scheme", "case", lambda row: f"{float(row['order']):.1f}"),
-    "run-times": lambda: pivot(load(NAME), "scheme", "case", _time),
-}
+TABLES = {"goals": lambda: pivot(load(NAME), "scheme", "case", _cells)}
