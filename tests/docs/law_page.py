@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from math import isnan
 
 from mudline.model.contact.laws import BUILT_IN, Law, Parameter, law_named
@@ -34,7 +35,8 @@ def _section(law: Law) -> str:
     facts += ["needs a diameter"] * law.needs_diameter + ["has a history"] * law.history
     equation = f"    {law.equation}\n\n" if law.equation else ""
     source = f"Source: {law.source}.\n" if law.source else ""
-    rows = "".join(_row(parameter) for parameter in law.parameters)
+    alike = groupby(law.parameters, key=_cells)
+    rows = "".join(_row([each.name for each in group], cells) for cells, group in alike)
     table = (
         f"| parameter | unit | range | default | meaning |\n| --- | --- | --- | --- | --- |\n{rows}\n" if rows else ""
     )
@@ -43,7 +45,11 @@ def _section(law: Law) -> str:
     return f"## {law.name}\n\n{what}; {', '.join(facts)}.\n\n{equation}{table}{source}{picture}"
 
 
-def _row(parameter: Parameter) -> str:
+def _cells(parameter: Parameter) -> tuple[str, ...]:
+    """Unit, range, default and meaning: neighbours with the same share a row."""
     default = "" if parameter.default is None else "none" if isnan(parameter.default) else f"{parameter.default:g}"
-    meaning = parameter.meaning.replace("|", "\\|")
-    return f"| `{parameter.name}` | {parameter.unit} | {parameter.valid_range} | {default} | {meaning} |\n"
+    return parameter.unit, parameter.valid_range, default, parameter.meaning.replace("|", "\\|")
+
+
+def _row(names: list[str], cells: tuple[str, ...]) -> str:
+    return f"| {', '.join(f'`{name}`' for name in names)} | {' | '.join(cells)} |\n"

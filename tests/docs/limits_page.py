@@ -1,4 +1,4 @@
-"""The page of limits, made from `mudline.basics.limits`: each with its value and its reason."""
+"""The page of limits, made from `mudline.basics.limits`: each with its value; the reasons stand there."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from mudline.basics import limits
 
 _HEAD = """# Limits
 
-What guards against hostile or huge input, and how much a message shows. Where a limit refuses something, the message
-says so with its line. A number that belongs to a file format or to one algorithm is not here.
+These limits guard against hostile or huge input, and bound what a message shows. A message names the line that a
+limit refuses. The reasons are in `src/mudline/basics/limits.py`.
 """
 _GROUP = re.compile(r"^# -+ (.+)$", re.MULTILINE)
 
 
 def limits_page() -> str:
-    """The limits in their groups, each with its value and its reason."""
+    """Return the limits in their groups, each with its value."""
     _, *parts = _GROUP.split(getsource(limits))
     groups = zip(parts[::2], parts[1::2], strict=True)
     return _HEAD + "".join(f"\n## {title.capitalize()}\n\n{_table(source)}" for title, source in groups)
 
 
 def _table(source: str) -> str:
-    return "| limit | value | of what, and why |\n| --- | --- | --- |\n" + "".join(_rows(source))
+    return "| limit | value | of |\n| --- | --- | --- |\n" + "".join(_rows(source))
 
 
 def _rows(source: str) -> Iterator[str]:
@@ -35,4 +35,4 @@ def _rows(source: str) -> Iterator[str]:
             name = ast.unparse(limit.targets[0])
             value = getattr(limits, name)
             shown = f"{value:,}" if isinstance(value, int) else f"{value:g}"
-            yield f"| `{name}` | {shown} | {ast.literal_eval(reason.value)} |\n"
+            yield f"| `{name}` | {shown} | {ast.literal_eval(reason.value).partition(': ')[0].rstrip('.')} |\n"

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import log2
 
 from tests.benchmarks.dynamics.peers import CORRECTED, HELD, LOWERED, PULLED, REST
-from tests.benchmarks.studies.schemes import SCHEMES
 from tests.benchmarks.tables import Row, load, table
 
 CLOSE = 0.01
@@ -15,54 +13,11 @@ CLOSE_TOUCHDOWN = 0.02
 """The same for the touchdown point, root mean square, m."""
 
 
-def short(value: float) -> str:
-    """Two digits, or all in front of the point."""
-    return f"{value:.0f}" if abs(value) >= 10.0 else f"{value:.2g}"
-
-
-def power(value: str | float) -> str:
-    """A small number, with one digit."""
-    number = float(value)
-    return f"{number:.0e}".replace("e-0", "e-").replace("e+0", "e") if number else "0"
-
-
 # -------------------------------------------------------------------------------------------------------------- schemes
 
 
 def _step(row: Row) -> float:
     return float(row["step [s]"])
-
-
-def _matrix(heading: str, title: str, factor: float) -> str:
-    """Errors of all schemes over the steps, and the order of the last halving."""
-    runs = load("benchmark-schemes")
-    steps = sorted({_step(row) for row in runs}, reverse=True)
-    rows = []
-    for name in dict.fromkeys(row["scheme"] for row in runs):
-        own = {_step(row): row for row in runs if row["scheme"] == name}
-        cells = [_cell(own.get(step), heading, factor) for step in steps]
-        rows.append([SCHEMES[name].title, *cells, _order(own, heading)])
-    return table([title, *(f"{1000 * step:g} ms" for step in steps), "order"], rows)
-
-
-def _cell(row: Row | None, heading: str, factor: float) -> str:
-    if row is None:
-        return ""
-    if row["failure"]:
-        return "fails"
-    value = factor * float(row[heading])
-    return power(value) if abs(value) < 1e-3 else f"{value:.3g}"
-
-
-def _order(own: dict[float, Row], heading: str) -> str:
-    last = [own[step] for step in sorted(own)[:2]]
-    if any(row["failure"] for row in last):
-        return ""
-    fine, coarse = (float(row[heading]) for row in last)
-    if fine * coarse < 0.0:  # the error passes zero
-        return ""
-    fine, coarse = abs(fine), abs(coarse)
-    return f"{log2(coarse / fine) + 0.0:.1f}".replace("-0.0", "0.0") if fine > 1e-9 and coarse > 0.0 else ""
 
 
 def cheapest(runs: Iterable[Row]) -> dict[str, Row]:
@@ -134,23 +89,10 @@ def _chains(when: str, sources: tuple[str, ...]) -> str:
     return table(["", *heads], rows)
 
 
-def _bounces() -> str:
-    heads = ("to 0.5 s [m]", "to 1 s [m]", "to 2 s [m]")
-    return table(
-        ["step [ms]", *(head.replace("[m]", "[mm]") for head in heads)],
-        [
-            [f"{1000 * _step(row):.3g}", *(short(1000 * float(row[head])) for head in heads)]
-            for row in load("benchmark-bouncing")
-        ],
-    )
-
-
 TABLES = {
-    "touchdown": lambda: _matrix("touchdown rms [m]", "Touchdown, mm", 1000.0),
     "enough": _enough,
     "chains-at-rest": lambda: _chains(REST, ("published", LOWERED, "catenary", CORRECTED, "mudline", "MoorDyn")),
     "chains-pulled": lambda: _chains(
         PULLED, ("no: catenary", "no: mudline", "FricDamp 200: MoorDyn", "yes: catenary", "yes: mudline")
     ),
-    "bounces": _bounces,
 }

@@ -20,7 +20,7 @@ PARTS = {
     "extremes": extremes,
     "pruning": pruning,
 }
-TABLES = {name: made for part in PARTS.values() for name, made in part.TABLES.items()}
+TABLES = {**curves.TABLES, **steps.TABLES, **landings.TABLES, **friction.TABLES, **pruning.TABLES}
 PAGES = ("precision", "stability", "pruning")
 
 

@@ -11,7 +11,7 @@ from mudline.model.contact.arrays import FloatArray
 from tests.benchmarks.studies.limits import critical_step
 from tests.benchmarks.studies.motion import Forces, History, Motion, Scheme, march
 from tests.benchmarks.studies.schemes import SCHEMES
-from tests.benchmarks.tables import Cell, digits, load, save, table
+from tests.benchmarks.tables import Cell, save
 
 NAME = "stability-critical-steps"
 SHARES = (0.99, 1.01)
@@ -57,16 +57,3 @@ def run(progress: Callable[[str], None]) -> None:
             tried = np.array([FAR]) if limit == np.inf else np.array(SHARES) * limit if limit else np.array([1.0])
             rows.append([scheme.title, name, limit, *(str(one) for one in grows(scheme, omega, gamma, tried))])
     save(NAME, ("scheme", "contact", "critical step [s]", "grows below", "grows above"), rows)
-
-
-def _table() -> str:
-    rows = [row for row in load(NAME) if row["critical step [s]"] != "inf"]
-    head = ["scheme", *CONTACTS]
-    titles = dict.fromkeys(row["scheme"] for row in rows)
-    return table(
-        head,
-        [[title, *(digits(row["critical step [s]"], 4) for row in rows if row["scheme"] == title)] for title in titles],
-    )
-
-
-TABLES = {"critical-steps": _table}

@@ -19,7 +19,7 @@ from scipy.interpolate import PchipInterpolator, PPoly
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.curves import ForceCurve
 from tests.benchmarks.studies.laws import CLAY, DIAMETER
-from tests.benchmarks.tables import digits, load, save, table
+from tests.benchmarks.tables import load, save, table
 from tests.model.contact.exact import ExactCurve
 
 CURVES, BACKBONES = "precision-curves", "precision-backbones"
@@ -142,11 +142,4 @@ def _sampled() -> str:
     )
 
 
-def _methods() -> str:
-    rows = load(CURVES)
-    return table(
-        list(rows[0]), [[row["method"], *(digits(cell, 2) for cell in list(row.values())[1:])] for row in rows]
-    )
-
-
-TABLES = {"curves": _methods, "backbones": _sampled}
+TABLES = {"backbones": _sampled}

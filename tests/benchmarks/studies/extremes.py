@@ -26,7 +26,3 @@ def run(progress: Callable[[str], None]) -> None:
         )
     heads = ("number", "values", "decks", *(str(verdict) for verdict in Verdict), "results", "largest error [2^-53]")
     save(NAME, heads, rows)
-
-
-TABLES: dict[str, Callable[[], str]] = {}
-"""None: the page says in words what the file has."""

@@ -21,7 +21,7 @@ from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, CurveLaw, Fallin
 from tests.benchmarks.studies.motion import Motion, Scheme, march
 from tests.benchmarks.studies.motions import JUMPING
 from tests.benchmarks.studies.schemes import STABLE
-from tests.benchmarks.tables import digits, load, pivot, save, table
+from tests.benchmarks.tables import digits, load, save, table
 
 LANDINGS, LIMITS = "stability-landings", "stability-landing-limits"
 SCHEMES = {name: scheme for name, scheme in STABLE.items() if name != "central-difference"}
@@ -172,8 +172,4 @@ def _limits() -> str:
     )
 
 
-def _seabeds() -> str:
-    return pivot(load(LIMITS), "scheme", "seabed", lambda row: digits(row["within 1 % up to [-]"]) or "none")
-
-
-TABLES = {"landing-limits": _limits, "landing-seabeds": _seabeds}
+TABLES = {"landing-limits": _limits}

@@ -273,10 +273,4 @@ def _stage_table() -> str:
     )
 
 
-def _growth_table() -> str:
-    rows = load(GROWTH)
-    cells = [[cell if key == "number of" else digits(cell, 2) for key, cell in row.items()] for row in rows]
-    return table(list(rows[0]), cells)
-
-
-TABLES = {"stages": _stage_table, "growth": _growth_table}
+TABLES = {"stages": _stage_table}
