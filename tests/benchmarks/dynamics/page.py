@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tests.benchmarks.dynamics.peers import CORRECTED, HELD, LOWERED, PULLED, REST
+from tests.benchmarks.dynamics.peers import CORRECTED, LOWERED, REST
 from tests.benchmarks.tables import Row, load, table
 
 CLOSE = 0.01
@@ -61,38 +61,21 @@ def _enough() -> str:
 # ------------------------------------------------------------------------------------------------------- other programs
 
 
-def _chains(when: str, sources: tuple[str, ...]) -> str:
-    """Tensions of both ends in each depth, by source; `no: mudline` is that without friction."""
-    chains = load("benchmark-chains")
+def _chains_at_rest() -> str:
+    """Tensions of both ends in each depth, by source, without friction."""
+    sources = ("published", LOWERED, "catenary", CORRECTED, "mudline", "MoorDyn")
+    chains = [row for row in load("benchmark-chains") if row["when"] == REST]
 
     def tension(depth: str, source: str, end: str) -> str:
-        kind, _, name = source.rpartition(": ")
-        # MoorDyn moves while it is pulled: what is at rest is compared with what it has after the hold
-        at = HELD if when == PULLED and name == "MoorDyn" else when
-        row = next(
-            one
-            for one in chains
-            if (one["depth [m]"], one["when"]) == (depth, at)
-            and one["source"].startswith(name)
-            and (not kind or one["friction"] == kind)
-        )
+        row = next(one for one in chains if one["depth [m]"] == depth and one["source"].startswith(source))
         return f"{float(row[end]):.1f}"
 
-    heads = [
-        source.replace("no: ", "no friction, ").replace("yes: ", "friction, ").replace(": ", ", ") for source in sources
-    ]
     rows = [
         [f"{depth} m, {end.removesuffix(' [kN]')}", *(tension(depth, source, end) for source in sources)]
         for depth in dict.fromkeys(row["depth [m]"] for row in chains)
         for end in ("fairlead [kN]", "anchor [kN]")
     ]
-    return table(["", *heads], rows)
+    return table(["", *sources], rows)
 
 
-TABLES = {
-    "enough": _enough,
-    "chains-at-rest": lambda: _chains(REST, ("published", LOWERED, "catenary", CORRECTED, "mudline", "MoorDyn")),
-    "chains-pulled": lambda: _chains(
-        PULLED, ("no: catenary", "no: mudline", "FricDamp 200: MoorDyn", "yes: catenary", "yes: mudline")
-    ),
-}
+TABLES = {"enough": _enough, "chains-at-rest": _chains_at_rest}
