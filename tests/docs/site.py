@@ -59,6 +59,8 @@ _TARGET = re.compile(r"(?<=\]\()(?![a-z]+:)([^)\s#]*)(?:#([^)\s]*))?(?=[)\s])")
 _COMMAND = re.compile(r"^## mudline (\w+)$", re.MULTILINE)
 _OPTIONS = re.compile(r"^\| option \|.*\n(?:\|.*\n)+", re.MULTILINE)
 _HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
+_COMMON = "\nNot listed here: the [common options](#common-options).\n"
+"""What follows the options on the page of a command."""
 
 
 # ------------------------------------------------------------------------------------------------------ all of the site
@@ -138,6 +140,7 @@ def _command_pages() -> dict[str, str]:
         listed = f"{options[0]}\n" if options else ""
         page = f"commands/mudline-{name}.md"
         kept += [f"## mudline {name}\n\n{about}\n\n{listed}[More on `mudline {name}`]({page})\n{mark}{behind}"]
+        body = _OPTIONS.sub(lambda table: f"{table[0]}{_COMMON}", f"{body}\n", count=1)
         pages[page] = f"# mudline {name}\n" + re.sub(r"^##(#+) ", r"#\1 ", body, flags=re.MULTILINE)
     return {"cli.md": "\n".join(kept)} | pages
 
