@@ -99,7 +99,7 @@ def judge(context: LintContext) -> Judgement:
 
 
 def judge_content(data: bytes, name: str, units: str | None, folder: Path | None) -> Judgement:
-    """Return the verdict on the content of a file, in whatever form; `folder` is where files are that the deck names."""
+    """Return the verdict on the content of a file in any form; `folder` is where files that the deck names are."""
     try:
         deck = load_bytes(data, name, units=units, folder=folder)
     except DeckError as error:
