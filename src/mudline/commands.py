@@ -177,7 +177,7 @@ def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
 def validate(
     path: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], *, units: str | None = None
 ) -> list[Judgement]:
-    """Return of each deck whether it is legal: its `verdict` with counts, its `errors` and its `warnings`.
+    """Return the judgement on each deck: its `verdict` (`ok`, counts, `str()`), its `errors` and its `warnings`.
 
     Args:
         path: a file, a folder with decks below it, or several of them.

@@ -81,7 +81,7 @@ def test_validate_judges_files_and_folders(tmp_path: Path) -> None:
     (tmp_path / "bad.json").write_text('{"format": "mudline-deck/1"}', encoding="utf-8")
     (tmp_path / "notes.txt").write_text("no deck", encoding="utf-8")
     found = mudline.validate(tmp_path)
-    assert [(Path(one.verdict.file).name, one.verdict.legal) for one in found] == [
+    assert [(Path(one.verdict.file).name, one.verdict.ok) for one in found] == [
         ("bad.json", False),
         ("good.keyxm", True),
     ]
@@ -194,8 +194,8 @@ def test_report_writes_the_pages_of_the_command(tmp_path: Path) -> None:
     head: dict[str, Any] = {"title": "Field", "revision": "B", "date": "today"}
     rows = mudline.report(tmp_path / "decks", tmp_path / "one.html", fields={"Client": "Us"}, **head)
     assert [(Path(row["deck"]).name, row["kind"]) for row in rows] == [
-        ("broken.keyxm", "illegal"),
-        ("legacy-flowline.keyxm", "as far as read"),
+        ("broken.keyxm", "errors"),
+        ("legacy-flowline.keyxm", "no errors found"),
     ]
     options = [word for name, value in head.items() for word in (f"--{name}", value)]
     run("report", str(tmp_path / "decks"), "-o", str(tmp_path / "two.html"), "--field", "Client=Us", *options)

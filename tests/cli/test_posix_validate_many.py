@@ -17,12 +17,12 @@ from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL
 
-TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 4 errors, 2 warnings, 1 file unreadable"
+TOTAL = "4 of 7 decks have errors: 4 errors, 2 warnings, 1 file unreadable"
 
 
 @pytest.fixture
 def decks(place: Place, folder: Path) -> str:
-    """Three legal decks in three forms, two illegal, two without a section, one that is gone; and what are no decks."""
+    """Three decks without errors in three forms, four with, one that is gone; and files that are not decks."""
     place(CLEAN, "decks/a/good.keyxm")
     place(run("convert", "decks/a/good.keyxm", "--to", "json").output, "decks/b.json")
     place(run("convert", "decks/a/good.keyxm", "--to", "yaml").output, "decks/a/c.YML")
@@ -63,13 +63,13 @@ def test_decks_in_any_form_are_found(decks: str) -> None:
     assert outcome.code == 2
     assert outcome.err == "mudline: decks/gone.keyxm: no such file or directory\n"
     assert verdicts(outcome) == {
-        "decks/a/c.YML": "legal",
-        "decks/a/good.keyxm": "legal",
-        "decks/b.json": "legal",
-        "decks/bad.keyxm": "illegal",
-        "decks/bytes.das": "empty",
-        "decks/cut.json": "illegal",
-        "decks/empty.keyx": "empty",
+        "decks/a/c.YML": "no errors",
+        "decks/a/good.keyxm": "no errors",
+        "decks/b.json": "no errors",
+        "decks/bad.keyxm": "1 error",
+        "decks/bytes.das": "1 error",
+        "decks/cut.json": "1 error",
+        "decks/empty.keyx": "1 error",
     }
 
 
@@ -82,9 +82,7 @@ def test_total_counts_all(decks: str) -> None:
     assert found["total"] == {
         "keywords": keywords,
         "decks": 7,
-        "legal": 3,
-        "illegal": 2,
-        "empty": 2,
+        "ok": 3,
         "errors": 4,
         "warnings": 2,
         "unreadable": 1,
@@ -140,5 +138,5 @@ def test_no_bar_where_nobody_looks(decks: str, name: str, value: str, monkeypatc
 
 def test_colours_are_those_of_the_verdicts(place: Place) -> None:
     out = run("validate", place(), place(ILLEGAL, "bad.keyxm"), "-q", "--color", "always").out
-    assert "\x1b[32mlegal\x1b[0m" in out
-    assert "\x1b[1;31millegal\x1b[0m" in out
+    assert "\x1b[32mno errors\x1b[0m" in out
+    assert "\x1b[1;31m1 error\x1b[0m" in out

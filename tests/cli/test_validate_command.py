@@ -10,27 +10,27 @@ from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL, UNUSED
 
-COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "warnings", "verdict"]
+COLUMNS = ["file", "ok", "verdict", "errors", "warnings", "unread", "sections", "curves", "elements"]
 READ = {"total": 7, "read": 7, "partly": {}, "unread": {}}
 PARTLY = CLEAN + "$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n 1, Semi\n*GUIDE\n x\n*GUIDE\n y\n"
 AS_FAR = "7 of 10 keywords, 1 in part; not read: *GUIDE (2)"
 
 
-def test_legal_deck(place: Place) -> None:
+def test_deck_without_errors(place: Place) -> None:
     outcome = run("validate", place())
     assert (outcome.code, outcome.err) == (0, "")
     assert outcome.out.splitlines() == [
         "Decks",
-        "                 warn-   sec-  keywords           ele-",
-        "verdict  errors   ings  tions      read  curves  ments  file",
-        "──────────────────────────────────────────────────────────────────",
-        "legal         0      0      1         7       1      2  deck.keyxm",
+        "           warn-   sec-  keywords           ele-",
+        "verdict     ings  tions      read  curves  ments  file",
+        "────────────────────────────────────────────────────────────",
+        "no errors      0      1         7       1      2  deck.keyxm",
         "",
-        "1 of 1 deck legal",
+        "no errors found in 1 deck",
     ]
 
 
-def test_warnings_leave_a_deck_legal(place: Place) -> None:
+def test_warnings_are_no_errors(place: Place) -> None:
     outcome = run("validate", place(UNUSED))
     assert outcome.code == 0
     assert "REF003" not in outcome.out
@@ -42,8 +42,8 @@ def test_errors_come_before_the_table(place: Place) -> None:
     assert outcome.code == 1
     lines = outcome.out.splitlines()
     assert lines[0].startswith("bad.keyxm:20:6: error REF001")
-    assert lines[-1] == "1 of 2 decks legal: 1 illegal, 1 error"
-    assert [line.split()[0] for line in lines[-4:-2]] == ["legal", "illegal"]
+    assert lines[-1] == "1 of 2 decks has errors: 1 error"
+    assert [line.split()[0] for line in lines[-4:-2]] == ["no", "1"]
 
 
 def test_quiet_leaves_the_table(place: Place) -> None:
@@ -61,40 +61,39 @@ def test_json(place: Place) -> None:
     assert outcome.code == 1
     assert found["total"] == {
         "decks": 2,
-        "legal": 1,
-        "illegal": 1,
-        "empty": 0,
+        "ok": 1,
         "errors": 1,
         "warnings": 0,
         "unreadable": 0,
         "keywords": {"total": 14, "read": 14, "partly": {}, "unread": {}},
     }
     good, bad = found["decks"]
-    assert good == dict(zip(COLUMNS, ["good.keyxm", 1, READ, 1, 2, 0, 0, "legal"], strict=True)) | {"findings": []}
+    row = ["good.keyxm", True, "no errors", 0, 0, 0, 1, 1, 2]
+    assert good == dict(zip(COLUMNS, row, strict=True)) | {"keywords": READ, "findings": []}
     assert [each["code"] for each in bad["findings"]] == ["REF001"]
-    assert (bad["errors"], bad["verdict"]) == (1, "illegal")
+    assert (bad["ok"], bad["errors"], bad["verdict"]) == (False, 1, "1 error")
 
 
 def test_csv(place: Place) -> None:
     names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, 'b"a,d.keyxm')]
     rows = list(csv.reader(run("validate", *names, "--output-format", "csv").out.splitlines()))
     assert rows == [
-        [*COLUMNS[:3], "read", "partly", "unread", *COLUMNS[3:]],
-        ["good.keyxm", "1", "7", "7", "0", "0", "1", "2", "0", "0", "legal"],
-        ['b"a,d.keyxm', "1", "7", "7", "0", "0", "1", "2", "1", "0", "illegal"],
+        [*COLUMNS, "keywords", "read", "partly"],
+        ["good.keyxm", "true", "no errors", "0", "0", "0", "1", "1", "2", "7", "7", "0"],
+        ['b"a,d.keyxm', "false", "1 error", "1", "0", "0", "1", "1", "2", "7", "7", "0"],
     ]
 
 
-def test_a_deck_is_legal_as_far_as_it_was_read(place: Place) -> None:
+def test_the_verdict_says_how_many_keywords_were_read(place: Place) -> None:
     name = place(PARTLY)
     found = run("validate", name, "--output-format", "json").json()
     assert_fits(found, "validate")
     (row,) = found["decks"]
     assert row["keywords"] == {"total": 10, "read": 7, "partly": {"BOUNDARY": 1}, "unread": {"GUIDE": 2}}
-    assert row["verdict"] == f"legal as far as read: {AS_FAR}"
+    assert (row["ok"], row["verdict"], row["unread"]) == (True, "no errors found (7 of 10 keywords read)", 3)
     lines = run("validate", name).out.splitlines()
-    assert lines[4].split()[:7] == ["as", "far", "as", "read", "0", "0", "2"]
-    assert lines[-2] == "1 of 1 deck legal as far as read"
+    assert lines[4].split()[:5] == ["no", "errors", "found", "0", "2"]
+    assert lines[-2] == "no errors found in 1 deck"
     assert " 7 of 10 " in lines[4]
     assert lines[-1] == f"Read {AS_FAR}."
     assert run("lint", name).out.splitlines()[-1] == f"Read {AS_FAR}."
@@ -109,23 +108,23 @@ def test_what_fails(place: Place, text: str, codes: tuple[int, ...]) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "C only a comment\n"])
-def test_file_without_a_section_is_no_deck(place: Place, text: str) -> None:
+def test_file_without_a_section_has_an_error(place: Place, text: str) -> None:
     outcome = run("validate", place(text), "--output-format", "json")
     assert outcome.code == 1
-    assert outcome.json()["decks"][0]["verdict"] == "empty"
+    assert outcome.json()["decks"][0]["verdict"] == "1 error"
 
 
 def test_document_that_is_none(place: Place) -> None:
     outcome = run("validate", place("{", "deck.json"))
     assert outcome.code == 1
     assert outcome.out.startswith("deck.json:1:2: error DOC001 ")
-    assert outcome.out.splitlines()[-3].split() == ["illegal", "1", *"00000", "deck.json"]
+    assert outcome.out.splitlines()[-3].split() == ["1", "error", *"00000", "deck.json"]
 
 
-def test_path_that_is_missing_beats_a_deck_that_is_illegal(place: Place) -> None:
+def test_path_that_is_missing_beats_a_deck_with_errors(place: Place) -> None:
     outcome = run("validate", place(ILLEGAL), "nowhere")
     assert outcome.code == 2
-    assert "illegal" in outcome.out
+    assert "1 of 1 deck has errors: 1 error, 1 file unreadable" in outcome.out
 
 
 def test_nothing_to_validate_prints_no_table() -> None:
@@ -135,26 +134,32 @@ def test_nothing_to_validate_prints_no_table() -> None:
 def test_samples() -> None:
     outcome = run("validate", SAMPLES, "--output-format", "json")
     assert outcome.code == 1
-    verdicts = {row["file"].rpartition("/")[2]: row["verdict"] for row in outcome.json()["decks"]}
-    assert {verdicts.pop(f"{name}.keyxm") for name in ("broken", "scr-vessel-bad")} == {"illegal"}
-    assert {verdict.partition(":")[0] for verdict in verdicts.values()} <= {"legal", "legal as far as read"}
-    assert len(verdicts) >= 6
+    ok = {row["file"].rpartition("/")[2]: row["ok"] for row in outcome.json()["decks"]}
+    assert [ok.pop(f"{name}.keyxm") for name in ("broken", "scr-vessel-bad")] == [False, False]
+    assert all(ok.values())
+    assert len(ok) >= 6
 
 
-def test_a_deck_of_misspelt_keywords_alone_is_illegal(place: Place) -> None:
-    """As a spreadsheet saves it, with separators behind the names: nothing of it was read, so nothing is legal."""
+def test_a_deck_of_misspelt_keywords_alone_has_errors(place: Place) -> None:
+    """Each name of a spreadsheet's export, with separators behind the names, is an error; nothing is read."""
     exported = "".join(f"{line};;\n" if line[0] in "$*" else f"{line}\n" for line in CLEAN.splitlines())
     outcome = run("validate", place(exported), "--output-format", "json")
     (deck,) = outcome.json()["decks"]
     assert outcome.code == 1
-    assert (deck["verdict"], deck["keywords"]["read"], deck["warnings"]) == ("illegal", 0, 0)
+    assert (deck["ok"], deck["keywords"]["read"], deck["warnings"]) == (False, 0, 0)
     assert [each["code"] for each in deck["findings"]] == ["SYN010", *["SYN009"] * deck["keywords"]["total"]]
     assert {each["severity"] for each in deck["findings"]} == {"error"}
 
 
-def test_keywords_without_a_near_name_leave_a_deck_legal_as_far_as_read(place: Place) -> None:
+def test_keywords_without_a_near_name_are_no_errors(place: Place) -> None:
     outcome = run("validate", place("$MODEL\n*GUIDE\n x\n"), "--output-format", "json")
     assert (outcome.code, outcome.json()["decks"][0]["verdict"]) == (
         0,
-        "legal as far as read: 0 of 1 keyword; not read: *GUIDE",
+        "no errors found (0 of 1 keyword read)",
     )
+
+
+def test_an_unread_keyword_is_named_with_its_section_where_its_name_is_read_elsewhere(place: Place) -> None:
+    name = place("$MODEL\n*TIME\n x\n*GUIDE\n x\n")
+    (row,) = run("validate", name, "--output-format", "json").json()["decks"]
+    assert row["keywords"]["unread"] == {"TIME in $MODEL": 1, "GUIDE": 1}

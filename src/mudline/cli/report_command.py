@@ -110,9 +110,9 @@ def command(
     if not html:
         emit_json({"reports": contents}, output)
     elif pages.rows and pages.index is not None and not view.quiet:
-        illegal = f", {pages.illegal} of {counted(len(pages.rows), 'deck')} not legal" if pages.illegal else ""
-        notify(f"report -> {pages.index.as_posix()}{illegal}")
-    return max(inputs.code, FOUND if pages.illegal else DONE)
+        faulty = f", {pages.faulty} of {counted(len(pages.rows), 'deck')} with errors" if pages.faulty else ""
+        notify(f"report -> {pages.index.as_posix()}{faulty}")
+    return max(inputs.code, FOUND if pages.faulty else DONE)
 
 
 def _sections(text: str) -> tuple[str, ...]:

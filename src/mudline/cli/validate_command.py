@@ -1,4 +1,4 @@
-"""`mudline validate`: which decks are legal, with how many warnings, in a table, JSON or CSV. No text is kept."""
+"""`mudline validate`: errors and warnings of decks, in a table, JSON or CSV. No text is kept."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from textwrap import indent
 
 import click
@@ -28,8 +28,7 @@ from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.language.syntax.source import Source
 
 _COLUMNS = (
-    text("verdict", lambda one: (one.short, _style(good=one.legal))),
-    number("errors", "errors"),
+    text("verdict", lambda one: (one.short, _style(good=one.ok))),
     number("warn-\nings", "warnings"),
     number("sec-\ntions", "sections"),
     number("keywords\nread", lambda one: _read(one.keywords)),
@@ -46,8 +45,8 @@ _FAIL_ON = ("error", "warning", "unread")
     "--fail-on",
     type=click.Choice(_FAIL_ON),
     default="error",
-    help="Exit with 1 for an illegal deck (default), for one with warnings too, or also for one that is not read as a "
-    "whole.",
+    help="Exit with 1 for a deck with errors (default), for one with warnings too, or also for one that is not read "
+    "as a whole.",
 )
 @options.no_outside
 @options.jobs
@@ -63,9 +62,8 @@ def command(
 ) -> int:
     """Validate decks: print the errors of each, then a table with a row per deck.
 
-    A deck is legal when no rule of severity error finds anything, and when it has a section at all. Warnings are
-    counted in its verdict, those about a pipe without a seabed under it among them; -v and JSON list them too. A deck
-    of which not all keywords could be read is legal as far as it was read, and the verdict says how far that is.
+    A file without any section has an error. Warnings are those of lint, and those about a pipe without a seabed under
+    it; -v and JSON list them too. Of a deck of which not all keywords could be read the verdict says how many were.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. Of many decks -q shows the table without the errors.
@@ -81,7 +79,7 @@ def command(
         else:
             _print_text(judged, total, view)
     failing = {"error": False, "warning": total.warnings > 0, "unread": not total.keywords.whole}[fail_on]
-    return max(inputs.code, FOUND if failing or total.legal < total.decks else DONE)
+    return max(inputs.code, FOUND if failing or total.ok < total.decks else DONE)
 
 
 # -------------------------------------------------------------------------------------------------------- verdicts
@@ -89,39 +87,41 @@ def command(
 
 @dataclass(slots=True)
 class Total:
-    """Decks by verdict, their errors and warnings, and the files that could not be read, which are not counted."""
+    """Number of decks, of those without errors (`ok`), of their errors and warnings, and of unreadable files.
+
+    Files that could not be read are not among the decks.
+    """
 
     decks: int = 0
-    legal: int = 0
-    illegal: int = 0
-    empty: int = 0
+    ok: int = 0
     errors: int = 0
     warnings: int = 0
     unreadable: int = 0
     keywords: Coverage = field(default_factory=Coverage)
 
     def add(self, verdict: Verdict) -> None:
-        """Count one more deck."""
+        """Count a deck."""
         self.decks += 1
-        self.legal += verdict.legal
-        self.illegal += verdict.verdict == "illegal"
-        self.empty += verdict.verdict == "empty"
+        self.ok += verdict.ok
         self.errors += verdict.errors
         self.warnings += verdict.warnings
         self.keywords.add(verdict.keywords)
 
     def __str__(self) -> str:
-        """The total for a reader, without counts of zero."""
-        others = [
-            f"{self.illegal} illegal" if self.illegal else "",
-            f"{self.empty} empty" if self.empty else "",
+        """Return the total for a reader, without counts of zero."""
+        faulty, decks = self.decks - self.ok, counted(self.decks, "deck")
+        counts = [
             counted(self.errors, "error") if self.errors else "",
             counted(self.warnings, "warning") if self.warnings else "",
             f"{counted(self.unreadable, 'file')} unreadable" if self.unreadable else "",
         ]
-        rest = ", ".join(filter(None, others))
-        legal = "legal" if self.keywords.whole else "legal as far as read"
-        return f"{self.legal} of {counted(self.decks, 'deck')} {legal}" + (f": {rest}" if rest else "")
+        head = (
+            f"{faulty} of {decks} {'has' if faulty == 1 else 'have'} errors"
+            if faulty
+            else f"no errors found in {decks}"
+        )
+        rest = ", ".join(filter(None, counts))
+        return head + (f": {rest}" if rest else "")
 
 
 Judged = tuple[Verdict, list[Diagnostic], bytes]
@@ -167,7 +167,7 @@ def _print_json(judged: Iterable[Judged], total: Total) -> None:
     """Print one object; its decks are written when they are judged."""
     mark = '{\n "decks": ['
     for verdict, found, _ in judged:
-        row = {**asdict(verdict), "findings": [as_object(each) for each in found]}
+        row = {**verdict.row(), "findings": [as_object(each) for each in found]}
         emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
         mark = ","
     end = "\n ]" if mark == "," else f"{mark}]"
@@ -184,7 +184,7 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
     if verdicts:
         printer = view.printer()
         printer.table(DisplayTable("Decks", _COLUMNS, verdicts))
-        printer.line((str(total), _style(good=total.legal == total.decks and not total.unreadable)))
+        printer.line((str(total), _style(good=total.ok == total.decks and not total.unreadable)))
         if not total.keywords.whole:
             printer.line(printer.visible(total.keywords.sentence()))
 
@@ -195,14 +195,12 @@ def _read(words: Coverage) -> int | str:
 
 
 def _csv(verdicts: Iterable[Verdict]) -> Iterator[list[object]]:
-    """The headings of a table without nesting, and its rows; of the keywords they have numbers."""
-    names = [one.name for one in fields(Verdict)]
-    at = names.index("keywords") + 1
-    yield [*names[:at], "read", "partly", "unread", *names[at:]]
+    """Yield the headings of a table without nesting, and its rows; keywords are numbers."""
+    yield [*(name for name in Verdict("", 0).row() if name != "keywords"), "keywords", "read", "partly"]
     for verdict in verdicts:
-        words, values = verdict.keywords, [getattr(verdict, name) for name in names]
-        counts = (words.total, words.read, sum(words.partly.values()), sum(words.unread.values()))
-        yield [*values[: at - 1], *counts, *values[at:]]
+        words, row = verdict.keywords, verdict.row()
+        del row["keywords"]
+        yield [*row.values(), words.total, words.read, sum(words.partly.values())]
 
 
 def _style(*, good: bool) -> str:

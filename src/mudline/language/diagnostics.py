@@ -233,8 +233,13 @@ class Coverage:
 
     @property
     def whole(self) -> bool:
-        """Whether all of all keywords was read."""
+        """True if all lines of all keywords were read."""
         return self.read == self.total
+
+    @property
+    def share(self) -> str:
+        """`31 of 38 keywords`."""
+        return f"{self.read} of {counted(self.total, 'keyword')}"
 
     def add(self, other: Coverage) -> None:
         """Count the keywords of another deck too."""
@@ -249,7 +254,7 @@ class Coverage:
         partly = sum(self.partly.values())
         names = [f"*{cut(name, 40)}" + (f" ({count})" if count > 1 else "") for name, count in self.unread.items()]
         names[_MOST_NAMES:] = [f"and {len(names) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
-        text = f"{self.read} of {counted(self.total, 'keyword')}" + (f", {partly} in part" if partly else "")
+        text = self.share + (f", {partly} in part" if partly else "")
         return text + (f"; not read: {', '.join(names)}" if names else "")
 
     def sentence(self) -> str:

@@ -33,7 +33,7 @@ def test_values_of_a_deck(decks: Path, archive: Path) -> None:
     assert summary(index(decks, archive=archive)) == "3 decks: 3 new"
     row = ask(archive, "SELECT * FROM decks WHERE file = 'decks/a.keyxm'")[0]
     expected = {
-        "verdict": "legal",
+        "ok": True,
         "units": "metric",
         "nodes": 3,
         "elements": 2,
@@ -67,8 +67,8 @@ def test_findings_are_those_of_lint(tmp_path: Path, archive: Path) -> None:
         (Path(one["file"]).name, *(one[key] for key in ("code", "severity", "message", "line", "column")))
         for one in linted
     ]
-    verdicts = {row["file"]: row["verdict"] for row in ask(archive, "SELECT file, verdict FROM decks")}
-    assert verdicts == {"decks/bad.keyxm": "illegal", "decks/warned.keyxm": "legal"}
+    verdicts = {row["file"]: row["ok"] for row in ask(archive, "SELECT file, ok FROM decks")}
+    assert verdicts == {"decks/bad.keyxm": False, "decks/warned.keyxm": True}
 
 
 def test_parameters_and_sets(tmp_path: Path, archive: Path) -> None:
@@ -172,8 +172,8 @@ def test_json_and_what_is_no_deck_at_all(decks: Path, archive: Path) -> None:
     run("convert", decks / "a.keyxm", "-o", decks / "d.json")
     (decks / "e.json").write_text('{"format": "mudline-deck/1", "sections": 3}', encoding="utf-8")
     assert summary(index(decks, archive=archive)) == "5 decks: 5 new"
-    rows = ask(archive, "SELECT file, verdict, curves FROM decks WHERE file LIKE '%.json' ORDER BY file")
-    assert [tuple(row.values()) for row in rows] == [("decks/d.json", "legal", 1), ("decks/e.json", "illegal", 0)]
+    rows = ask(archive, "SELECT file, ok, curves FROM decks WHERE file LIKE '%.json' ORDER BY file")
+    assert [tuple(row.values()) for row in rows] == [("decks/d.json", True, 1), ("decks/e.json", False, 0)]
     assert ask(archive, "SELECT code FROM findings WHERE file = 'decks/e.json'") == [{"code": "DOC002"}]
     same = ask(
         archive, "SELECT count(DISTINCT content) AS n FROM decks WHERE file IN ('decks/a.keyxm', 'decks/d.json')"

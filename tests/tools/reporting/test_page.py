@@ -108,7 +108,7 @@ def test_a_study_is_on_the_page_only_where_it_is_asked_for(tmp_path: Path) -> No
 
 def test_a_faulty_deck_gets_a_page_that_says_what_is_missing(tmp_path: Path) -> None:
     page = checked(made(tmp_path, str(SAMPLES / "broken.keyxm"), code=FOUND))
-    assert "illegal" in page.text
+    assert "27 errors" in page.text
     assert page.text.count("This could not be computed: line") == 4
     assert "The plan could not be computed: line" in page.text
     assert "No contact was computed: line" in page.text
@@ -220,13 +220,13 @@ def test_several_decks_have_an_index_and_a_page_each(tmp_path: Path) -> None:
     (folder / "bad.keyxm").write_bytes((SAMPLES / "broken.keyxm").read_bytes())
     out = tmp_path / "all.html"
     outcome = run("report", str(folder), "-o", str(out), "--sections", "verdict", "--jobs", "2")
-    assert (outcome.code, outcome.err) == (FOUND, f"mudline: report -> {out.as_posix()}, 1 of 3 decks not legal\n")
+    assert (outcome.code, outcome.err) == (FOUND, f"mudline: report -> {out.as_posix()}, 1 of 3 decks with errors\n")
     index = Page(out.read_text(encoding="utf-8"))
     assert index.policy == CSP
     pages = sorted((tmp_path / "all").iterdir())
     assert len(pages) == 3
     assert sorted(index.references) == sorted(f"all/{one.name}" for one in pages)
-    assert "illegal (1)" in index.text
+    assert "errors (1)" in index.text
     for one in pages:
         checked(one.read_text(encoding="utf-8"))
 

@@ -14,6 +14,7 @@ from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Coverage
+from mudline.language.keywords.catalogue import is_read_somewhere
 from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import BlockReader, read_block
@@ -64,7 +65,10 @@ def _form(form: str) -> ModuleType:
 
 
 def coverage_of(deck: Deck) -> Coverage:
-    """Count the keywords of a deck itself by how much of them was read."""
+    """Count the keywords of a deck itself by how much of them was read.
+
+    An unread keyword has its section behind its name if a keyword of that name is read in another section.
+    """
     found = Coverage()
     for section in deck.own_sections:
         for block in section.blocks:
@@ -72,8 +76,11 @@ def coverage_of(deck: Deck) -> Coverage:
             if extent(block) == "read":
                 found.read += 1
             else:
-                names = found.unread if type(block) is Opaque else found.partly
-                names[block.keyword] = names.get(block.keyword, 0) + 1
+                unread = type(block) is Opaque
+                names, name = found.unread if unread else found.partly, block.keyword
+                if unread and is_read_somewhere(name):
+                    name += f" in ${section.name}"
+                names[name] = names.get(name, 0) + 1
     return found
 
 

@@ -161,6 +161,11 @@ def may_give(keyword: str, section: str, what: Gift) -> bool:
     return misplaced or keyword not in NAMES or what in GIVES.get(keyword, ())
 
 
+def is_read_somewhere(keyword: str) -> bool:
+    """Return True if the lines of a keyword are read in one section at least."""
+    return bool(_read(keyword))
+
+
 @cache
 def definers(what: Names) -> list[str]:
     """The keywords that define things of a kind."""

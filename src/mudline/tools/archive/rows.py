@@ -45,7 +45,7 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
     try:
         deck = load_bytes(data, name, units=settings.units, folder=folder)
     except DeckError as error:
-        row = DeckRow(settings.units or "user", "illegal", len(error.diagnostics))
+        row = DeckRow(settings.units or "user", ok=False, errors=len(error.diagnostics))
         return {"decks": [row], "findings": _findings(error.diagnostics)}
     context = LintContext(deck, dialect=settings.dialect)
     found = with_severities(lint_context(context, settings.rules), settings)
@@ -63,12 +63,11 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
     severities = (levels.count(Severity.ERROR), levels.count(Severity.WARNING), levels.count(Severity.INFO))
     read = (coverage.total, coverage.read, sum(coverage.partly.values()), sum(coverage.unread.values()))
     sizes = (len(scene.node_ids), len(scene.element_ids), len(rows["sets"]), len(scene.laws.curves))
-    legal = "legal" if coverage.whole else "legal as far as read"
-    verdict = "illegal" if errors_of(all_findings(context)) else legal if deck.sections else "empty"
+    ok = not errors_of(all_findings(context))
     oceans = [block for _, block in scene.deck.blocks("OCEAN")]
     measures = (float(np.nansum(scene.length)), number(oceans[-1], "depth") if oceans else None)
     content = (keywords[0].content + keywords[0].others) % _DIGESTS if keywords else 0
-    row = DeckRow(deck.units, verdict, *severities, len(deck.sections), *read, *sizes, *measures, content)
+    row = DeckRow(deck.units, ok, *severities, len(deck.sections), *read, *sizes, *measures, content)
     return {"decks": [row], **rows}
 
 

@@ -13,7 +13,7 @@ class DeckRow(NamedTuple):
     """A deck."""
 
     units: Annotated[str, "unit system of all its numbers: metric, imperial or user"]
-    verdict: Annotated[str, "legal, legal as far as read, illegal, or empty for a file without any section"]
+    ok: Annotated[bool, "true if no rule of severity error finds anything"]
     errors: Annotated[int, "findings of severity error"] = 0
     warnings: Annotated[int, "findings of severity warning"] = 0
     infos: Annotated[int, "findings of severity info"] = 0

@@ -6,7 +6,7 @@ Only what a wanted section needs is computed. A part that a faulty deck does not
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from functools import reduce
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -241,7 +241,7 @@ def _head(given: Given, deck: Deck | None, verdict: Verdict, document: Document)
         },
         "units": None if deck is None else deck.units,
         "continues": [] if deck is None else [base.deck.file for base in deck.bases],
-        "verdict": asdict(verdict) | {"sentence": verdict.keywords.sentence()},
+        "verdict": verdict.row() | {"sentence": verdict.keywords.sentence()},
         "shown": [],
         "sections": {},
         "missing": {},

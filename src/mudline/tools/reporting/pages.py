@@ -13,8 +13,6 @@ from mudline.basics.version import __version__
 from mudline.checks.engine import LintSettings
 from mudline.tools.reporting.content import Document, Given, Look, LookError, report_on
 
-_LEGAL = {"legal", "as far as read"}
-
 
 class Made(NamedTuple):
     """The content of a page, the page, None where it is not wanted, and why it could not be made."""
@@ -59,9 +57,9 @@ class Pages:
         self._names: set[str] = set()
 
     @property
-    def illegal(self) -> int:
-        """How many decks are not legal."""
-        return sum(row["kind"] not in _LEGAL for row in self.rows)
+    def faulty(self) -> int:
+        """Number of decks with errors."""
+        return sum(row["errors"] > 0 for row in self.rows)
 
     def add(self, made: Made, name: str) -> None:
         """Write the page about a deck; raises LookError."""
@@ -95,8 +93,8 @@ class Pages:
     def _row(self, content: dict[str, Any], name: str, page: Path | None) -> dict[str, Any]:
         """A row of the index; decks of the folder that the run was started in have their paths from there."""
         verdict = content["verdict"]
-        words = verdict["verdict"].partition(":")[0]
-        kind = "as far as read" if words.startswith("legal as far") else words.partition(",")[0]
+        words = verdict["verdict"].partition(" (")[0]
+        kind = "errors" if verdict["errors"] else words
         address = "" if page is None or self.index is None else relative_path(page, self.index.parent)
         counts = {name: verdict[name] for name in ("errors", "warnings")}
         counts |= {name: verdict["keywords"][name] for name in ("read", "total")}
