@@ -43,7 +43,7 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
 )
 @options.option(
     "--weight",
-    type=float,
+    type=options.ABOVE_ZERO,
     metavar="W",
     help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
@@ -64,8 +64,6 @@ def command(
     Force-embedment curves come first, then moment-curvature curves, soil springs, current profiles and so on. --weight
     is about force-embedment curves. CSV holds one table: the points, or the values for --at or --weight.
     """
-    if weight is not None and weight <= 0.0:
-        raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
     given = deck.load()

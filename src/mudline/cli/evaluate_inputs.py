@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import wraps
-from math import isfinite
 from pathlib import Path
 from typing import TypeVar, cast
 
@@ -14,7 +13,7 @@ import click
 
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import Command, input_option, option
+from mudline.cli.options import ABOVE_ZERO, Command, input_option, option
 from mudline.cli.streams import reason
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
@@ -105,8 +104,6 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
             headings = read_headings(columns)
             if headings and positions is None:
                 raise click.UsageError("--columns is for positions from a CSV: give --positions too")
-            if time_step is not None and not (isfinite(time_step) and time_step > 0.0):
-                raise click.UsageError(f"--time-step is {time_step!r}: it must be greater than 0")
             if at_rest and positions is not None:
                 raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
             inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings, at_rest)
@@ -127,7 +124,10 @@ _INPUTS = (
         help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
     ),
     input_option(
-        "--time-step", type=float, metavar="DT", help="Set the time between the steps of positions that have no times."
+        "--time-step",
+        type=ABOVE_ZERO,
+        metavar="DT",
+        help="Set the time between the steps of positions that have no times.",
     ),
     input_option(
         "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."

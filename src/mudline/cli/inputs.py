@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import click
 
@@ -25,7 +25,10 @@ from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be
 from mudline.language.diagnostics import DeckError
 
 if TYPE_CHECKING:
-    from mudline.language.deck.model import Deck
+    from mudline.api import Deck
+    from mudline.language.deck import model
+
+_Deck = TypeVar("_Deck", bound="model.Deck")
 
 STDIN = "-"
 
@@ -33,7 +36,7 @@ CHANGED = "it has changed during the run: left unchanged, run it again"
 """Said of a file that somebody else has written."""
 
 
-def require_text(deck: Deck) -> Deck:
+def require_text(deck: _Deck) -> _Deck:
     """Return a deck of a file that is a text of its own; raises DeckError for others: a merge conflict, binary data."""
     from mudline.language.deck.reading import TextOrigin  # noqa: PLC0415 - completion does without it
 
@@ -246,15 +249,16 @@ class GivenDeck(NamedTuple):
     def load(self, form: str | None = None) -> Deck:
         """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
         data, name = self.content()
-        from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
+        from mudline.api import Deck  # noqa: PLC0415 - what only looks for files reads no deck
+        from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
 
         folder = _single(self.path, self.stdin_name).folder
         deck = load_bytes(data, name, form=form, units=self.units, folder=folder)
         reading_named_files(deck)
-        return deck
+        return Deck(**vars(deck))
 
 
-def reading_named_files(deck: Deck) -> None:
+def reading_named_files(deck: model.Deck) -> None:
     """Note the files that a deck names as read, also where the command does not open them; raises OverwriteError."""
     if outputs():
         from mudline.model.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
