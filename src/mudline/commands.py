@@ -234,8 +234,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
         strict: count differences of spelling in superseded keywords as `differences` too.
 
     Raises:
-        DeckError: a deck that is compared alone has errors; in folders its `status` is "failed".
-        OSError: a file cannot be read, or both folders have no deck.
+        DeckError: one of two decks has errors; one of many in folders has the `status` "failed".
+        OSError: one of two files cannot be read, or there is no deck in both folders.
         ValueError: one of them is a folder, the other is not.
     """
     from mudline.editing.comparison.folders import compare_folders  # noqa: PLC0415 - as above
@@ -253,17 +253,13 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
     if len(folders) == 1:
         raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
     if folders:
-        decks = list(compare_folders(folders[0], folders[1], tolerance, _raised, strict=strict))
+        decks = list(compare_folders(folders[0], folders[1], tolerance, strict=strict))
         if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
         differences = [each for one in decks for each in one.comparison.differences]
         return Comparison(differences, [each for one in decks for each in one.comparison.spelling], decks)
     first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
     return compare_decks(first, second, tolerance, strict=strict)
-
-
-def _raised(_: str, error: OSError) -> None:
-    raise error
 
 
 def diff_matrix(

@@ -22,7 +22,7 @@ from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
-from mudline.cli.streams import emit, notify, notify_diagnostics, reason
+from mudline.cli.streams import emit, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.commands import diff, diff_matrix
 from mudline.editing.comparison.folders import compare_folders
@@ -188,19 +188,16 @@ class _Folders:
     def compared(self, *, strict: bool, units: str | None, gitignore: bool) -> Iterator[ComparedDeck]:
         """Yield each deck, and count it."""
         words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
-        for one in compare_folders(self.before, self.after, self.tolerance, self._unread, **words):
+        for one in compare_folders(self.before, self.after, self.tolerance, **words):
             notify_diagnostics(one.errors)
+            if one.unread is not None:
+                notify(one.why)
             self.counts[one.status] += 1
+            self.code = max(self.code, WRONG_USAGE if one.unread else DONE if one.status is Status.EQUAL else FOUND)
             yield one
-        if not self.counts and not self.code:
+        if not self.counts:
             notify(f"{self.before}, {self.after}: no deck in these folders")
             self.code = WRONG_USAGE
-        differ = self.counts.total() > self.counts[Status.EQUAL]
-        self.code = max(self.code, FOUND if differ else DONE)
-
-    def _unread(self, path: str, error: OSError) -> None:
-        notify(f"{path}: {reason(error)}")
-        self.code = WRONG_USAGE
 
 
 def _print_folders(folders: _Folders, compared: Iterator[ComparedDeck], output_format: str, view: View) -> int:

@@ -11,6 +11,8 @@ from typing import TypeVar, cast
 
 import click
 
+from mudline.api import Scene as PublicScene
+from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
 from mudline.cli.options import ABOVE_ZERO, Command, input_option, option
@@ -19,9 +21,8 @@ from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.model.scene.csv_file import read_external
-from mudline.model.scene.given_positions import require_order
 from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.positions import COLUMNS, read_positions
+from mudline.model.scene.positions import COLUMNS
 
 _MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
 """NAME=HEADING up to a comma with another name behind it: a comma may be in a heading."""
@@ -61,15 +62,6 @@ class EvaluateInputs:
         scene = self.scene(deck)
         return prepare(scene, self._placed(scene), self.tension)
 
-    def _read(self, path: Path, scene: Scene) -> Positions:
-        """Positions from a file in our form, or in that of another program, known by its headings."""
-        if not self.headings and path.suffix.lower() not in {".npz", ".npy"}:
-            from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - needs the shape of the lines
-
-            if (found := read_returned(path, scene)) is not None:
-                return found
-        return require_order(read_positions(path, scene.nodes, self.headings), scene, path.as_posix())
-
     def _placed(self, scene: Scene) -> Positions | None:
         """Positions of a scene's nodes; with `time_step` those without times get them."""
         path = self.positions
@@ -77,7 +69,7 @@ class EvaluateInputs:
             return None
         if self.headings and Path(path).suffix.lower() in {".npz", ".npy"}:
             raise click.UsageError(f"--columns is for CSV: the arrays of {path} have names already")
-        positions = read_file(path, lambda file: self._read(file, scene))
+        positions = read_file(path, lambda file: read_positions(file, PublicScene(scene), columns=self.headings))
         if self.time_step is None:
             return positions
         if positions.time is None or positions.timed:

@@ -59,7 +59,7 @@ class Comparison(NamedTuple):
 class ComparedDeck(NamedTuple):
     """A deck by its path below two folders, and what became of it; `before` and `after` are its files where it has two.
 
-    `errors` say why it could not be compared.
+    `errors` say why it could not be compared, or `unread` why a file could not be read.
     """
 
     name: str
@@ -68,10 +68,13 @@ class ComparedDeck(NamedTuple):
     after: str = ""
     comparison: Comparison = Comparison([], [])
     errors: Sequence[Diagnostic] = ()
+    unread: OSError | None = None
 
     @property
     def why(self) -> str:
-        """The first of the errors, in a line."""
+        """The first of the errors, in a line; "" without any."""
+        if self.unread is not None:
+            return f"{self.unread.filename}: {(self.unread.strerror or str(self.unread)).lower()}"
         return next((f"{one.file}:{one.line}:{one.column}: {one.code} {one.message}" for one in self.errors), "")
 
 
