@@ -93,7 +93,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     rows = []
     for stage in model.plan:
         where = _place(scene, stage.stage) if stage.active else None
-        place = (None, None) if where is None else (_file_of(scene, where), line_of(scene, where))
+        file, line = (None, None) if where is None else (_file_of(scene, where), line_of(scene, where))
         share = time = added = None
         if stage.active and stage.stage in taken:
             less = taken[stage.stage]
@@ -101,7 +101,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
             share = min(time / whole, 1.0)
         elif stage.stage in taken and stage.stage in _STAGES:
             added = max(taken[stage.stage] - whole, 0.0) / len(given.node_ids)
-        rows.append(StageRow(stage.stage, stage.active, stage.why, *place, share, time, added))
+        rows.append(StageRow(stage.stage, stage.active, stage.why, file, line, share, time, added))
     return Pruning(rows, whole, len(given.element_ids))
 
 
