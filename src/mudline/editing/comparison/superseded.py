@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -74,7 +75,7 @@ class ComparedDeck(NamedTuple):
     def why(self) -> str:
         """The first of the errors, in a line; "" without any."""
         if self.unread is not None:
-            return f"{self.unread.filename}: {(self.unread.strerror or str(self.unread)).lower()}"
+            return f"{Path(self.unread.filename).as_posix()}: {(self.unread.strerror or str(self.unread)).lower()}"
         return next((f"{one.file}:{one.line}:{one.column}: {one.code} {one.message}" for one in self.errors), "")
 
 
