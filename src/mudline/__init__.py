@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from mudline.api import lint as lint
     from mudline.api import read as read
     from mudline.api import read_positions as read_positions
-    from mudline.commands import backbone as backbone
     from mudline.commands import diff as diff
     from mudline.commands import diff_matrix as diff_matrix
     from mudline.commands import expand as expand
@@ -35,6 +34,7 @@ if TYPE_CHECKING:
     from mudline.commands import show as show
     from mudline.commands import study as study
     from mudline.commands import validate as validate
+    from mudline.editing.backbone_block import backbone as backbone
     from mudline.language.diagnostics import DeckError as DeckError
     from mudline.language.diagnostics import Diagnostic as Diagnostic
     from mudline.language.diagnostics import Severity as Severity
@@ -52,7 +52,8 @@ _HOMES = {
     name: home
     for home, names in {
         "api": "Deck Scene contact_warnings from_json from_keyword from_yaml lint read read_positions",
-        "commands": "backbone diff diff_matrix expand export fix format migrate report show study validate",
+        "commands": "diff diff_matrix expand export fix format migrate report show study validate",
+        "editing.backbone_block": "backbone",
         "model.contact": "ContactModel ContactResult ContactState Plan PositionError",
         "model.curves": "CurveError ForceCurve",
         "language.diagnostics": "DeckError Diagnostic Severity",

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from types import NoneType
@@ -13,7 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from mudline.api import Deck, decks_in, given_deck, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import checked_units
+from mudline.basics.quantities import checked_units, csv_lines
+from mudline.checks.engine import naming_causes
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.deck.writing import keyword_file
@@ -23,7 +25,6 @@ from mudline.model.scene import model as scenes
 if TYPE_CHECKING:
     from mudline.checks.overview import Overview
     from mudline.checks.verdict import Judgement
-    from mudline.editing.backbone_block import BackboneCurve
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verdict
@@ -48,9 +49,15 @@ class ChangedFile:
         """The new deck; raises DeckError for one that cannot be read."""
         return _again(self.source, self.content)
 
+    def content_as(self, name: str) -> bytes:
+        """The content in the form of a file of this name."""
+        form = form_of(name)
+        return self.content if form == form_of(self.source.file) else dump(self.deck, form).encode()
+
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the file in one step; raises OSError."""
-        write_atomically(given_path(path), self.content)
+        """Write the file in one step, in the form of its suffix; raises OSError."""
+        file = given_path(path)
+        write_atomically(file, self.content_as(file.name))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,20 +139,33 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
         DeckError: the deck has errors, or says what the new family cannot.
         ValueError: with `verify`, results differ.
     """
-    from mudline.editing.migration import migrating  # noqa: PLC0415 - as above
+    from mudline.editing.migration.migrating import legacy_blocks  # noqa: PLC0415 - as above
     from mudline.editing.migration.refusals import continuations_beside  # noqa: PLC0415 - as above
 
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
     current = _again(given, _content(given))
-    continued_by, extended = continuations_beside(current) if migrating.legacy_blocks(current) else ([], False)
-    made = migrating.migrate(current, continued_by, extended=extended)
-    verified = migrating.verify(made) if verify and made.replaced else None
-    if verified and verified.differences:
-        texts = "; ".join(f"{one.what}: {one.text}" for one in verified.differences[:3])
+    made = migrated(current, continuations_beside(current) if legacy_blocks(current) else ([], False), verify=verify)
+    if made.verified and made.verified.differences:
+        texts = "; ".join(f"{one.what}: {one.text}" for one in made.verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
-    content, changed = made.content or _content(given), dict(made.replaced)
-    return Migrated(content=content, source=given, replaced=changed, files=made.files, verified=verified)
+    return made if made.replaced else replace(made, content=_content(given))
+
+
+def migrated(deck: Deck, beside: tuple[list[str], bool], *, verify: bool) -> Migrated:
+    """The migrated form of a deck as it was read, also where the proof fails; without `content` if nothing changes.
+
+    `beside` has the names of decks that continue it with a seabed of their own, and whether any has a model of its own.
+    """
+    from mudline.editing.migration import migrating  # noqa: PLC0415 - as above
+
+    continued_by, extended = beside
+    with naming_causes(deck):
+        made = migrating.migrate(deck, continued_by, extended=extended)
+    verified = migrating.verify(made) if verify and made.replaced else None
+    return Migrated(
+        content=made.content, source=deck, replaced=dict(made.replaced), files=made.files, verified=verified
+    )
 
 
 def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
@@ -205,22 +225,39 @@ def show(deck: GivenDeck) -> Overview:
 
 
 def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict: bool = False) -> Comparison:
-    """Return what differs between two decks in meaning, whatever their forms, layout and order.
+    """Return what differs between two decks in meaning, whatever their forms, layout and order; or between two folders.
 
     Args:
-        before: a deck, or its file.
+        before: a deck, or its file, or a folder, whose decks are compared with those of the same path below `after`.
         after: the other one; places and values that `before` lacks are "added".
         tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger one.
         strict: count differences of spelling in superseded keywords as `differences` too.
 
-    Raises DeckError for a deck that has errors.
+    Raises:
+        DeckError: one of two decks has errors; one of many in folders has the `status` "failed".
+        OSError: one of two files cannot be read, or there is no deck in both folders.
+        ValueError: one of them is a folder, the other is not.
     """
-    from mudline.editing.comparison.superseded import compare_decks  # noqa: PLC0415 - as above
+    from mudline.editing.comparison.folders import compare_folders  # noqa: PLC0415 - as above
+    from mudline.editing.comparison.superseded import Comparison, compare_decks  # noqa: PLC0415 - as above
 
     expect_number(tolerance, "tolerance", or_zero=True)
     expect(strict, "strict", bool, "True or False")
     if tolerance > 1.0:
         raise ValueError(f"tolerance must be from 0 to 1, not {tolerance!r}")
+    folders = [
+        str(path)
+        for each, name in ((before, "before"), (after, "after"))
+        if not isinstance(each, Deck) and (path := given_path(each, name=name)).is_dir()
+    ]
+    if len(folders) == 1:
+        raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
+    if folders:
+        decks = list(compare_folders(folders[0], folders[1], tolerance, strict=strict))
+        if not decks:
+            raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
+        differences = [each for one in decks for each in one.comparison.differences]
+        return Comparison(differences, [each for one in decks for each in one.comparison.spelling], decks)
     first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
     return compare_decks(first, second, tolerance, strict=strict)
 
@@ -246,10 +283,14 @@ def diff_matrix(
 
 
 class Export(NamedTuple):
-    """The model of a deck for another program: `files` by name, and the `report` of what does not carry over."""
+    """The model of a deck for another program: `files` by name, and the `report` of what does not carry over.
+
+    `notes` say what holds of a resting shape; there are none at the deck's own coordinates.
+    """
 
     files: dict[str, str]
     report: Report
+    notes: tuple[str, ...] = ()
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Write the files into a folder; raises OSError."""
@@ -257,77 +298,49 @@ class Export(NamedTuple):
             write_atomically(given_path(folder, name="folder") / name, text.encode())
 
 
-def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "") -> Export:
+def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "", rest_shape: bool = False) -> Export:
     """Return seabed, line and soil of a deck as the input of another program.
 
     Args:
         deck: a deck, or its file.
         to: "moordyn" or "orcaflex".
         name: of the main file; that of the deck, with the other program's suffix, if empty.
+        rest_shape: export the resting shape, and its points as NAME-rest.csv; a line without one stays where it is.
 
     Raises:
-        DeckError: the deck has errors on which the model depends.
+        DeckError: the deck has errors on which the model depends, or no line has a resting shape.
     """
     from mudline.tools.exporting.line_model import build  # noqa: PLC0415 - as above
+    from mudline.tools.touchdown_study import rest_shape as resting  # noqa: PLC0415 - as above
 
     expect_word(to, "to", ("moordyn", "orcaflex"), "'moordyn' or 'orcaflex'")
     expect(name, "name", str, "a str")
+    expect(rest_shape, "rest_shape", bool, "True or False")
     given = given_deck(deck)
-    model = build(scenes.resolve(given.alone.placed()).require_evaluable())
     file = given_path(name, name="name").name if name else Path(given.file).stem + _SUFFIX[to]
-    return Export(import_module(f"mudline.tools.exporting.{to}").write(model, file), model.report)
+    with naming_causes(given):
+        scene = scenes.resolve(given.alone.placed()).require_evaluable()
+    rest = resting.rest_shape(scene) if rest_shape else None
+    model = build(scene, None if rest is None else rest.places(scene))
+    files: dict[str, str] = import_module(f"mudline.tools.exporting.{to}").write(model, file)
+    if rest is None:
+        return Export(files, model.report)
+    nodes = model.line_nodes()
+    rows = zip(scene.node_ids[nodes].tolist(), *model.places[nodes].T.tolist(), strict=True)
+    table = "".join(csv_lines([("node", "x (m)", "y (m)", "z (m)"), *rows]))
+    return Export({**files, f"{Path(file).stem}-rest.csv": table}, model.report, tuple(rest.sentences(scene.units)))
 
 
 _SUFFIX = {"moordyn": ".txt", "orcaflex": ".yml"}
 
 
-def backbone(  # noqa: PLR0913 - as many as the command has options
-    model: str,
-    *,
-    diameter: float,
-    strength: float | tuple[float, float],
-    weight: float = 0.0,
-    depth: float | None = None,
-    tolerance: float = 0.005,
-    first: float = 0.001,
-    name: str | None = None,
-    legacy: bool = False,
-    extend: bool = False,
-) -> BackboneCurve:
-    """Return the penetration resistance of a published model as a curve of few points, all in one system of units.
-
-    Args:
-        model: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin.
-        diameter: external diameter of the pipe.
-        strength: undrained shear strength at the mudline, or that and its increase per depth.
-        weight: submerged weight of the soil per volume.
-        depth: largest ratio z/D; as far as the model is published if None.
-        tolerance: largest error of the interpolation, as a share of the largest force.
-        first: smallest ratio of a point above 0; below it a straight line replaces the model.
-        name: of the curve, or of the set if `legacy`; that of the model if None.
-        legacy: make a block of `*EMBEDMENT`, not of `*SEABED STIFFNESS`.
-        extend: let `depth` go beyond the ratios for which the model is published.
-
-    Raises ValueError for an argument that the model cannot have.
-    """
-    from mudline.editing.backbone_block import backbone_curve  # noqa: PLC0415 - as above
-
-    return backbone_curve(
-        model,
-        diameter=diameter,
-        strength=strength,
-        weight=weight,
-        depth=depth,
-        tolerance=tolerance,
-        first=first,
-        name=name,
-        legacy=legacy,
-        extend=extend,
-    )
-
-
 def study(
-    deck: GivenDeck, *, only: Iterable[str] = (), heave: float | None = None, period: float | None = None
+    deck: GivenDeck,
+    *,
+    only: Iterable[str] = (),
+    heave: float | None = None,
+    period: float | None = None,
+    tracked: Callable[[Sequence[str]], Iterable[str]] = iter,
 ) -> Study:
     """Return the study of a deck's touchdown zone: errors over run time, stiff and extreme cases, what it needs.
 
@@ -336,6 +349,7 @@ def study(
         only: some of "accuracy", "stability" and "pruning"; all if empty.
         heave: amplitude of the hang-off in the deck's units, instead of what its waves give.
         period: that of its motion, likewise.
+        tracked: goes through the names of the parts and shows how far it is, as `tqdm` does.
 
     Raises:
         DeckError: the deck has errors, or cannot be evaluated. Where it has no touchdown zone, `.advice.text` says why.
@@ -343,6 +357,7 @@ def study(
     """
     from mudline.tools.touchdown_study import study as studies  # noqa: PLC0415 - as above
 
+    expect(tracked, "tracked", Callable, "a function of the names of the parts")  # type: ignore[arg-type]  # it is one
     given = given_deck(deck)
     parts = several(only, "only", str, "several str")
     for part in parts:
@@ -350,8 +365,9 @@ def study(
     for name, value in (("heave", heave), ("period", period)):
         if value is not None:
             expect_number(value, name)
-    resolved = scenes.resolve(given.alone.placed()).require()
-    return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
+    with naming_causes(given):
+        resolved = scenes.resolve(given.alone.placed()).require()
+        return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period, tracked=tracked)
 
 
 def report(  # noqa: PLR0913 - as many as the command has options

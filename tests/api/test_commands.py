@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +64,8 @@ def test_migrate_verifies_and_writes(tmp_path: Path) -> None:
     new = mudline.read(tmp_path / "new.keyxm")
     forces = [deck.scene().contact().evaluate().force for deck in (mudline.read(LEGACY), new, found.deck)]
     assert forces[0].tobytes() == forces[1].tobytes() == forces[2].tobytes()
+    found.write(tmp_path / "new.json")
+    assert mudline.diff(new, tmp_path / "new.json", strict=True).equivalent
     again = mudline.migrate(new)
     assert (again.replaced, again.content, again.verified) == ({}, keyword_file(new), None)
 
@@ -120,6 +123,20 @@ def test_export_is_that_of_the_command(to: str, tmp_path: Path) -> None:
     assert found.report.lost
 
 
+@pytest.mark.parametrize("to", ["moordyn", "orcaflex"])
+def test_export_of_the_resting_shape_is_that_of_the_command(to: str, tmp_path: Path) -> None:
+    vessel = SAMPLES / "scr-vessel.keyxm"
+    found = mudline.export(vessel, to=to, name="model.x", rest_shape=True)  # type: ignore[arg-type]  # one of both
+    ran = run("export", str(vessel), "--to", to, "--rest-shape", "-o", str(tmp_path / "model.x"))
+    assert {name: text.encode() for name, text in found.files.items()} == {
+        file.name: file.read_bytes() for file in tmp_path.iterdir()
+    }
+    own = mudline.export(vessel, to=to, name="model.x")  # type: ignore[arg-type]  # as above
+    assert (own.notes, own.files["model.x"] == found.files["model.x"]) == ((), False)
+    assert [note for note in found.notes if note not in ran.err] == []
+    assert found.notes[0].startswith("resting shape of line 1: horizontal tension")
+
+
 def test_backbone_is_a_curve_and_its_block() -> None:
     curve, block = mudline.backbone("f114", diameter=0.3, strength=(5000.0, 1500.0), weight=6000.0, name="Clay")
     assert isinstance(block, keywords.SeabedStiffness)
@@ -151,7 +168,14 @@ def test_what_no_backbone_has(argument: str, value: object, message: str) -> Non
 
 
 def test_study_takes_a_file_too() -> None:
-    text = mudline.study(LEGACY, only=["stability"]).advice.text
+    parts: list[Sequence[str]] = []
+
+    def tracked(names: Sequence[str]) -> Sequence[str]:
+        parts.append(names)
+        return names
+
+    text = mudline.study(LEGACY, only=["stability"], tracked=tracked).advice.text
+    assert parts == [("stability",)]
     assert text == mudline.study(mudline.read(LEGACY), only=["stability"]).advice.text
 
 
@@ -184,6 +208,35 @@ def test_diff_and_its_matrix() -> None:
     assert mudline.diff(LEGACY, migrated, strict=True).differences == mudline.diff(LEGACY, migrated).spelling != []
     with pytest.raises(ValueError, match="tolerance must be from 0 to 1"):
         mudline.diff(RISER, RISER, tolerance=2.0)
+
+
+def test_diff_of_folders_is_that_of_the_command(tmp_path: Path) -> None:
+    riser = mudline.read(RISER)
+    deeper = riser.copy()
+    deeper.set("OCEAN.depth", 1100)
+    old, new = tmp_path / "old", tmp_path / "new"
+    for folder in (old, new):
+        (folder / "runs").mkdir(parents=True)
+    with pytest.raises(FileNotFoundError):
+        mudline.diff(old, new)
+    for folder in (old, new):
+        riser.write(folder / "same.keyxm")
+    riser.write(old / "runs" / "a.keyxm")
+    deeper.write(new / "runs" / "a.keyxm")
+    assert (mudline.diff(old, new).equivalent, mudline.diff(old, old).equivalent) == (False, True)
+    riser.write(new / "more.json")
+    (old / "bad.keyxm").write_bytes((SAMPLES / "broken.keyxm").read_bytes())
+    (new / "bad.keyxm").write_bytes((SAMPLES / "broken.keyxm").read_bytes())
+    found = mudline.diff(old, new)
+    ran = run("diff", str(old), str(new), "--output-format", "json").json()
+    assert [(one.name, one.status.value, one.why or None) for one in found.decks] == [
+        (one["deck"], one["status"], one["why"]) for one in ran["decks"]
+    ]
+    assert [(one.where, one.before, one.after) for one in found.differences] == [("*OCEAN/depth", 1000.0, 1100.0)]
+    assert [one.name for one in found.decks if one.comparison.differences] == ["runs/a.keyxm"]
+    assert mudline.diff(old / "runs", new / "runs", tolerance=0.1).equivalent
+    with pytest.raises(ValueError, match="is a folder, and the other one is not"):
+        mudline.diff(old, RISER)
 
 
 def test_report_writes_the_pages_of_the_command(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import mudline
 from mudline.cli import diff_command
 from mudline.cli.diff_command import code, fenced
 from tests.cli.conftest import Place
@@ -157,6 +158,24 @@ def test_a_deck_of_a_folder_that_cannot_be_read(place: Place) -> None:
     found = run("diff", "old", "new", "--output-format", "json").json()
     assert_fits(found, "diff")
     assert found["decks"][0]["why"].startswith("new/deck.keyxm:6:11: SYN002")
+
+
+def test_a_file_of_a_folder_that_cannot_be_opened(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("old/deck.keyxm", "new/deck.keyxm", "old/equal.keyxm", "new/equal.keyxm"):
+        place(CLEAN, name)
+    read = Path.read_bytes
+
+    def refused(path: Path) -> bytes:
+        if path.as_posix() == "new/deck.keyxm":
+            raise PermissionError(13, "Permission denied", str(path))
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", refused)
+    ran = run("diff", "old", "new")
+    assert (ran.code, ran.err) == (2, "mudline: new/deck.keyxm: permission denied\n")
+    assert ran.out == "! deck.keyxm: cannot be compared\n2 decks: 1 equal, 1 cannot be compared\n"
+    (one,) = [each for each in mudline.diff("old", "new").decks if each.status == "failed"]
+    assert (one.name, one.why) == ("deck.keyxm", "new/deck.keyxm: permission denied")
 
 
 def test_folders_without_a_deck(folder: Path, place: Place) -> None:

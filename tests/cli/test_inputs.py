@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli.inputs import Input, collect
+from mudline.cli.inputs import GivenDecks, Input
 from tests.cli.conftest import Place
 from tests.cli.runner import run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING
@@ -22,7 +22,7 @@ NAMING = "$LOAD CASE\n*RESTART\n LAST=deck\n$MODEL\n*SEABED PROFILE\n FILE=named
 
 
 def names(*paths: str, gitignore: bool = True) -> list[str]:
-    return [file.name for file in collect(paths, gitignore=gitignore).files]
+    return [file.name for file in GivenDecks(tuple(paths), not gitignore).collect().files]
 
 
 def test_file_is_reported_as_given(place: Place) -> None:
@@ -103,7 +103,7 @@ def test_directory_that_may_not_be_read(place: Place, folder: Path, monkeypatch:
         return scan(path)
 
     monkeypatch.setattr(os, "scandir", refuse)
-    found = collect(["decks"])
+    found = GivenDecks(("decks",)).collect()
     assert [file.name for file in found.files] == ["decks/a.keyxm"]
     assert found.code == 2
 

@@ -87,7 +87,7 @@ def test_verify(place: Place) -> None:
 def test_a_deck_that_would_change_its_meaning_is_left_as_it_is(place: Place) -> None:
     name = place(SAMPLE)
     verdict = Verdict(12, 4, 100, 8, (Difference("element 3", "force at depth 0.1: 1.0 before, 2.0 after"),))
-    with patch("mudline.cli.migrate_command.verify", return_value=verdict):
+    with patch("mudline.editing.migration.migrating.verify", return_value=verdict):
         outcome = run("migrate", "--verify", name)
     assert outcome.code == 1
     assert outcome.err == (

@@ -16,7 +16,7 @@ import pytest
 
 from mudline.basics import files
 from mudline.basics.files import replacement, write_atomically
-from mudline.cli.inputs import collect
+from mudline.cli.inputs import GivenDecks
 from tests.cli.conftest import Place
 from tests.cli.runner import process, run
 from tests.helpers.builders.decks import CLEAN
@@ -33,7 +33,7 @@ def test_links_and_pipes_in_a_directory_are_no_trap(place: Place, folder: Path) 
     (folder / "decks/gone.keyxm").symlink_to(folder / "nowhere")
     (folder / "decks/.#a.keyxm").symlink_to("user@host.1234:5678")  # as editors lock files
     os.mkfifo(folder / "decks/pipe.keyxm")
-    assert [file.name for file in collect(["decks"]).files] == ["decks/a.keyxm", "decks/gone.keyxm"]
+    assert [file.name for file in GivenDecks(("decks",)).collect().files] == ["decks/a.keyxm", "decks/gone.keyxm"]
     for command in (("lint", "-q"), ("format", "-q"), ("validate", "-q")):
         outcome = run(*command, "decks")
         assert (outcome.code, outcome.err) == (2, "mudline: decks/gone.keyxm: no such file or directory\n"), command
@@ -52,7 +52,7 @@ def test_a_folder_that_may_be_listed_only_keeps_no_other_deck_from_being_read(
         return looked(path, **how)
 
     monkeypatch.setattr(os, "stat", guarded)
-    assert [file.name for file in collect(["decks"]).files] == ["decks/a.keyxm", "decks/closed/b.keyxm"]
+    assert [file.name for file in GivenDecks(("decks",)).collect().files] == ["decks/a.keyxm", "decks/closed/b.keyxm"]
     for command in ("lint", "validate"):
         outcome = run(command, "decks", "-q")
         assert (outcome.code, "cannot be" in outcome.err) == (0, False), command

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from mudline.basics.patterns import matches, read_pattern
-from mudline.cli.inputs import collect
+from mudline.cli.inputs import GivenDecks
 
 PIECES = [
     "a",
@@ -131,7 +131,10 @@ def test_git_finds_the_same_decks(tmp_path: Path, seed: int) -> None:
     shown = git(tmp_path, "ls-files", "-z", "--others", "--exclude-standard", "top")
     wanted = {name for name in shown if name.endswith(".das")}
     assert len(wanted) > 50
-    found = {Path(file.path or "").relative_to(tmp_path).as_posix() for file in collect([str(tmp_path / "top")]).files}
+    found = {
+        Path(file.path or "").relative_to(tmp_path).as_posix()
+        for file in GivenDecks((str(tmp_path / "top"),)).collect().files
+    }
     assert found == wanted
 
 

@@ -12,8 +12,7 @@ from mudline.basics.quantities import shown
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, notify
-from mudline.commands import backbone
-from mudline.editing.backbone_block import COARSEST, FINEST
+from mudline.editing.backbone_block import COARSEST, FINEST, backbone
 from mudline.language.keywords.writer import block_lines
 from mudline.model.curves.backbones import MODELS, Backbone, Soil
 from mudline.model.scene.deck_curves import OF_SEABED

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import click
 
-from mudline.basics.files import recording_looks, suffix_of
+from mudline.basics.files import recording_looks
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
-from mudline.cli.result_files import all_lines, behind, beside, result_files, write_tables
+from mudline.cli.result_files import beside, result_files, write_tables
 from mudline.cli.streams import UnwrittenError, reason
 from mudline.cli.view import View
 from mudline.language.deck.loading import load_bytes
@@ -208,10 +208,10 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[st
         evaluation.run([series, watch])
         written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]
     else:
-        series, lines = SeriesSummary(evaluation, "case"), all_lines(evaluation, suffix_of(path))
+        series = SeriesSummary(evaluation, "case")
         with result_files(evaluation, evaluation.element_table(), path, View(quiet=True), synced=False) as sink:
-            evaluation.run([series, watch, lines, sink])
-            sink.finish(behind(evaluation, watch.warnings(), None, lines.rows))
+            evaluation.run([series, watch, sink])
+            sink.finish(watch.warnings())
         written = [path, *beside(path).values()]
     warnings = watch.warnings()
     names = [one.relative_to(order.output).as_posix() for one in written]

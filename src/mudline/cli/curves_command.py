@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 _SHOWN_DIAMETERS = 3
 _AT = ("ratio", "force", "slope", "segment", "extrapolated")
 _KIND = ("kind", "abscissa", "ordinate")
+_ENDS = ("from", "to")
 _OF_DIAMETER = ("diameter", "depth", "stiffness")
 _GOES_ON = "Below its first and above its last point a force-embedment curve goes on with the slope of its end segment."
 _OF_WATER = "without values beyond them and above the surface"
@@ -43,7 +44,7 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
 )
 @options.option(
     "--weight",
-    type=float,
+    type=options.ABOVE_ZERO,
     metavar="W",
     help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
@@ -64,8 +65,6 @@ def command(
     Force-embedment curves come first, then moment-curvature curves, soil springs, current profiles and so on. --weight
     is about force-embedment curves. CSV holds one table: the points, or the values for --at or --weight.
     """
-    if weight is not None and weight <= 0.0:
-        raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
     given = deck.load()
@@ -121,34 +120,26 @@ def _kind(row: dict[str, Any]) -> list[str]:
 
 def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     """Print a table of segments for each curve, with the values for --at and --weight."""
-    printer = view.printer()
-    names = unit_names(scene.units)
-    for (index, entry, _), row in zip(used_curves(scene), rows, strict=False):
-        sizes = diameters_on(scene, index)
-        drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
-        note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
-        shown_here = bool(followers(scene, index).any())
-        title = _title(row, sizes, embedment=entry.embedment, of_sections=not shown_here)
-        ends = [number(f"{end}\nratio", place) for place, end in enumerate(("from", "to"))]
-        ends += [number(f"{end}\nforce", place, names.line_force) for place, end in enumerate(("from", "to"), 2)]
-        stiffnesses = [
-            number(f"stiffness\nD={shown(size)}", place, names.stiffness) for place, size in enumerate(drawn, 5)
-        ]
-        columns = [*ends, number("slope", 4, names.line_force), *stiffnesses]
+    printer, names = view.printer(), unit_names(scene.units)
+    of_seabed = iter(used_curves(scene))  # they come first
+    for row in rows:
+        drawn, note, beyond = list[float](), "", _OF_WATER if row["kind"] == OF_CURRENT else ENDS[row["ends"]]
+        title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points, {beyond}"
+        if row["kind"] == OF_SEABED:
+            index, entry, _ = next(of_seabed)
+            sizes = diameters_on(scene, index)
+            drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
+            note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
+            shown_here = bool(followers(scene, index).any())
+            title = _title(row, sizes, embedment=entry.embedment, of_sections=not shown_here)
+        units = [unit if names.length and unit != "-" else "" for unit in row["units"]]
+        heads = [(f"{end}\n{axis}", unit) for axis, unit in zip(row["axes"], units, strict=True) for end in _ENDS]
+        heads += [("slope", _per(units)), *((f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)]
+        columns = [number(head, place, unit) for place, (head, unit) in enumerate(heads)]
         printer.table(DisplayTable(title, columns, _segments(row, drawn), note))
-        _print_values(printer, row, ["", names.line_force])
+        _print_values(printer, row, units)
         if "static" in row:
             _print_static(printer, row, names)
-    for row in rows:
-        if row["kind"] != OF_SEABED:
-            beyond = _OF_WATER if row["kind"] == OF_CURRENT else ENDS[row["ends"]]
-            title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points, {beyond}"
-            units = [unit if names.length and unit != "-" else "" for unit in row["units"]]
-            axes = zip(row["axes"], units, strict=True)
-            heads = [(f"{end}\n{axis}", unit) for axis, unit in axes for end in ("from", "to")]
-            columns = [number(head, place, unit) for place, (head, unit) in enumerate([*heads, ("slope", _per(units))])]
-            printer.table(DisplayTable(title, columns, _segments(row, [])))
-            _print_values(printer, row, units)
     if any(row["kind"] == OF_SEABED for row in rows):
         printer.line((_GOES_ON, "dim"))
 

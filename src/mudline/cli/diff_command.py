@@ -9,29 +9,27 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from enum import StrEnum
 from itertools import accumulate, groupby
-from typing import NamedTuple
+from typing import Any
 
 import click
 import numpy as np
 
+from mudline.api import Deck, public
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
-from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, refuses_bad_decks
-from mudline.cli.streams import emit, notify_diagnostics
+from mudline.cli import DONE, FOUND, WRONG_USAGE, options
+from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
+from mudline.cli.streams import emit, notify, notify_diagnostics
 from mudline.cli.view import View
+from mudline.commands import diff, diff_matrix
+from mudline.editing.comparison.folders import compare_folders
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
-from mudline.editing.comparison.matrix import matrix as matrix_of
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
-from mudline.editing.comparison.superseded import Comparison, compare_decks
+from mudline.editing.comparison.superseded import ComparedDeck, Comparison, Status
 from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.model import Deck
-from mudline.language.deck.searching import is_in_any_form
-from mudline.language.diagnostics import DeckError
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
@@ -39,27 +37,6 @@ FOLDER_FORMAT = "mudline-diff-folders/1"
 _NUMBERED = ("nodes", "elements")
 _FEW = 4
 _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "yellow")}
-
-
-class Status(StrEnum):
-    """What a comparison says of a name; the order is that of a summary."""
-
-    CHANGED = "changed"
-    ADDED = "added"
-    REMOVED = "removed"
-    EQUAL = "equal"
-    FAILED = "failed"
-
-
-class ComparedDeck(NamedTuple):
-    """A name below two folders, what became of it, and why it could not be compared, where it could not."""
-
-    name: str
-    status: Status
-    before: str = ""
-    after: str = ""
-    comparison: Comparison = Comparison([], [])
-    why: str = ""
 
 
 _NOT_COMPARED = "cannot be compared"
@@ -130,9 +107,11 @@ def command(
                 raise click.ClickException(f"{path}: no such file or directory")
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
-        return _compare_folders(_Folders(before, after, tolerance, strict, units), output_format, view, every_file)
+        found = _Folders(before, after, tolerance)
+        compared = found.compared(strict=strict, units=units, gitignore=not every_file)
+        return _print_folders(found, compared, output_format, view)
     first, second = _pair(before, after, stdin_name, units)
-    comparison = compare_decks(first, second, tolerance, strict=strict)
+    comparison = diff(first, second, tolerance=tolerance, strict=strict)
     summary = summary_of(comparison)
     if output_format == "json":
         head = {
@@ -140,7 +119,7 @@ def command(
             "before": first.file,
             "after": second.file,
             "tolerance": tolerance,
-            "equivalent": not comparison.differences,
+            "equivalent": comparison.equivalent,
             "spelling_differences": len(comparison.spelling),
         }
         emit([*_json_lines(head, "differences", map(asdict, comparison.differences)), "\n}\n"])
@@ -155,9 +134,8 @@ def command(
 
 def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, output_format: str, view: View) -> int:
     """Print what differs of the first deck in the others."""
-    base, *others = decks
-    compared = [compare_decks(base, other, tolerance, strict=strict).differences for other in others]
-    rows, names = matrix_of(compared), [deck.file for deck in decks]
+    rows = diff_matrix(decks[0], decks[1:], tolerance=tolerance, strict=strict)
+    names = [deck.file for deck in decks]
     if output_format == "json":
         head = {"format": MATRIX_FORMAT, "decks": names, "tolerance": tolerance}
         emit([*_json_lines(head, "rows", map(asdict, rows)), "\n}\n"])
@@ -189,7 +167,8 @@ def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[
     """
     decks = [None if path == os.devnull else GivenDeck(path, stdin_name, units).load() for path in (before, after)]
     there = next((deck.units for deck in decks if deck), units)
-    first, second = (deck or load_bytes(b"", os.devnull, form="keyword", units=there) for deck in decks)
+    empty = public(load_bytes(b"", os.devnull, form="keyword", units=there))
+    first, second = (deck or empty for deck in decks)
     return first, second
 
 
@@ -198,55 +177,30 @@ def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[
 
 @dataclass(slots=True)
 class _Folders:
-    """Two folders and how their decks are compared; `counts` are whole when all of `compared` has been taken."""
+    """Two folders and how their decks are compared; `counts` and `code` are whole when all of them have been taken."""
 
     before: str
     after: str
     tolerance: float
-    strict: bool
-    units: str | None
     code: int = DONE
     counts: Counter[Status] = field(default_factory=Counter)
 
-    def compared(self, *, gitignore: bool) -> Iterator[ComparedDeck]:
-        """Each name of a deck in one of the folders, in sorted order; it may be in none. Sets the exit code."""
-        sides = (self.before, self.after)
-        inputs = [collect([path], "", is_in_any_form, gitignore=gitignore, may_be_empty=True) for path in sides]
-        old, new = (
-            {file.name.removeprefix(f"{path.replace(os.sep, '/').rstrip('/')}/"): file for file in found.files}
-            for path, found in zip((self.before, self.after), inputs, strict=True)
-        )
-        if not old and not new and not any(found.code for found in inputs):
-            inputs[0].fail(f"{self.before}, {self.after}: no deck in these folders")
-        for name in sorted({*old, *new}):
-            before, after = old.get(name), new.get(name)
-            if before is None or after is None:
-                one = ComparedDeck(name, Status.ADDED if before is None else Status.REMOVED)
-            else:
-                first, second = inputs[0].content(before), inputs[1].content(after)
-                if first is None or second is None:  # which is reported, and sets the exit code
-                    continue
-                one = self._compared(name, (before, first), (after, second))
+    def compared(self, *, strict: bool, units: str | None, gitignore: bool) -> Iterator[ComparedDeck]:
+        """Yield each deck, and count it."""
+        words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
+        for one in compare_folders(self.before, self.after, self.tolerance, **words):
+            notify_diagnostics(one.errors)
+            if one.unread is not None:
+                notify(one.why)
             self.counts[one.status] += 1
+            self.code = max(self.code, WRONG_USAGE if one.unread else DONE if one.status is Status.EQUAL else FOUND)
             yield one
-        differ = self.counts.total() > self.counts[Status.EQUAL]
-        self.code = max(*(found.code for found in inputs), FOUND if differ else DONE)
-
-    def _compared(self, name: str, *given: tuple[Input, bytes]) -> ComparedDeck:
-        before, after = (file.name for file, _ in given)
-        try:
-            first, second = (load_bytes(data, file.name, units=self.units, folder=file.folder) for file, data in given)
-            comparison = compare_decks(first, second, self.tolerance, strict=self.strict)
-        except DeckError as error:
-            notify_diagnostics(error.diagnostics)
-            found = error.diagnostics[0]
-            why = f"{found.file}:{found.line}:{found.column}: {found.code} {found.message}"
-            return ComparedDeck(name, Status.FAILED, before, after, why=why)
-        return ComparedDeck(name, Status.CHANGED if comparison.differences else Status.EQUAL, before, after, comparison)
+        if not self.counts:
+            notify(f"{self.before}, {self.after}: no deck in these folders")
+            self.code = WRONG_USAGE
 
 
-def _compare_folders(folders: _Folders, output_format: str, view: View, every_file: bool) -> int:
-    compared = folders.compared(gitignore=not every_file)
+def _print_folders(folders: _Folders, compared: Iterator[ComparedDeck], output_format: str, view: View) -> int:
     if output_format == "json":
         emit(_folders_json(folders, compared))
     elif output_format == "markdown":
@@ -332,7 +286,7 @@ def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int],
 
 def summary_of(comparison: Comparison) -> str:
     """How many differences there are, and how many of spelling."""
-    found, spelling = (len(part) for part in comparison)
+    found, spelling = len(comparison.differences), len(comparison.spelling)
     if not spelling:
         return counted(found, "difference") if found else "no difference"
     beside = f"{counted(spelling, 'difference')} of spelling in superseded keywords"

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import click
 from click.core import ParameterSource
 
-from mudline.basics.files import suffix_of
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import listed_numbers
@@ -20,7 +19,7 @@ from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
-from mudline.cli.result_files import all_lines, behind, beside, has_library, result_files, write_tables
+from mudline.cli.result_files import beside, has_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View
 from mudline.model.results.against import Comparison, read_reference
@@ -154,14 +153,13 @@ def _evaluate_one(
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form
     screen = Screen(evaluation, wanted.table, view, every=wanted.every) if shown == "text" else None
-    lines = all_lines(evaluation, shown or suffix_of(output or ""))
     slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
-    consumers: list[ResultConsumer | None] = [comparison, drawing, lines, slow, watch]
+    consumers: list[ResultConsumer | None] = [comparison, drawing, slow, watch]
     consumers += [] if screen is None else screen.consumers
     with _sink(evaluation, comparison, wanted) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
-        sink.finish(behind(evaluation, warnings, comparison, lines.rows))
+        sink.finish(warnings, comparison)
     if drawing is not None:
         doubt = caption(warnings)
         plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
@@ -201,10 +199,10 @@ def _sink(evaluation: Evaluation, comparison: Comparison | None, wanted: Wanted)
     if wanted.output:
         return result_files(evaluation, elements, Path(wanted.output), wanted.view)
     if wanted.form == "text":
-        return nullcontext(Sink(evaluation, {}, None))
+        return nullcontext(Sink(evaluation, {}, None, "text"))
     tables = tables_of(evaluation, wanted.form, elements, wanted.table)
     writer = text_writer(wanted.form, contents_of(evaluation, tables), emit, wanted.table)
-    return nullcontext(Sink(evaluation, tables, writer))
+    return nullcontext(Sink(evaluation, tables, writer, wanted.form))
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], view: View, *, bar: bool) -> None:

@@ -6,23 +6,23 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import wraps
-from math import isfinite
 from pathlib import Path
 from typing import TypeVar, cast
 
 import click
 
+from mudline.api import Scene as PublicScene
+from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import Command, input_option, option
+from mudline.cli.options import ABOVE_ZERO, Command, input_option, option
 from mudline.cli.streams import reason
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.model.scene.csv_file import read_external
-from mudline.model.scene.given_positions import require_order
 from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.positions import COLUMNS, read_positions
+from mudline.model.scene.positions import COLUMNS
 
 _MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
 """NAME=HEADING up to a comma with another name behind it: a comma may be in a heading."""
@@ -62,15 +62,6 @@ class EvaluateInputs:
         scene = self.scene(deck)
         return prepare(scene, self._placed(scene), self.tension)
 
-    def _read(self, path: Path, scene: Scene) -> Positions:
-        """Positions from a file in our form, or in that of another program, known by its headings."""
-        if not self.headings and path.suffix.lower() not in {".npz", ".npy"}:
-            from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - needs the shape of the lines
-
-            if (found := read_returned(path, scene)) is not None:
-                return found
-        return require_order(read_positions(path, scene.nodes, self.headings), scene, path.as_posix())
-
     def _placed(self, scene: Scene) -> Positions | None:
         """Positions of a scene's nodes; with `time_step` those without times get them."""
         path = self.positions
@@ -78,7 +69,7 @@ class EvaluateInputs:
             return None
         if self.headings and Path(path).suffix.lower() in {".npz", ".npy"}:
             raise click.UsageError(f"--columns is for CSV: the arrays of {path} have names already")
-        positions = read_file(path, lambda file: self._read(file, scene))
+        positions = read_file(path, lambda file: read_positions(file, PublicScene(scene), columns=self.headings))
         if self.time_step is None:
             return positions
         if positions.time is None or positions.timed:
@@ -105,8 +96,6 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
             headings = read_headings(columns)
             if headings and positions is None:
                 raise click.UsageError("--columns is for positions from a CSV: give --positions too")
-            if time_step is not None and not (isfinite(time_step) and time_step > 0.0):
-                raise click.UsageError(f"--time-step is {time_step!r}: it must be greater than 0")
             if at_rest and positions is not None:
                 raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
             inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings, at_rest)
@@ -127,7 +116,10 @@ _INPUTS = (
         help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
     ),
     input_option(
-        "--time-step", type=float, metavar="DT", help="Set the time between the steps of positions that have no times."
+        "--time-step",
+        type=ABOVE_ZERO,
+        metavar="DT",
+        help="Set the time between the steps of positions that have no times.",
     ),
     input_option(
         "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."

@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Literal
 
 import click
-import numpy as np
 
 from mudline.basics.display import DisplayColumn, DisplayTable
-from mudline.basics.quantities import csv_lines
-from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
-from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.numbering import Floats
-from mudline.tools.exporting.line_model import build
-
-if TYPE_CHECKING:
-    from mudline.tools.exporting.report import Report
+from mudline.commands import export
+from mudline.tools.exporting.report import Report
 
 _TARGETS = ("moordyn", "orcaflex")
 
@@ -46,7 +38,7 @@ _TARGETS = ("moordyn", "orcaflex")
 def command(
     *,
     deck: GivenDeck,
-    target: str,
+    target: Literal["moordyn", "orcaflex"],
     output: str,
     rest_shape: bool,
     strict: bool,
@@ -58,37 +50,20 @@ def command(
     if output == STDIN:
         raise click.UsageError("-o -: a model may need several files; give the name of a file")
     read = deck.load()
-    with naming_causes(read):
-        scene = resolve(read).require_evaluable()
-    model = build(scene, _at_rest(scene) if rest_shape else None)
-    files = import_module(f"mudline.tools.exporting.{target}").write(model, path.name)
-    if rest_shape:
-        rows = np.column_stack([scene.node_ids.astype(np.int64), model.places])[model.line_nodes()].tolist()
-        lines = csv_lines([("node", "x (m)", "y (m)", "z (m)"), *((int(row[0]), *row[1:]) for row in rows)])
-        files = {**files, f"{path.stem}-rest.csv": "".join(lines)}
+    files, report, notes = export(read, to=target, name=path.name, rest_shape=rest_shape)
+    for note in notes:
+        notify(note)
     for name, text in files.items():
         write_text(path.with_name(name), [text])
     if not view.quiet:
         notify(f"{read.file} -> {', '.join(path.with_name(name).as_posix() for name in files)}")
     if output_format == "json":
-        entries = [asdict(entry) for entry in model.report.entries]
+        entries = [asdict(entry) for entry in report.entries]
         places = [path.with_name(name).as_posix() for name in files]
-        emit_json(
-            {"target": target, "deck": read.file, "files": places, "exact": model.report.is_exact, "entries": entries}
-        )
+        emit_json({"target": target, "deck": read.file, "files": places, "exact": report.is_exact, "entries": entries})
     else:
-        _print(model.report, view)
-    return FOUND if strict and not model.report.is_exact else DONE
-
-
-def _at_rest(scene: Scene) -> Floats:
-    """The positions (n, 3) of the resting shape; those of the deck for lines that have none."""
-    from mudline.tools.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - few runs ask for it
-
-    found = rest_shape(scene)
-    for sentence in found.sentences(scene.units):
-        notify(sentence)
-    return np.where(found.positions.present[:, None], found.positions.values[0], scene.coordinates)
+        _print(report, view)
+    return FOUND if strict and not report.is_exact else DONE
 
 
 def _print(report: Report, view: View) -> None:

@@ -6,11 +6,11 @@ import errno
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import click
 
@@ -25,7 +25,10 @@ from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be
 from mudline.language.diagnostics import DeckError
 
 if TYPE_CHECKING:
-    from mudline.language.deck.model import Deck
+    from mudline.api import Deck
+    from mudline.language.deck import model
+
+_Deck = TypeVar("_Deck", bound="model.Deck")
 
 STDIN = "-"
 
@@ -33,7 +36,7 @@ CHANGED = "it has changed during the run: left unchanged, run it again"
 """Said of a file that somebody else has written."""
 
 
-def require_text(deck: Deck) -> Deck:
+def require_text(deck: _Deck) -> _Deck:
     """Return a deck of a file that is a text of its own; raises DeckError for others: a merge conflict, binary data."""
     from mudline.language.deck.reading import TextOrigin  # noqa: PLC0415 - completion does without it
 
@@ -153,44 +156,6 @@ Wanted = Callable[[str], bool]
 """Whether a file of a directory, given by its path, is taken as a deck."""
 
 
-def collect(
-    paths: Sequence[str],
-    stdin_name: str = "<stdin>",
-    wanted: Wanted = is_deck,
-    *,
-    gitignore: bool = True,
-    may_be_empty: bool = False,
-    skipped: list[str] | None = None,
-    left_out: Wanted | None = None,
-    encoding_of: Callable[[str], str] = lambda _: "",
-) -> Inputs:
-    """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
-
-    What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen.
-    `gitignore` leaves out of a search what `.gitignore` files hide. A directory without a deck is a fault unless it
-    `may_be_empty`. `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
-    `left_out` tells which of the files given are not taken either, `encoding_of` the encoding of a path.
-    """
-
-    def taken(path: str) -> bool:
-        found = wanted(path) and may_be_deck(path)
-        if not found and skipped is not None:
-            skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
-        return found
-
-    found = Inputs()
-    for given in paths:
-        if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
-        elif given == STDIN or left_out is None or not left_out(given):
-            found.files.append(_single(given, stdin_name))
-    found.files = [file._replace(encoding=encoding_of(file.path or file.name)) for file in dict.fromkeys(found.files)]
-    for file in found.files:
-        if file.path is not None:
-            reading(file.path)
-    return found
-
-
 def _why_skipped(path: str) -> str:
     if is_key_file(path):
         return "it is a key file of a password manager"
@@ -209,13 +174,13 @@ def _single(given: str, stdin_name: str) -> Input:
     return Input(stdin_name, None) if given == STDIN else Input(_slashed(given), given)
 
 
-def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
+def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     files = [Input(start + inside, path) for inside, path in search.files(taken)]
     for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
-    if not (files or search.unreadable or may_be_empty):
+    if not (files or search.unreadable):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
     found.files += files
@@ -246,15 +211,16 @@ class GivenDeck(NamedTuple):
     def load(self, form: str | None = None) -> Deck:
         """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
         data, name = self.content()
-        from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
+        from mudline.api import Deck  # noqa: PLC0415 - what only looks for files reads no deck
+        from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
 
         folder = _single(self.path, self.stdin_name).folder
         deck = load_bytes(data, name, form=form, units=self.units, folder=folder)
         reading_named_files(deck)
-        return deck
+        return Deck(**vars(deck))
 
 
-def reading_named_files(deck: Deck) -> None:
+def reading_named_files(deck: model.Deck) -> None:
     """Note the files that a deck names as read, also where the command does not open them; raises OverwriteError."""
     if outputs():
         from mudline.model.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
@@ -268,9 +234,9 @@ class GivenDecks(NamedTuple):
     """The decks of a command: paths, the name of standard input, and the units that its options give."""
 
     paths: tuple[str, ...]
-    every_file: bool
-    stdin_name: str
-    units: str | None
+    every_file: bool = False
+    stdin_name: str = "<stdin>"
+    units: str | None = None
     encoding: str = ""
 
     def collect(
@@ -281,20 +247,32 @@ class GivenDecks(NamedTuple):
         skipped: list[str] | None = None,
         force_exclude: bool = False,
     ) -> Inputs:
-        """Find the files, as `collect` does, without those of directories that their configuration excludes.
+        """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
-        With `force_exclude` no file that it excludes is taken, not even by its name.
+        What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen. Of a
+        directory what its `.gitignore` files hide is left out, unless `every_file` is asked for, and what the
+        configuration excludes; with `force_exclude` no file that it excludes is taken, not even by its name. `skipped`
+        gets a line, with the reason, for each file of a searched directory that is not taken.
         """
-        own = configured or Configured()
-        return collect(
-            self.paths,
-            self.stdin_name,
-            lambda path: wanted(path) and not own.excludes(path),
-            gitignore=not self.every_file,
-            skipped=skipped,
-            left_out=own.excludes if force_exclude else None,
-            encoding_of=lambda path: self.encoding or own.encoding(path),
-        )
+        own, found = configured or Configured(), Inputs()
+
+        def taken(path: str) -> bool:
+            is_taken = wanted(path) and not own.excludes(path) and may_be_deck(path)
+            if not is_taken and skipped is not None:
+                skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
+            return is_taken
+
+        for given in self.paths:
+            if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
+                _directory(Search(given, not self.every_file), found, taken)
+            elif given == STDIN or not (force_exclude and own.excludes(given)):
+                found.files.append(_single(given, self.stdin_name))
+        files = dict.fromkeys(found.files)
+        found.files = [file._replace(encoding=self.encoding or own.encoding(file.path or file.name)) for file in files]
+        for file in found.files:
+            if file.path is not None:
+                reading(file.path)
+        return found
 
 
 def takes_decks(

@@ -6,18 +6,18 @@ from pathlib import Path
 
 import click
 
+from mudline.api import Deck
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
-from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, require_text, takes_decks
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
-from mudline.editing.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
+from mudline.commands import migrated
+from mudline.editing.migration.migrating import Verdict, legacy_blocks
 from mudline.editing.migration.refusals import Continuations
-from mudline.language.deck.forms import form_of
-from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError
 
 
@@ -74,36 +74,29 @@ class _Run:
 
     def migrate(self, units: str | None, continuations: Continuations, *, diff: bool, proved: bool) -> int:
         """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
-        deck = require_text(load_bytes(self.data, self.file.name, units=units, folder=self.file.folder))
-        reading_named_files(deck)
+        read = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
+        reading_named_files(read)
+        deck = Deck(**vars(require_text(read)))
         path = Path(self.file.path) if self.file.path and legacy_blocks(deck) else None
-        continued_by = continuations.of(path) if path else []
-        with naming_causes(deck):
-            migration = migrate(deck, continued_by, extended=path is not None and continuations.extend(path))
-        if not migration.replaced:
+        beside = (continuations.of(path), continuations.extend(path)) if path else ([], False)
+        made = migrated(deck, beside, verify=proved)
+        if not made.replaced:
             self._note("no legacy seabed keyword")
             return DONE if diff or self._in_place else self._write(self.data, {})
-        if proved and not self._proved(verify(migration)):
+        if made.verified and not self._proved(made.verified):
             return FOUND
-        content = self._content(migration)
+        content = made.content_as(self.file.name if self.target is None else self.target.name)
         if diff:
             print_changes(self.data, content, self.file.name, self.view)
-            for name, data in migration.files.items():
+            for name, data in made.files.items():
                 print_changes(b"", data, Path(self.file.name).with_name(name).as_posix(), self.view, created=True)
             return DONE
-        replaced = ", ".join(f"{count} *{keyword}" for keyword, count in migration.replaced.items())
-        return self._write(content, migration.files, replaced)
+        replaced = ", ".join(f"{count} *{keyword}" for keyword, count in made.replaced.items())
+        return self._write(content, made.files, replaced)
 
     @property
     def _in_place(self) -> bool:
         return self.target is not None and self.target == Path(self.file.path or "")
-
-    def _content(self, migration: Migration) -> bytes:
-        """The new deck in the format of its file's suffix."""
-        form = form_of(self.file.name if self.target is None else self.target.name)
-        if form == form_of(self.file.name):
-            return migration.content
-        return dump(migration.deck, form).encode()
 
     def _proved(self, verdict: Verdict) -> bool:
         for difference in verdict.differences[:SHOWN_ROWS]:

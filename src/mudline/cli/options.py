@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable, Collection, Sequence
 from functools import partial, wraps
 from typing import Any
@@ -203,3 +204,20 @@ class _OutputFile(click.types.StringParamType):
 
 
 OUTPUT_FILE = _OutputFile()
+
+
+class _AboveZero(click.types.FloatParamType):
+    """A number that is finite and above 0."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:  # noqa: ANN401 - as click has it
+        """Return the number; raises click.UsageError."""
+        number = super().convert(value, param, ctx)
+        if not 0.0 < number < math.inf:
+            name = param.opts[0] if param else "the number"
+            raise click.UsageError(
+                f"{name} is {number!r}: it must be greater than 0{'' if math.isfinite(number) else ' and finite'}", ctx
+            )
+        return number
+
+
+ABOVE_ZERO = _AboveZero()

@@ -13,8 +13,6 @@ from mudline.basics.files import suffix_of
 from mudline.cli.streams import notify_missing, writing
 from mudline.cli.view import View, tracked
 from mudline.model.contact.columns import ElementTable
-from mudline.model.contact.lines import LineSummary
-from mudline.model.results.against import Comparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (
     FORMS,
@@ -29,8 +27,6 @@ from mudline.model.results.forms import (
     table_path,
     tables_of,
 )
-from mudline.model.results.totals import First, line_steps
-from mudline.model.results.warnings import ContactWarning
 
 
 def is_installed(form: str) -> bool:
@@ -61,7 +57,7 @@ def result_files(
     """
     tables = tables_of(evaluation, suffix_of(path), elements)
     with _opened(path, [*beside(path).values()], contents_of(evaluation, tables), view, synced=synced) as writer:
-        yield Sink(evaluation, tables, writer)
+        yield Sink(evaluation, tables, writer, suffix_of(path))
 
 
 def beside(path: Path) -> dict[str, Path]:
@@ -92,23 +88,3 @@ def _opened(path: Path, others: Sequence[Path], contents: Contents, view: View, 
         except FormError as error:
             raise click.ClickException(f"{path.as_posix()}: {error}") from error
         yield writer
-
-
-def all_lines(evaluation: Evaluation, form: str) -> First[LineSummary]:
-    """What keeps the rows of lines at all steps for JSON, which has them behind; other forms have a table of them."""
-    return First(partial(line_steps, evaluation), None if form == "json" else 0)
-
-
-def behind(
-    evaluation: Evaluation,
-    warnings: Sequence[ContactWarning],
-    comparison: Comparison | None,
-    lines: Sequence[LineSummary],
-) -> dict[str, object]:
-    """What JSON has behind the results."""
-    found: dict[str, object] = {
-        "summary": [row.row() for row in lines],
-        "positions": evaluation.source,
-        "warnings": [one.row() for one in warnings],
-    }
-    return found if comparison is None else {**found, "against": comparison.summary()}

@@ -16,12 +16,12 @@ from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, shown, unit_names
 from mudline.basics.short_repr import counted
-from mudline.checks.overview import overview
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.result_files import has_library, write_tables
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
+from mudline.commands import show
 from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
@@ -49,7 +49,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     form = _form(output, output_format)
     if form == "xlsx" and not has_library("xlsx"):
         return WRONG_USAGE
-    summary, found, errors = overview(require_text(deck.load()))
+    summary, found, errors = show(require_text(deck.load()))
     units = summary["units"]
     if output is not None:
         write_tables(sheet_data(found, units), Path(output))

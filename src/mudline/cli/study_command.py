@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Iterator
 from itertools import chain
@@ -14,15 +13,15 @@ import click
 from mudline.basics.display import DisplayColumn, DisplayTable
 from mudline.basics.files import suffix_of
 from mudline.basics.quantities import csv_lines
-from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
+from mudline.cli.options import ABOVE_ZERO
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
-from mudline.model.scene.model import resolve
+from mudline.commands import study
 from mudline.tools.touchdown_study.screen import TABLES, ScreenTable, description, sentences
-from mudline.tools.touchdown_study.study import PARTS, Study, study
+from mudline.tools.touchdown_study.study import PARTS, Study
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -32,8 +31,10 @@ _WIDTH = 110
 
 @options.command("study")
 @options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
-@options.option("--heave", type=float, metavar="A", help="Set the amplitude of the hang-off's heave, without surge.")
-@options.option("--period", type=float, metavar="T", help="Set the period of its motion.")
+@options.option(
+    "--heave", type=ABOVE_ZERO, metavar="A", help="Set the amplitude of the hang-off's heave, without surge."
+)
+@options.option("--period", type=ABOVE_ZERO, metavar="T", help="Set the period of its motion.")
 @plot_option("error against run time, with the deck's own step")
 @options.option(
     "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE.json", help="Write the study as JSON into this file."
@@ -59,13 +60,7 @@ def command(
     """
     if output is not None and suffix_of(output) != "json":
         raise click.UsageError(f"-o {output}: unknown file format: give a name ending in .json")
-    for name, value in (("--heave", heave), ("--period", period)):
-        if value is not None and not (math.isfinite(value) and value > 0.0):
-            raise click.UsageError(f"{name} is {value!r}: it must be greater than 0")
-    given = deck.load()
-    with naming_causes(given):
-        scene = resolve(given).require()
-        found = study(scene, only or PARTS, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
+    found = study(deck.load(), only=only, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
     if plot.path is not None:
         _plot(found, plot, view)
     if output:

@@ -30,22 +30,34 @@ class BackboneCurve(NamedTuple):
     block: SeabedStiffness | Embedment
 
 
-def backbone_curve(  # noqa: PLR0913 - as many as the command has options
+def backbone(  # noqa: PLR0913 - as many as the command has options
     model: str,
     *,
     diameter: float,
     strength: float | tuple[float, float],
-    weight: float,
-    depth: float | None,
-    tolerance: float,
-    first: float,
-    name: str | None,
-    legacy: bool,
-    extend: bool,
+    weight: float = 0.0,
+    depth: float | None = None,
+    tolerance: float = 0.005,
+    first: float = 0.001,
+    name: str | None = None,
+    legacy: bool = False,
+    extend: bool = False,
 ) -> BackboneCurve:
-    """Make the block; the arguments are those of `mudline.backbone`.
+    """Return the penetration resistance of a published model as a curve of few points, all in one system of units.
 
-    Raises ValueError, which begins with the name of an argument.
+    Args:
+        model: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin.
+        diameter: external diameter of the pipe.
+        strength: undrained shear strength at the mudline, or that and its increase per depth.
+        weight: submerged weight of the soil per volume.
+        depth: largest ratio z/D; as far as the model is published if None.
+        tolerance: largest error of the interpolation, as a share of the largest force.
+        first: smallest ratio of a point above 0; below it a straight line replaces the model.
+        name: of the curve, or of the set if `legacy`; that of the model if None.
+        legacy: make a block of `*EMBEDMENT`, not of `*SEABED STIFFNESS`.
+        extend: let `depth` go beyond the ratios for which the model is published.
+
+    Raises ValueError, which begins with the name of an argument, for one that the model cannot have.
     """
     expect_word(model, "model", tuple(MODELS), f"one of {', '.join(MODELS)}")
     for word, flag in (("legacy", legacy), ("extend", extend)):

@@ -81,6 +81,18 @@ def test_decks_beside_a_deck_are_looked_for_in_its_folder(tmp_path: Path) -> Non
     assert continuations_beside(deck_of(BASE, "base.keyxm", folder=tmp_path / "none")) == ([], False)
 
 
+def test_decks_that_are_written_changed_and_removed_in_a_session_are_seen(tmp_path: Path) -> None:
+    child, deck = tmp_path / "child.keyxm", deck_of(BASE, "base.keyxm", folder=tmp_path)
+    (tmp_path / "base.keyxm").write_text(BASE)
+    assert continuations_beside(deck) == ([], False)
+    child.write_text(f"$MODEL\n{CURVE}{GOES_ON}")
+    assert continuations_beside(deck) == ([child.as_posix()], True)
+    child.write_text(f"$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n{GOES_ON}")
+    assert continuations_beside(deck) == ([], True)
+    child.unlink()
+    assert continuations_beside(deck) == ([], False)
+
+
 def test_keywords_that_may_be_meant_as_legacy_ones() -> None:
     others = "*OCEAAN\n 1\n*WIND TURBINE ROTOR\n 1\n$LOAD CASE\n*EMBEDMNT\n 0, 0\n"
     deck = deck_of(f"$MODEL\n*OCEAN\n 1, 2, 3\n*EMBEDMNT\n 0, 0\n{others}")

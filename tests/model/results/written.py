@@ -25,11 +25,11 @@ def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterat
     """All that a form of text writes, piece by piece as it comes."""
     written: list[Iterator[str]] = []
     tables = tables_of(evaluation, form, evaluation.element_table(), table)
-    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), written.append, table))
+    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), written.append, table), form)
     for part in evaluation.parts():
         sink.take(part)
         yield from written.pop()
-    sink.finish({})
+    sink.finish()
     for rest in written:
         yield from rest
 
@@ -47,10 +47,10 @@ def write(evaluation: Evaluation, path: Path) -> Path:
         paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
         streams = [stack.enter_context(one.open("wb")) for one in paths]
         writer = stack.enter_context(Output(form, contents_of(evaluation, tables), streams, path.parent).opened())
-        sink = Sink(evaluation, tables, writer)
+        sink = Sink(evaluation, tables, writer, form)
         for part in evaluation.parts():
             sink.take(part)
-        sink.finish({})
+        sink.finish()
     return path
 
 

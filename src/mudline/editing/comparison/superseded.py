@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from enum import StrEnum
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +22,7 @@ from mudline.editing.comparison.comparing import (
 from mudline.editing.comparison.model import Difference, Pair, Side, Tolerance, plain
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Diagnostic
 from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
@@ -28,11 +31,52 @@ from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.representatives import representatives, shows_elements
 
 
+class Status(StrEnum):
+    """What became of a deck between two folders; the order is that of a summary."""
+
+    CHANGED = "changed"
+    ADDED = "added"
+    REMOVED = "removed"
+    EQUAL = "equal"
+    FAILED = "failed"
+
+
 class Comparison(NamedTuple):
-    """The semantic differences of two decks, and the differences of spelling in superseded keywords."""
+    """The semantic differences of two decks, and the differences of spelling in superseded keywords.
+
+    Of two folders these are those of all decks, and `decks` has each of them.
+    """
 
     differences: list[Difference]
     spelling: list[Difference]
+    decks: Sequence[ComparedDeck] = ()
+
+    @property
+    def equivalent(self) -> bool:
+        """Whether both mean the same."""
+        return not self.differences and all(one.status is Status.EQUAL for one in self.decks)
+
+
+class ComparedDeck(NamedTuple):
+    """A deck by its path below two folders, and what became of it; `before` and `after` are its files where it has two.
+
+    `errors` say why it could not be compared, or `unread` why a file could not be read.
+    """
+
+    name: str
+    status: Status
+    before: str = ""
+    after: str = ""
+    comparison: Comparison = Comparison([], [])
+    errors: Sequence[Diagnostic] = ()
+    unread: OSError | None = None
+
+    @property
+    def why(self) -> str:
+        """The first of the errors, in a line; "" without any."""
+        if self.unread is not None:
+            return f"{Path(self.unread.filename).as_posix()}: {(self.unread.strerror or str(self.unread)).lower()}"
+        return next((f"{one.file}:{one.line}:{one.column}: {one.code} {one.message}" for one in self.errors), "")
 
 
 def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:

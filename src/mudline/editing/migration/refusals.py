@@ -170,55 +170,64 @@ _NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
 class Continuations:
     """The decks that continue a deck, among those to be migrated and those in its folder."""
 
-    def __init__(self, files: Iterable[Path]) -> None:
-        self._visited: set[Path] = set()
-        self._by_base: dict[Path, set[str]] = {}
-        self._extended: set[Path] = set()
+    def __init__(self, files: Iterable[Path] = ()) -> None:
+        self._looked: set[Path] = set()
+        self._states: dict[Path, tuple[int, ...]] = {}
+        self._found: dict[Path, tuple[list[Path], bool]] = {}
+        """Of each deck that continues others: these, and whether it has seabed keywords of its own."""
         for file in files:
             self._visit(file)
 
     def of(self, file: Path) -> list[str]:
         """Names of the decks that continue a deck and have seabed keywords of their own."""
-        if file.parent not in self._visited:
-            self._visited.add(file.parent)
-            for other in sorted(file.parent.iterdir()):
-                if other.suffix.lower() in SUFFIXES:
-                    self._visit(other)
-        return sorted(self._by_base.get(file.resolve(), ()))
+        if file.parent not in self._looked:
+            self.look_in(file.parent)
+        base = file.resolve()
+        return sorted(other.as_posix() for other, (bases, seabed) in self._found.items() if seabed and base in bases)
 
     def extend(self, file: Path) -> bool:
         """Whether a deck that continues a deck, among those visited, has a model of its own: more elements or sets."""
-        return file.resolve() in self._extended
+        base = file.resolve()
+        return any(base in bases for bases, _ in self._found.values())
+
+    def look_in(self, folder: Path) -> None:
+        """Read the decks of a folder that are new or have changed; those that are gone are forgotten."""
+        self._looked.add(folder)
+        there = {file for file in folder.iterdir() if file.suffix.lower() in SUFFIXES}
+        for gone in [file for file in self._states if file.parent == folder and file not in there]:
+            del self._states[gone]
+            self._found.pop(gone, None)
+        for file in sorted(there):
+            self._visit(file)
 
     def _visit(self, file: Path) -> None:
-        if file in self._visited:
-            return
-        self._visited.add(file)
         try:
-            if file.stat().st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
+            about = file.stat()
+            state = about.st_ino, about.st_mtime_ns, about.st_size
+            if self._states.get(file) == state:
+                return
+            self._states[file] = state
+            self._found.pop(file, None)
+            if about.st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
                 return
             deck = load_path(file)
         except (OSError, DeckError):
             return  # an unreadable deck continues nothing; where it is to be migrated itself, that is an error
-        keywords = deck.keywords()
-        if not keywords:
-            return
-        bases = [base.resolve() for base in decks_before(deck)]
-        self._extended.update(bases)
-        if keywords & _NEWER or any(map(is_superseded, keywords)):
-            for base in bases:
-                self._by_base.setdefault(base, set()).add(file.as_posix())
+        if keywords := deck.keywords():
+            seabed = bool(keywords & _NEWER) or any(map(is_superseded, keywords))
+            self._found[file] = [base.resolve() for base in decks_before(deck)], seabed
 
 
 def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
-    """What `Continuations.of` and `extend` give for a deck and its folder; the decks of a folder are read once."""
+    """What `Continuations.of` and `extend` give for a deck and its folder as it is now."""
     if deck.folder is None or not deck.folder.is_dir():
         return [], False
     found, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
+    found.look_in(deck.folder)
     return found.of(file), found.extend(file)
 
 
 @lru_cache(maxsize=1)
 def _continuations_in(_: Path) -> Continuations:
-    """Those of a folder, whose decks are read when they are asked for."""
-    return Continuations(())
+    """Those of a folder, so that of many decks of it each is read once."""
+    return Continuations()

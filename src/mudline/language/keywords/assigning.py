@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from itertools import islice
-from typing import Annotated, Any, NamedTuple, Self, SupportsIndex, cast
+from typing import TYPE_CHECKING, Annotated, Any, Generic, NamedTuple, Self, SupportsIndex, TypeVar, cast, overload
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCustomError, core_schema
@@ -133,6 +133,28 @@ class ValidatedList(list[Any]):
             return cast("list[Any]", _entries(self.of).validate_python(given))
         except ValidationError as error:
             raise _refusal(f"{self.of.part.__name__}.{self.of.name}", given, error) from None
+
+
+if TYPE_CHECKING:
+    _Entry = TypeVar("_Entry")
+
+    class RecordList(list[_Entry]):
+        """What type checkers know of a `ValidatedList`."""
+
+        @overload
+        def __getitem__(self, at: SupportsIndex | str) -> _Entry: ...
+        @overload
+        def __getitem__(self, at: slice) -> list[_Entry]: ...
+        def __getitem__(self, at: Any) -> Any: ...
+
+    class Records(Generic[_Entry]):
+        """The field of a list of parts: read as a `RecordList`, and set to several parts or what they are made of."""
+
+        def __get__(self, part: object, kind: type | None = None) -> RecordList[_Entry]: ...
+        def __set__(self, part: object, values: Iterable[_Entry | Mapping[str, Any]]) -> None: ...
+
+else:
+    Records = list
 
 
 def _filled(of: ListOf, entries: list[Any]) -> ValidatedList:

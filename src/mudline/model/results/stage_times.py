@@ -93,23 +93,15 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     rows = []
     for stage in model.plan:
         where = _place(scene, stage.stage) if stage.active else None
-        row = StageRow(
-            stage.stage,
-            stage.active,
-            stage.why,
-            None if where is None else _file_of(scene, where),
-            None if where is None else line_of(scene, where),
-            None,
-            None,
-            None,
-        )
+        file, line = (None, None) if where is None else (_file_of(scene, where), line_of(scene, where))
+        share = time = added = None
         if stage.active and stage.stage in taken:
             less = taken[stage.stage]
-            part = {"floor": floor, "normal law": less - floor}.get(stage.stage, whole - less)
-            row = row._replace(time=max(part, 0.0), share=min(max(part, 0.0) / whole, 1.0))
+            time = max({"floor": floor, "normal law": less - floor}.get(stage.stage, whole - less), 0.0)
+            share = min(time / whole, 1.0)
         elif stage.stage in taken and stage.stage in _STAGES:
-            row = row._replace(cost_if_added=max(taken[stage.stage] - whole, 0.0) / len(given.node_ids))
-        rows.append(row)
+            added = max(taken[stage.stage] - whole, 0.0) / len(given.node_ids)
+        rows.append(StageRow(stage.stage, stage.active, stage.why, file, line, share, time, added))
     return Pruning(rows, whole, len(given.element_ids))
 
 

@@ -92,6 +92,10 @@ class RestShape:
 
     __repr__ = short_repr
 
+    def places(self, scene: Scene) -> Floats:
+        """Return the positions (n, 3) of all nodes, those of the deck for lines that have no shape."""
+        return np.where(self.positions.present[:, None], self.positions.values[0], scene.coordinates)
+
     def sentences(self, units: str) -> list[str]:
         """Return what holds of each line: tension and length on the seabed, or why it has no shape."""
         names, found = unit_names(units), []

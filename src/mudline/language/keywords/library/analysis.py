@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
@@ -95,7 +96,7 @@ class TimeSpan(Block):
     ] = None
     fixed: Annotated[FixedSpan | None, about("span under STEP=FIXED")] = None
     variable: Annotated[VariableSpan | None, about("span under STEP=VARIABLE")] = None
-    limits: list[StepLimits] = []
+    limits: Records[StepLimits] = Records()
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
@@ -213,7 +214,7 @@ class Tolerance(Block):
     example = "*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 0.8\n"
 
     keyword: Literal["TOLERANCE"] = "TOLERANCE"
-    tolerances: list[Tolerances] = []
+    tolerances: Records[Tolerances] = Records()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -264,7 +265,7 @@ class Criteria(Block):
     )
 
     keyword: Literal["CRITERIA"] = "CRITERIA"
-    criteria: list[Criterion] = []
+    criteria: Records[Criterion] = Records()
     variable: Annotated[Literal["NODE", "VESSEL", "LENGTH"] | None, setting("VARIABLE", "what is changed")] = None
     option: Annotated[
         Literal["LENGTH"] | None,

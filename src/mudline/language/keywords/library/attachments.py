@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Node
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record
@@ -37,7 +38,7 @@ class Masses(Block):
     example = "*MASS\n 12, 2500.0\n {Hang-off}, 400.0, TYPE=NO WEIGHT MASS\n 12, 900.0, TYPE=ROTARY INERTIA\n"
 
     keyword: Literal["MASS"] = "MASS"
-    masses: list[PointMass] = []
+    masses: Records[PointMass] = Records()
 
 
 class Chain(Record):
@@ -82,4 +83,4 @@ class DragChains(Block):
     example = "*DRAG CHAIN\n 12, 20.0, 140.0\n GEN=12, 5, 2\n"
 
     keyword: Literal["DRAG CHAIN"] = "DRAG CHAIN"
-    chains: list[Chain | ChainGenerate] = []
+    chains: Records[Chain | ChainGenerate] = Records()

@@ -2,6 +2,7 @@
 
 from typing import Annotated, Literal
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.language.keywords.table import Table
@@ -36,7 +37,7 @@ class AuxiliaryBody(Record):
 
     rule = "auxiliary_body"
     body: Annotated[Name, setting("BODY", "vessel or node that it moves with; NONE: it does not move")]
-    members: list[AuxiliaryList | AuxiliaryGenerate] = []
+    members: Records[AuxiliaryList | AuxiliaryGenerate] = Records()
 
 
 class Auxiliary(Block):
@@ -48,7 +49,7 @@ class Auxiliary(Block):
     example = "*AUXILIARY\n BODY=FPSO\n 1, 2, 3\n GEN=10, 20, 2\n"
 
     keyword: Literal["AUXILIARY"] = "AUXILIARY"
-    bodies: list[AuxiliaryBody] = []
+    bodies: Records[AuxiliaryBody] = Records()
 
 
 class AuxiliaryNode(Row):

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import OLDER, Direction, curve_points, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
@@ -87,7 +88,7 @@ class Current(Block):
     example = "*CURRENT\n TYPE=PIECEWISE LINEAR\n 0.0, 0.1, 180.0\n 300.0, 0.9, 180.0\n"
 
     keyword: Literal["CURRENT"] = "CURRENT"
-    currents: list[CurrentProfile] = []
+    currents: Records[CurrentProfile] = Records()
 
 
 class VelocityPoint(Row):

@@ -2,6 +2,7 @@
 
 from typing import Annotated, Literal
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
@@ -31,7 +32,7 @@ class Cables(OpenBlock):
     example = "*CABLE\n 1, 1, 41, 565.6\n"
 
     keyword: Literal["CABLE"] = "CABLE"
-    cables: list[CableLine] = []
+    cables: Records[CableLine] = Records()
 
 
 class CurvilinearNode(Row):
@@ -78,4 +79,4 @@ class CurvilinearNodes(Block):
     example = "*NODE,CURVILINEAR\n 2, 1, 14.1\n 41, 1, 565.6\n CURV=2, 41, CABLE=1\n"
 
     keyword: Literal["NODE,CURVILINEAR"] = "NODE,CURVILINEAR"
-    entries: list[CurvilinearRows | CurvilinearGenerate] = []
+    entries: Records[CurvilinearRows | CurvilinearGenerate] = Records()

@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mudline.basics.short_repr import counted
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
@@ -72,7 +73,7 @@ class MatrixType(Record):
     matrix: Annotated[Table | None, rows(MatrixRow, "of CONSTANT and CUTOFF: matrix of 6 lines", inferred=_LINES)] = (
         None
     )
-    frequencies: list[FrequencyMatrix] = []
+    frequencies: Records[FrequencyMatrix] = Records()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -92,7 +93,7 @@ class BodyMatrices(Record):
         Name | None,
         setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=Contents.NUMBERS),
     ] = None
-    types: list[MatrixType] = []
+    types: Records[MatrixType] = Records()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -116,7 +117,7 @@ class AddedMass(Block):
     )
 
     keyword: Literal["ADDED MASS"] = "ADDED MASS"
-    bodies: list[BodyMatrices] = []
+    bodies: Records[BodyMatrices] = Records()
 
 
 class RadiationDamping(Block):
@@ -136,7 +137,7 @@ class RadiationDamping(Block):
     )
 
     keyword: Literal["RADIATION DAMPING"] = "RADIATION DAMPING"
-    bodies: list[BodyMatrices] = []
+    bodies: Records[BodyMatrices] = Records()
 
 
 class BodyDrag(Record):
@@ -173,7 +174,7 @@ class ViscousDrag(Block):
     )
 
     keyword: Literal["VISCOUS DRAG"] = "VISCOUS DRAG"
-    bodies: list[BodyDrag] = []
+    bodies: Records[BodyDrag] = Records()
 
 
 COEFFICIENTS = "coefficients by heading"
@@ -233,7 +234,7 @@ class VesselCoefficients(Record):
 class CoefficientBlock(Block):
     """Coefficients of floating bodies, or of the moored vessel."""
 
-    bodies: list[BodyCoefficients | VesselCoefficients] = []
+    bodies: Records[BodyCoefficients | VesselCoefficients] = Records()
 
     @model_validator(mode="after")
     def _alone(self) -> Self:

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, record_schema
@@ -214,7 +215,7 @@ class GeometricSets(Block):
     example = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
 
     keyword: Literal["GEOMETRIC SETS"] = "GEOMETRIC SETS"
-    sets: list[GeometricSet] = []
+    sets: Records[GeometricSet] = Records()
 
     @model_validator(mode="after")
     def _formats(self) -> Self:

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import curve_points
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
@@ -95,7 +96,7 @@ class HydrodynamicSets(OpenBlock):
             opaque=(),
         ),
     ] = None
-    sets: list[HydrodynamicSet] = []
+    sets: Records[HydrodynamicSet] = Records()
 
 
 class LiftPoint(Row):
@@ -125,4 +126,4 @@ class DragLift(Block):
     example = "*DRAG LIFT\n CURVE=Lift\n 0.0, 0.9\n 0.5, 0.3\n 1.0, 0.0\n"
 
     keyword: Literal["DRAG LIFT"] = "DRAG LIFT"
-    curves: list[LiftCurve] = []
+    curves: Records[LiftCurve] = Records()

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import ALONG
@@ -90,7 +91,7 @@ class PathSection(Record):
     repeat: Annotated[
         Name | None, setting("REPEAT", "group of *LINE SECTION GROUPS that is repeated here", inline=True)
     ] = None
-    additional: list[AdditionalSets] = []
+    additional: Records[AdditionalSets] = Records()
 
 
 class PathLine(Record):
@@ -98,7 +99,7 @@ class PathLine(Record):
 
     rule = "path_line"
     line: Annotated[Name, setting("LINE", "line of *LINE PATHS", inferred="it is an element set too")]
-    sections: list[PathSection] = []
+    sections: Records[PathSection] = Records()
 
 
 class LinePathSections(Block):
@@ -117,7 +118,7 @@ class LinePathSections(Block):
     )
 
     keyword: Literal["LINE PATH SECTIONS"] = "LINE PATH SECTIONS"
-    paths: list[PathLine] = []
+    paths: Records[PathLine] = Records()
 
 
 _RANGE = "it is not negative; the manual gives no range"
@@ -147,7 +148,7 @@ class GroupSection(Record):
 
     rule = "group_section"
     section: Annotated[SectionLength, setting("SECTION", "element set and length of the section")]
-    additional: list[AdditionalSets] = []
+    additional: Records[AdditionalSets] = Records()
     mesh: Annotated[SectionMesh | None, about("element lengths along the section")] = None
 
 
@@ -156,7 +157,7 @@ class SectionGroup(Record):
 
     rule = "section_group"
     name: Annotated[Name, setting("NAME", "name of the group", inferred="it is an element set too")]
-    sections: list[GroupSection] = []
+    sections: Records[GroupSection] = Records()
 
 
 class LineSectionGroups(Block):
@@ -174,4 +175,4 @@ class LineSectionGroups(Block):
     )
 
     keyword: Literal["LINE SECTION GROUPS"] = "LINE SECTION GROUPS"
-    groups: list[SectionGroup] = []
+    groups: Records[SectionGroup] = Records()

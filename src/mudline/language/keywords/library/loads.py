@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenRecord
@@ -89,7 +90,7 @@ class BoundaryType(OpenRecord):
             "TYPE", "what the conditions are; the lines of constant ones are read", inferred=_OTHERS, opaque=("VESSEL",)
         ),
     ] = Field(alias="type")
-    entries: list[FixedNode | FixedRange] = []
+    entries: Records[FixedNode | FixedRange] = Records()
 
 
 class Boundary(Block):
@@ -103,7 +104,7 @@ class Boundary(Block):
     example = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
 
     keyword: Literal["BOUNDARY"] = "BOUNDARY"
-    types: list[BoundaryType] = []
+    types: Records[BoundaryType] = Records()
 
 
 _LOAD_LINES = (
@@ -138,7 +139,7 @@ class Loads(Block):
     example = "*LOAD\n TYPE=CONSTANT\n 12, 1, -5000.0\n"
 
     keyword: Literal["LOAD"] = "LOAD"
-    types: list[LoadType] = []
+    types: Records[LoadType] = Records()
 
 
 class Moments(Block):
@@ -233,4 +234,4 @@ class InternalFluid(Block):
     example = "*INTERNAL FLUID\n SET=ALL\n 300.0, 850.0, 2.0E6, 3.0, CORIOLIS=EXCLUDE\n"
 
     keyword: Literal["INTERNAL FLUID"] = "INTERNAL FLUID"
-    sets: list[FluidSet] = []
+    sets: Records[FluidSet] = Records()

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
@@ -57,7 +58,7 @@ class Nodes(Block):
     example = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"
 
     keyword: Literal["NODE"] = "NODE"
-    entries: list[NodeRows | NodeGenerate] = []
+    entries: Records[NodeRows | NodeGenerate] = Records()
 
 
 _AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
@@ -110,7 +111,7 @@ class Elements(Block):
     example = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"
 
     keyword: Literal["ELEMENT"] = "ELEMENT"
-    entries: list[ElementRows | ElementGenerate] = []
+    entries: Records[ElementRows | ElementGenerate] = Records()
 
 
 class ElementRange(ListRow):
@@ -151,7 +152,7 @@ class ElementSet(Record):
     name: Annotated[
         Name, setting("SET", "set name: up to 256 characters, case is ignored, spaces are not", defines=Names.SET)
     ]
-    members: list[SetList | SetGenerate | SetSubset] = []
+    members: Records[SetList | SetGenerate | SetSubset] = Records()
 
 
 class ElementSets(Block):
@@ -163,7 +164,7 @@ class ElementSets(Block):
     example = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
-    sets: list[ElementSet] = []
+    sets: Records[ElementSet] = Records()
 
 
 class LabelledNode(Row):
@@ -213,7 +214,7 @@ class Labels(Block):
     example = "*LABEL\n TYPE=NODE\n 1, LABEL=Anchor\n 11, LABEL=Hang-off\n TYPE=ELEMENT\n 10, LABEL=Top Joint\n"
 
     keyword: Literal["LABEL"] = "LABEL"
-    labels: list[LabelLine] = []
+    labels: Records[LabelLine] = Records()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Node, curve_points, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row
@@ -36,7 +37,7 @@ class PipSections(Block):
         Literal["YES", "NO"] | None,
         setting("AUTO_CREATE", "connections are made of themselves", default="YES", inline=True),
     ] = None
-    pipes: list[PipSets] = []
+    pipes: Records[PipSets] = Records()
 
 
 class PipPoint(Row):
@@ -109,7 +110,7 @@ class PipStiffness(Block):
     example = "*PIP STIFFNESS\n CURVE=Spacer\n 0.0, 0.0\n 0.01, 5.0E4\n CURVE=Law, TYPE=POWER LAW\n 1.0E6, 5.0\n"
 
     keyword: Literal["PIP STIFFNESS"] = "PIP STIFFNESS"
-    curves: list[PipCurve] = []
+    curves: Records[PipCurve] = Records()
 
 
 _CURVES = "the curve is one of *PIP STIFFNESS, as of *LINES PIP"
@@ -182,7 +183,7 @@ class PipConnections(Block):
     tolerance: Annotated[
         Real | None, setting("PENETRATION_TOLERANCE", "tolerance of penetration", at_least=0, usual=ANY)
     ] = None
-    connections: list[PipPair | PipPairs] = []
+    connections: Records[PipPair | PipPairs] = Records()
 
 
 class Spacing(Row):
@@ -245,7 +246,7 @@ class LinePair(Record):
     offset: Annotated[
         Real | None, setting("OFFSET", "offset along the line", unit="L", default="0", inline=True, usual=ALONG)
     ] = None
-    links: list[PipLink] = []
+    links: Records[PipLink] = Records()
 
 
 class LinesPip(Block):
@@ -260,4 +261,4 @@ class LinesPip(Block):
     )
 
     keyword: Literal["LINES PIP"] = "LINES PIP"
-    pairs: list[LinePair] = []
+    pairs: Records[LinePair] = Records()

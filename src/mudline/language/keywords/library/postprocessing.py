@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Element
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
@@ -46,7 +47,7 @@ class PostSet(Record):
 
     rule = "post_set"
     name: Annotated[Name, setting("SET", "set name: up to 256 characters; ALL is predefined", defines=Names.SET)]
-    members: list[ElementList | PostElementGenerate | OtherSet] = []
+    members: Records[ElementList | PostElementGenerate | OtherSet] = Records()
 
 
 class PostSets(Block):
@@ -60,7 +61,7 @@ class PostSets(Block):
     example = "*ELEMENT SET\n SET=Hot Spots\n 1, {Hang-off}, 3\n GEN=10, 20, 2\n SUBSET=Riser\n"
 
     keyword: Literal["ELEMENT SET"] = "ELEMENT SET"
-    sets: list[PostSet] = []
+    sets: Records[PostSet] = Records()
 
 
 _OF_SECTION = "computed from the diameters"
@@ -111,7 +112,7 @@ class StressProperties(Block):
     example = "*PROPERTIES\n SET=ALL\n 0.3239, 0.2731, , , , 0.0234\n"
 
     keyword: Literal["PROPERTIES"] = "PROPERTIES"
-    sets: list[StressSet] = []
+    sets: Records[StressSet] = Records()
 
 
 _PAGE = "no page of the manual was found: one type is named by a page on theory, all lines are passed through unchanged"
@@ -159,7 +160,7 @@ class ClearSets(Block):
     example = "*ELEMENT SETS\n 1, 40, 0.35\n 41, 90\n"
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
-    ranges: list[ClearRange] = []
+    ranges: Records[ClearRange] = Records()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -205,7 +206,7 @@ class CheckedSet(Record):
 
     rule = "checked_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
-    places: list[CheckedPlace] = []
+    places: Records[CheckedPlace] = Records()
 
 
 class CheckingTimetrace(Block):
@@ -219,7 +220,7 @@ class CheckingTimetrace(Block):
     example = "*TIMETRACE\n SET=ALL\n 12, 1, OUTPUT=WSD\n {Hang-off}, 3, OUTPUT=ALL\n"
 
     keyword: Literal["TIMETRACE"] = "TIMETRACE"
-    sets: list[CheckedSet] = []
+    sets: Records[CheckedSet] = Records()
 
 
 class SourceType(Block):

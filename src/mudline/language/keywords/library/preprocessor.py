@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record
 from mudline.language.keywords.usual import ANY, OF_THE_RUN
@@ -38,7 +39,7 @@ class Parameters(Block):
     example = "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"
 
     keyword: Literal["PARAMETERS"] = "PARAMETERS"
-    parameters: list[Parameter] = []
+    parameters: Records[Parameter] = Records()
 
 
 class ValueRange(ListRow):
@@ -111,8 +112,8 @@ class NamedVariation(Record):
 
     rule = "named_variation"
     name: Annotated[Name, setting("NAME", "name, by which *COMBINATIONS calls the variation")]
-    parameters: list[VariedParameter] = []
-    blocks: list[VariedBlock] = []
+    parameters: Records[VariedParameter] = Records()
+    blocks: Records[VariedBlock] = Records()
 
 
 class Variation(Block):
@@ -130,7 +131,7 @@ class Variation(Block):
     )
 
     keyword: Literal["VARIATION"] = "VARIATION"
-    variations: list[NamedVariation] = []
+    variations: Records[NamedVariation] = Records()
 
 
 _BEHIND = "DESCRIPTION"
@@ -165,7 +166,7 @@ class Combination(Record):
         Name | None,
         setting("FILENAME", "name of their files: `%name%` is the value of a parameter", inline=True, behind=_BEHIND),
     ] = None
-    variations: list[CombinedVariations] = []
+    variations: Records[CombinedVariations] = Records()
 
 
 class Combinations(Block):
@@ -189,7 +190,7 @@ class Combinations(Block):
             "DIRECTORY", "folder of all decks: `%name%` is the value of a parameter", inferred="in the folder of -o"
         ),
     ] = None
-    combinations: list[Combination] = []
+    combinations: Records[Combination] = Records()
 
 
 class ExcelVariations(Block):

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import NO_SET, curve_points
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
@@ -63,7 +64,7 @@ class SeabedStiffness(Block):
     example = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 
     keyword: Literal["SEABED STIFFNESS"] = "SEABED STIFFNESS"
-    curves: list[StiffnessCurve] = []
+    curves: Records[StiffnessCurve] = Records()
 
 
 class EmbedmentCurve(Record):
@@ -100,4 +101,4 @@ class Embedment(Block):
     example = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 
     keyword: Literal["EMBEDMENT"] = "EMBEDMENT"
-    curves: list[EmbedmentCurve] = []
+    curves: Records[EmbedmentCurve] = Records()

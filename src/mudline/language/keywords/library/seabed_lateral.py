@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row, rows
@@ -174,7 +175,7 @@ class SeabedFriction(Block):
     example = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"
 
     keyword: Literal["SEABED FRICTION"] = "SEABED FRICTION"
-    sets: list[FrictionSet] = []
+    sets: Records[FrictionSet] = Records()
 
 
 class TrenchGeometry(Row):
@@ -296,4 +297,4 @@ class SeabedTrench(Block):
     example = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"
 
     keyword: Literal["SEABED TRENCH"] = "SEABED TRENCH"
-    sets: list[TrenchSet] = []
+    sets: Records[TrenchSet] = Records()

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import ANY, LEAST_BED, MODEL, Usual
@@ -64,7 +65,7 @@ class SeabedContact(Block):
     example = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 
     keyword: Literal["SEABED CONTACT"] = "SEABED CONTACT"
-    sets: list[ContactSet] = []
+    sets: Records[ContactSet] = Records()
 
 
 class Strength(Row):
@@ -133,7 +134,7 @@ class SeabedSoil(Block):
     example = "*SEABED SOIL\n SET=ALL\n STRENGTH=5000.0, 1500.0\n SUCTION=0.6, 1.0\n"
 
     keyword: Literal["SEABED SOIL"] = "SEABED SOIL"
-    sets: list[SoilSet] = []
+    sets: Records[SoilSet] = Records()
 
 
 class UnloadingSet(Record):
@@ -157,7 +158,7 @@ class SeabedUnloading(Block):
     example = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=500000.0\n"
 
     keyword: Literal["SEABED UNLOADING"] = "SEABED UNLOADING"
-    sets: list[UnloadingSet] = []
+    sets: Records[UnloadingSet] = Records()
 
 
 class MaximumForce(Row):
@@ -253,4 +254,4 @@ class SeabedSuction(Block):
     example = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
 
     keyword: Literal["SEABED SUCTION"] = "SEABED SUCTION"
-    sets: list[SuctionSet] = []
+    sets: Records[SuctionSet] = Records()

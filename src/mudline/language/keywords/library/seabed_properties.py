@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import NO_SET
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
@@ -131,7 +132,7 @@ class SeabedProperties(Block):
     type_: Annotated[
         Literal["RIGID", "ELASTIC"] | None, setting("TYPE", "contact model; one type in a model; mandatory")
     ] = Field(default=None, alias="type")
-    sets: list[SeabedSet] = []
+    sets: Records[SeabedSet] = Records()
 
 
 _CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"

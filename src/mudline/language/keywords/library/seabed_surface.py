@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import DIRECTION, MODEL, POSITION
@@ -72,7 +73,7 @@ class SeabedPlanes(Block):
     )
 
     keyword: Literal["SEABED PLANES"] = "SEABED PLANES"
-    planes: list[Plane] = []
+    planes: Records[Plane] = Records()
 
 
 _SETTINGS = ("INTERPOLATION", "SLOPE", "FILE")

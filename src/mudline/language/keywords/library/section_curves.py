@@ -2,6 +2,7 @@
 
 from typing import Annotated, Literal
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import curve_points
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
@@ -50,7 +51,7 @@ class MomentCurvature(Block):
     example = "*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 5.0E4, 0.01\n 7.0E4, 0.03\n"
 
     keyword: Literal["MOMENT-CURVATURE"] = "MOMENT-CURVATURE"
-    curves: list[MomentCurvatureCurve] = []
+    curves: Records[MomentCurvatureCurve] = Records()
 
 
 class TorqueTwistPoint(Row):
@@ -90,7 +91,7 @@ class TorqueTwist(Block):
     example = "*TORQUE-TWIST\n CURVE=Pipe\n 0.0, 0.0\n 2.0E4, 0.01\n 3.0E4, 0.04\n"
 
     keyword: Literal["TORQUE-TWIST"] = "TORQUE-TWIST"
-    curves: list[TorqueTwistCurve] = []
+    curves: Records[TorqueTwistCurve] = Records()
 
 
 class ForceStrainPoint(Row):
@@ -130,7 +131,7 @@ class ForceStrain(Block):
     example = "*FORCE-STRAIN\n CURVE=Pipe\n -2.0E6, -0.004\n 0.0, 0.0\n 2.5E6, 0.004\n"
 
     keyword: Literal["FORCE-STRAIN"] = "FORCE-STRAIN"
-    curves: list[ForceStrainCurve] = []
+    curves: Records[ForceStrainCurve] = Records()
 
 
 class StressStrainPoint(Row):
@@ -172,4 +173,4 @@ class StressStrain(Block):
     example = "*STRESS/STRAIN DIRECT\n CURVE=Pipe\n 0.0, 0.0\n 4.4E8, 0.0021\n 5.1E8, 0.02\n"
 
     keyword: Literal["STRESS/STRAIN DIRECT"] = "STRESS/STRAIN DIRECT"
-    curves: list[StressStrainCurve] = []
+    curves: Records[StressStrainCurve] = Records()

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import curve_points
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
@@ -112,7 +113,7 @@ class LateralSoil(OpenBlock):
     )
 
     keyword: Literal["P-Y"] = "P-Y"
-    sets: list[LateralSprings] = []
+    sets: Records[LateralSprings] = Records()
 
 
 class AxialSprings(OpenRecord):
@@ -138,4 +139,4 @@ class AxialSoil(OpenBlock):
     example = "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
 
     keyword: Literal["T-Z"] = "T-Z"
-    sets: list[AxialSprings] = []
+    sets: Records[AxialSprings] = Records()

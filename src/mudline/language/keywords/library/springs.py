@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Element, Freedom, Node, curve_points, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
@@ -63,7 +64,7 @@ class SpringElements(Block):
     example = "*SPRING ELEMENT\n ELEMENT=12\n TYPE=LINEAR\n 25000.0\n"
 
     keyword: Literal["SPRING ELEMENT"] = "SPRING ELEMENT"
-    springs: list[Springs] = []
+    springs: Records[Springs] = Records()
 
 
 class NodeSpring(Record):
@@ -86,7 +87,7 @@ class NodeSprings(Block):
     example = "*NODE SPRING\n 12, 2, 25000.0\n {Hang-off}, 4, 300.0\n"
 
     keyword: Literal["NODE SPRING"] = "NODE SPRING"
-    springs: list[NodeSpring] = []
+    springs: Records[NodeSpring] = Records()
 
 
 class DamperPoint(Row):
@@ -119,7 +120,7 @@ class DamperData(Block):
     example = "*DAMPER DATA\n NAME=Snubber, VARIABLE=VELOCITY\n 0.0, 2000.0\n 1.5, 8000.0\n"
 
     keyword: Literal["DAMPER DATA"] = "DAMPER DATA"
-    curves: list[DamperCurve] = []
+    curves: Records[DamperCurve] = Records()
 
 
 class JointWeights(Row):
@@ -196,7 +197,7 @@ class FlexJoints(Block):
     example = "*FLEXJOINT\n ELEMENT=12\n 8000.0, 9500.0\n TYPE=NONLINEAR\n 0.0, 0.0\n 15000.0, 1.0\n"
 
     keyword: Literal["FLEXJOINT"] = "FLEXJOINT"
-    joints: list[FlexJoint] = []
+    joints: Records[FlexJoint] = Records()
 
 
 class HingeElement(Record):
@@ -228,4 +229,4 @@ class Hinges(Block):
     example = "*HINGE\n 12\n 40, STIFFNESS=1500.0\n"
 
     keyword: Literal["HINGE"] = "HINGE"
-    hinges: list[HingeElement] = []
+    hinges: Records[HingeElement] = Records()

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import OLDER, Freedom, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
@@ -62,7 +63,7 @@ class Offsets(Block):
     example = "*OFFSET\n VESSEL=FPSO\n OFFSET=0.0, -8.0, 0.0\n"
 
     keyword: Literal["OFFSET"] = "OFFSET"
-    offsets: list[VesselOffset] = []
+    offsets: Records[VesselOffset] = Records()
 
 
 class Velocity(Record):
@@ -89,7 +90,7 @@ class VesselVelocity(Block):
     example = "*VESSEL VELOCITY\n VESSEL=FPSO, AXIS=LOCAL\n 0.5, 0.0\n"
 
     keyword: Literal["VESSEL VELOCITY"] = "VESSEL VELOCITY"
-    velocities: list[Velocity] = []
+    velocities: Records[Velocity] = Records()
 
 
 class VesselMotion(Record):
@@ -121,7 +122,7 @@ class VesselTimetrace(Block):
     example = "*VESSEL TIMETRACE\n VESSEL=FPSO\n FILE=motion.dat\n"
 
     keyword: Literal["VESSEL TIMETRACE"] = "VESSEL TIMETRACE"
-    motions: list[VesselMotion] = []
+    motions: Records[VesselMotion] = Records()
 
 
 _SEVERAL = "several sinusoids of a vessel: the pair of lines is repeated"
@@ -178,7 +179,7 @@ class Drift(Block):
     example = "*DRIFT\n VESSEL=FPSO, TYPE=SINUSOIDAL\n 2, 4.0, 0.0, 120.0\n"
 
     keyword: Literal["DRIFT"] = "DRIFT"
-    drifts: list[VesselDrift] = []
+    drifts: Records[VesselDrift] = Records()
 
 
 class Six(Row):
@@ -230,7 +231,7 @@ class HeadingRao(Record):
 
     rule = "heading_rao"
     heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180, unique=True)]
-    frequencies: list[FrequencyRao] = []
+    frequencies: Records[FrequencyRao] = Records()
 
 
 class RaoLine(Row):
@@ -272,7 +273,7 @@ class VesselRao(Record):
         Literal["YES", "NO"] | None,
         setting("FIRSTRAO", "YES: the operators of the first load case", inferred=OLDER, older=True),
     ] = None
-    headings: list[HeadingRao] = []
+    headings: Records[HeadingRao] = Records()
     lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
 
     @model_validator(mode="after")
@@ -297,4 +298,4 @@ class Raos(Block):
     )
 
     keyword: Literal["RAO"] = "RAO"
-    vessels: list[VesselRao] = []
+    vessels: Records[VesselRao] = Records()

@@ -2,6 +2,7 @@
 
 from typing import Annotated, Literal
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
@@ -62,7 +63,7 @@ class Vessels(Block):
     angles: Annotated[
         Literal["LARGE", "SMALL"] | None, setting("ANGLES", "how rotations are combined", default="LARGE")
     ] = None
-    vessels: list[VesselPosition] = []
+    vessels: Records[VesselPosition] = Records()
 
 
 _MORE = "more lines follow, of which the manual page was not seen: they are passed through unchanged"
@@ -107,7 +108,7 @@ class IntegratedVessels(OpenBlock):
     )
 
     keyword: Literal["VESSEL,INTEGRATED"] = "VESSEL,INTEGRATED"
-    vessels: list[IntegratedVessel] = []
+    vessels: Records[IntegratedVessel] = Records()
 
 
 class Location(Row):
@@ -141,4 +142,4 @@ class DrawnBodies(Block):
     example = "*BODY,INTEGRATED\n BODY=Manifold\n LOCATION=0.0, 10.0, 0.0\n NODE=1\n PROFILE=PLET\n"
 
     keyword: Literal["BODY,INTEGRATED"] = "BODY,INTEGRATED"
-    bodies: list[DrawnBody] = []
+    bodies: Records[DrawnBody] = Records()

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Direction, require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
@@ -132,7 +133,7 @@ class JonswapSeas(OpenBlock):
     example = "*WAVE-JONSWAP\n FREQUENCY=AREA, SPEC=HSTP\n 4.5, 11.0, 0.01, 0.35, 80, 1, 180.0\n"
 
     keyword: Literal["WAVE-JONSWAP"] = "WAVE-JONSWAP"
-    seas: list[JonswapSea] = []
+    seas: Records[JonswapSea] = Records()
 
 
 _AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0, usual=AMPLITUDE)
@@ -209,7 +210,7 @@ class RegularWaves(Block):
     example = "*WAVE-REGULAR\n 1.0, 9.0, 180.0, 0.0\n 0.5, 14.0\n"
 
     keyword: Literal["WAVE-REGULAR"] = "WAVE-REGULAR"
-    waves: list[RegularWave] = []
+    waves: Records[RegularWave] = Records()
 
 
 _AIRY = "of the Airy wave that moves the vessel"
@@ -304,7 +305,7 @@ class SeastateBlock(Record):
     rule = "seastate_block"
     reference: Annotated[Seastate, setting("REFERENCE", "seastate that was simulated")]
     file: Annotated[Name, setting("FILE", "run with its simulation", inline=True)]
-    others: list[OtherSeastate] = []
+    others: Records[OtherSeastate] = Records()
 
 
 class ScatterDiagram(Block):
@@ -318,7 +319,7 @@ class ScatterDiagram(Block):
     example = "*SCATTER DIAGRAM\n REFERENCE=2.5, 8.5, 410, FILE=Sea 3\n 2.0, 8.5, 620\n 2.5, 9.5, 300\n"
 
     keyword: Literal["SCATTER DIAGRAM"] = "SCATTER DIAGRAM"
-    blocks: list[SeastateBlock] = []
+    blocks: Records[SeastateBlock] = Records()
 
 
 class ScatterOptions(Block):

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -22,7 +23,10 @@ from mudline.model.contact import Plan
 from mudline.model.contact.columns import Column, Table
 from mudline.model.contact.frames import array_name
 from mudline.model.contact.result import Part
+from mudline.model.results.against import Comparison
 from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.totals import First, line_steps
+from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats
 
 
@@ -124,29 +128,37 @@ class Writer(Protocol):
         """Write what is known only after the last step."""
 
 
-@dataclass(frozen=True, slots=True)
 class Sink:
-    """Passes the results of an evaluation on to a writer, as the columns of tables; to nothing without tables."""
+    """Passes the results of an evaluation on to a writer, as the columns of tables; to nothing without a writer.
 
-    evaluation: Evaluation
-    tables: Mapping[str, Table]
-    writer: Writer | None
+    JSON has the lines of all steps behind them, and no table of lines.
+    """
+
+    def __init__(self, evaluation: Evaluation, tables: Mapping[str, Table], writer: Writer | None, form: str) -> None:
+        self._evaluation, self._tables, self._writer = evaluation, tables, writer
+        self._lines = First(partial(line_steps, evaluation), None if form == "json" else 0)
 
     def take(self, part: Part) -> None:
         """Write some steps. Raises OSError."""
-        if self.writer is None:
+        if self._writer is None:
             return
-        columns = {name: table.columns(part) for name, table in self.tables.items()}
+        self._lines.take(part)
+        columns = {name: table.columns(part) for name, table in self._tables.items()}
         restrained, beside = part.result.restrained, {}
         if restrained is not None:
-            ids = self.evaluation.scene.node_ids
+            ids = self._evaluation.scene.node_ids
             beside = {"restrained": [ids[step].tolist() for step in restrained]}
-        self.writer.write(columns, part.start, part.count, beside)
+        self._writer.write(columns, part.start, part.count, beside)
 
-    def finish(self, more: More) -> None:
+    def finish(self, warnings: Sequence[ContactWarning] = (), comparison: Comparison | None = None) -> None:
         """Write what comes behind the last step. Raises OSError."""
-        if self.writer is not None:
-            self.writer.finish(more)
+        if self._writer is not None:
+            more: dict[str, object] = {
+                "summary": [row.row() for row in self._lines.rows],
+                "positions": self._evaluation.source,
+                "warnings": [one.row() for one in warnings],
+            }
+            self._writer.finish(more if comparison is None else more | {"against": comparison.summary()})
 
 
 def tables_of(evaluation: Evaluation, form: str, elements: Table, only: str | None = None) -> dict[str, Table]:
