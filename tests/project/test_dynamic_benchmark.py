@@ -15,15 +15,7 @@ from tests.benchmarks.dynamics.bouncing import TIMES, fall
 from tests.benchmarks.dynamics.chains import CASES, read_chain
 from tests.benchmarks.dynamics.limits import EXPLICIT, limits
 from tests.benchmarks.dynamics.page import TABLES
-from tests.benchmarks.dynamics.peers import (
-    CHAINS,
-    CORRECTED,
-    LOWERED,
-    PULLED,
-    REST,
-    for_moordyn,
-    own,
-)
+from tests.benchmarks.dynamics.peers import CHAINS, CORRECTED, LOWERED, PULLED, REST, for_moordyn, own
 from tests.benchmarks.dynamics.reference import Reference, Tolerance
 from tests.benchmarks.dynamics.schemes import RUNS, Truth, lifting, look, measure, row
 from tests.benchmarks.dynamics.schemes import TIMES as MOMENTS

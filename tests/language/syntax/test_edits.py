@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.language.diagnostics import Span
@@ -98,7 +98,6 @@ _texts = st.text("ab\r\n\xe9", max_size=12)
 
 
 @given(st.lists(st.tuples(_texts, _texts, _texts), max_size=6), _texts, st.randoms(use_true_random=False))
-@settings(max_examples=100)
 def test_a_text_is_its_kept_pieces_and_the_new_ones(
     pieces: list[tuple[str, str, str]], last: str, shuffled: Random
 ) -> None:
