@@ -79,6 +79,7 @@ def test_git_says_the_same(tmp_path: Path) -> None:
     assert wrong == []
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("seed", [5, 8, 10, 14])
 def test_git_finds_the_same_decks(tmp_path: Path, seed: int) -> None:
     """In a tree with `.gitignore` files at several depths, of which one is above the folder that is searched."""

@@ -68,6 +68,7 @@ def test_a_console_of_one_byte_a_character_shows_everything(
     assert b"\\x" not in outcome.output + outcome.errors
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.name)
 def test_line_ends_of_windows_change_no_finding_and_no_force(
     deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -200,6 +200,7 @@ def test_a_document_that_would_fill_the_memory_is_refused(monkeypatch: pytest.Mo
     assert (found.code, "more than 10 bytes" in found.message) == ("DOC001", True)
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("level", ["- ", "? ", "[", "{a: ", "- ["])
 def test_deep_yaml_does_not_crash_the_process(level: str) -> None:
     code = (

@@ -49,10 +49,9 @@ def scene(inputs: ContactInput, positions: FloatArray, velocities: FloatArray | 
 @pytest.mark.compiled
 @pytest.mark.untraced
 @pytest.mark.parametrize("number", range(len(SUBSETS)))
-@pytest.mark.parametrize("seed", range(3))
-def test_scenes_with_some_laws(number: int, seed: int) -> None:
+def test_scenes_with_some_laws(number: int) -> None:
     names, flat = SUBSETS[number]
-    assert compare(random_scene(1000 * number + seed, names, flat=flat)) == []
+    assert compare(random_scene(1000 * number, names, flat=flat)) == []
 
 
 @given(seeds)
