@@ -136,15 +136,6 @@ def test_its_loops_are_compiled() -> None:
     assert compare(Scene(inputs, journey(3, 12, 1)[0], None, None, None, Sizes(8, 3, 5, 2))) == []
 
 
-def test_what_a_time_step_has_to_resolve() -> None:
-    contact = ContactModel(chain([NONE, NONE, LINEAR], on("hyperbolic", 2, stiffness=[K, 2e4], reference=Z0)))
-    assert law_of(contact.stiffest(), "hyperbolic").stiffness.tolist()[:2] == [K, 2e4]
-    assert np.isnan(law_of(contact.stiffest(), "hyperbolic").stiffness[2])
-    there = law_of(contact.stiffest(at_depths([[0.04] * 4, [0.01] * 4])), "hyperbolic")
-    assert there.stiffness[:2] == pytest.approx([32000.0, 12800.0])
-    assert there.per == "length"
-
-
 # ----------------------------------------------------------------------------------------------------- laws that differ
 
 
@@ -252,10 +243,3 @@ def test_only_normal_laws_without_history_can_be_added(law: NormalLaw) -> None:
     with pytest.raises(TypeError, match="only normal laws without history can be added"):
         register(law)
     assert law.name not in set(known_laws()) - {"rigid", "unloading"}
-
-
-def test_a_name_is_given_once() -> None:
-    with pytest.raises(ValueError, match="contact law 'hyperbolic' is already registered"):
-        register(plain_law("hyperbolic"))
-    with pytest.raises(ValueError, match="contact law 'linear' is already registered"):
-        register(plain_law("linear"))
