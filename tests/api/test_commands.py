@@ -46,14 +46,6 @@ def test_fix_is_that_of_the_command(tmp_path: Path) -> None:
     assert mudline.fix(mudline.from_keyword(UNTIDY), ignore=["repeated-point"]).content == UNTIDY.encode()
 
 
-def test_what_cannot_be_read_is_not_fixed() -> None:
-    found = mudline.fix(SAMPLES / "broken.keyxm")
-    assert found.content == (SAMPLES / "broken.keyxm").read_bytes()
-    assert "correct what cannot be read first" in found.note
-    with pytest.raises(mudline.DeckError):
-        _ = found.deck
-
-
 def test_migrate_verifies_and_writes(tmp_path: Path) -> None:
     found = mudline.migrate(LEGACY, verify=True)
     assert found.replaced == {"ELASTIC SURFACE": 1, "EMBEDMENT": 1}
@@ -148,11 +140,6 @@ def test_what_no_backbone_has(argument: str, value: object, message: str) -> Non
     given = {"model": "f114", "diameter": 0.3, "strength": 5000.0, argument: value}
     with pytest.raises(ValueError, match=message):
         mudline.backbone(**given)  # type: ignore[arg-type]  # it is what is tested
-
-
-def test_study_takes_a_file_too() -> None:
-    text = mudline.study(LEGACY, only=["stability"]).advice.text
-    assert text == mudline.study(mudline.read(LEGACY), only=["stability"]).advice.text
 
 
 def test_show_is_that_of_the_command() -> None:

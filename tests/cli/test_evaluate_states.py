@@ -89,16 +89,6 @@ def test_velocities_of_the_file_are_used(place: Place) -> None:
     assert states[1][2:4] == ["suction", "suction"]
 
 
-def test_velocities_of_an_archive(place: Place, folder: Path) -> None:
-    places = np.array([[-0.1, 0, 0], [-0.1, 10, 0], [0.3, 20, 0]])[np.newaxis] + np.zeros((3, 1, 1))
-    places[1:, :2, 0] = 0.02
-    rising = np.zeros_like(places)
-    rising[1, :, 0] = 0.5
-    np.savez(folder / "p.npz", positions=places, velocities=rising)
-    found = run("evaluate", place(UPLIFT), "--positions", "p.npz", "--output-format", "json").json()
-    assert [step["elements"][0]["state"] for step in found["steps"]] == ["compression", "suction", "hold"]
-
-
 def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     places = at_zero(3)
     np.save(folder / "p.npy", places)
@@ -111,23 +101,6 @@ def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     outcome = run("evaluate", name, "--positions", "p.npz")
     assert (outcome.code, outcome.out) == (1, "")
     assert "times that rise: 1.0 follows 2.0" in outcome.err
-
-
-@pytest.mark.parametrize("times", [[0.0, 2.0, 1.0], [0.0, 1.0, 1.0]], ids=["fall", "repeat"])
-@pytest.mark.parametrize("law", ["suction", "friction", "none"])
-def test_times_of_an_archive_rise_for_laws_with_history(
-    place: Place, folder: Path, law: str, times: list[float]
-) -> None:
-    places = at_zero(3)
-    np.savez(folder / "p.npz", positions=places, time=times, velocities=0 * places)
-    outcome = run(
-        "evaluate", place({"suction": UPLIFT, "friction": SLIDING, "none": CLEAN}[law]), "--positions", "p.npz"
-    )
-    if law == "none":
-        assert (outcome.code, outcome.err.count("rise")) == (0, 0)
-    else:
-        assert (outcome.code, outcome.out) == (1, "")
-        assert outcome.err.endswith(f"times that rise: {times[2]} follows {times[1]}\n")
 
 
 def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,27 +133,6 @@ def test_time_step(place: Place, folder: Path) -> None:
     assert "one.npy is one state" in run("evaluate", place(), "--positions", "one.npy", "--time-step", "1").err
     timed = run("evaluate", place(), "--positions", place(PULL, "p.csv"), "--time-step", "1")
     assert (timed.code, "p.csv has times of its own" in timed.err) == (2, True)
-
-
-def test_text_tells_states(place: Place, pulled: tuple[str, ...]) -> None:
-    text = run("evaluate", *pulled).out
-    assert "suction     nodes" in text
-    assert [line.split()[-2:] for line in text.splitlines()[5:10]] == [
-        ["0", "0"],
-        ["0", "2"],
-        ["1", "0"],
-        ["1", "0"],
-        ["0", "0"],
-    ]
-    rows = run("evaluate", *pulled, "--output-format", "json").json()["steps"][2]["elements"]
-    pull = next(line.split() for line in text.splitlines() if line.startswith("suction force of an element"))
-    assert [float(pull[5]), *pull[6:]] == [pytest.approx(-rows[0]["force"], rel=1e-5), "N/m", "2", "1"]
-    single = run("evaluate", place(BOTH), "--table", "nodes").out
-    assert "axial friction of nodes    stick" in single
-    assert "suction of elements        compression" in single
-    assert single.splitlines()[-2].split()[-2:] == ["stick", "stick"]
-    elements = run("evaluate", place(BOTH)).out.splitlines()
-    assert elements[-2].split()[-1] == "compression"
 
 
 def test_rigid_bed_restrains_nodes(place: Place) -> None:
@@ -227,16 +179,6 @@ WARNING = (
 OWN = "mudline: the positions are the deck's own coordinates, not a solved shape\n"
 
 
-def test_misspelt_keyword_is_said_in_the_place_of_zeros(place: Place) -> None:
-    outcome = run("evaluate", place(MISSPELT))
-    assert (outcome.code, outcome.err) == (0, WARNING + OWN)
-    message = "Contact of deck.keyxm (metric units): none of 2 elements has a seabed law, so there are no forces\n"
-    assert outcome.out == message
-    everything = run("evaluate", place(MISSPELT), "-v").out
-    assert everything.startswith(message)
-    assert "none              2        0                  0" in everything
-
-
 @pytest.mark.parametrize(("options", "code"), [((), 0), (("--fail-on", "error"), 0), (("--fail-on", "warning"), 1)])
 def test_warnings_decide_the_exit_code_when_asked_to(place: Place, options: tuple[str, ...], code: int) -> None:
     assert run("evaluate", place(MISSPELT), *options).code == code
@@ -257,36 +199,3 @@ def test_json_has_the_warnings(place: Place) -> None:
     (warning,) = found["warnings"]
     assert (warning["code"], warning["line"], warning["elements"], warning["first"]) == ("SYN009", 18, 1, 1)
     assert warning["message"] in WARNING
-
-
-# ------------------------------------------------------------------------------------------------------------ validate
-
-
-def test_deck_without_a_seabed_is_legal_with_a_warning(place: Place) -> None:
-    names = [place(MISSPELT, "misspelt.keyxm"), place(CLEAN, "clean.keyxm")]
-    outcome = run("validate", *names, "--output-format", "json")
-    assert outcome.code == 0
-    assert_fits(outcome.json(), "validate")
-    decks = outcome.json()["decks"]
-    rows = [(row["verdict"], row["warnings"], [one["code"] for one in row["findings"]]) for row in decks]
-    read = "6 of 7 keywords; not read: *SEABED PROPERTEIS"
-    assert rows == [(f"legal as far as read, 1 warning: {read}", 1, ["SYN009"]), ("legal", 0, [])]
-    assert outcome.json()["total"]["warnings"] == 1
-    assert run("validate", *names).out.splitlines()[4].startswith("as far as read, 1 warning ")
-
-
-def test_what_evaluating_adds_is_counted_once(place: Place) -> None:
-    slope = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=2.0\n"
-    outcome = run("validate", place(slope), "-v")
-    assert "warning SBD006" in outcome.out
-    assert "1 of 1 deck legal: 1 warning" in outcome.out
-    lacking = CLEAN.replace(" STIFFNESS=Clay\n", " FRICTION=0.3, 0.5\n")
-    shown = run("validate", place(lacking), "-v").out
-    assert shown.count("SBD006") == 1
-
-
-def test_suppressed_warning_is_not_counted(place: Place) -> None:
-    text = CLEAN.replace(" STIFFNESS=Clay\n", " STIFFNESS=5000.0\n").replace(
-        " CURVE=", "C mudline: ignore REF003\n CURVE="
-    )
-    assert run("validate", place(text), "--output-format", "json").json()["decks"][0]["verdict"] == "legal"
