@@ -8,12 +8,12 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # An installation is as old as the files that say what it consists of.
 INSTALLATION := pyproject.toml hatch_build.py src/mudline/basics/version.py $(wildcard grammar/*.lark)
 OUT := demo-output
-CORE := $(addprefix tests/,syntax expression keywords curves contact scene comparison)
+CORE := $(addprefix tests/,language model/curves model/contact model/scene editing/comparison)
 # More arguments for pytest or the benchmarks: make test ARGS="-k curves --no-cov", make bench ARGS=--quick
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench fuzz mutants extension site serve build clean
+.PHONY: help install demo test test-all test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench fuzz mutants extension site serve build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -61,6 +61,9 @@ demo: $(VENV)/.user ## a look at what mudline does, on samples/
 # Without the table of lines that no test meets, which takes as long as the total: .venv/bin/coverage report prints it.
 test: $(VENV)/.developer ## the whole test suite, with coverage
 	$(BIN)/python -m pytest --numprocesses auto --dist worksteal --cov --cov-report= $(ARGS)
+
+test-all: $(VENV)/.developer ## the same with every case, and ten times as many examples of each property
+	MUDLINE_TESTS=all $(BIN)/python -m pytest --numprocesses auto --dist worksteal $(ARGS)
 
 test-fast: $(VENV)/.developer ## the unit tests of the core, in about a minute
 	$(BIN)/python -m pytest --numprocesses auto -m "not slow" $(CORE) $(ARGS)

@@ -1,4 +1,4 @@
-"""How every property test runs: no deadline anywhere, and the same examples on every run under CI; what is traced."""
+"""How many examples and cases are run, without a deadline, and the same ones on every run under CI; what is traced."""
 
 from __future__ import annotations
 
@@ -16,29 +16,19 @@ from tests.helpers import tracing
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # A loaded machine draws examples slowly; that says nothing about the code under test.
-settings.register_profile("mudline", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+ALL = os.environ.get("MUDLINE_TESTS") == "all"
+"""Every case, and ten times as many examples: `make test-all`."""
+settings.register_profile(
+    "mudline", max_examples=200 if ALL else 20, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.register_profile("mudline-ci", settings.get_profile("mudline"), derandomize=True, print_blob=True)
 settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
 
 Report = pytest.CollectReport
 OPTIONAL = (
-    "distributed",
-    "duckdb",
-    "jsonschema",
-    "lsprotocol",
-    "matplotlib",
-    "mpmath",
-    "numba",
-    "openpyxl",
-    "pandas",
-    "polars",
-    "pyarrow",
-    "pygls",
-    "pytest_lsp",
-    "scipy",
-    "xarray",
-    "xlsxwriter",
+    *("distributed", "duckdb", "jsonschema", "lsprotocol", "matplotlib", "mpmath", "numba", "openpyxl", "pandas"),
+    *("polars", "pyarrow", "pygls", "pytest_lsp", "scipy", "xarray", "xlsxwriter"),
 )
 """Libraries without which the rest can be tested: what needs one that is not installed is skipped, and names it."""
 
@@ -76,11 +66,24 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Where coverage is no tracer that is started for each test, it is stopped for those that are not measured."""
+    """Leave out cases that are like others; where coverage is no tracer, stop it for tests that are not measured."""
+    if not ALL:
+        seen: set[str] = set()
+        later = [item for item in items if item.get_closest_marker("alike") and not _is_first(item, seen)]
+        config.hook.pytest_deselected(items=later)
+        items[:] = [item for item in items if item not in set(later)]
     if tracing.is_measured() and not config.pluginmanager.has_plugin(tracing.NAME):
         for item in items:
             if not tracing.is_traced(item):
                 item.add_marker(pytest.mark.no_cover)
+
+
+def _is_first(item: pytest.Item, seen: set[str]) -> bool:
+    """Return True for the first case of a test."""
+    test = item.nodeid.partition("[")[0]
+    is_new = test not in seen
+    seen.add(test)
+    return is_new
 
 
 def pytest_collection_finish() -> None:

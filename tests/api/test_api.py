@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-import importlib
 import inspect
 import pickle
 import re
@@ -16,7 +15,7 @@ import pytest
 
 import mudline
 from mudline.language.deck.loading import load_path
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL
 
 EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'
 NAMES = [name for name in mudline.__all__ if name != "__version__"]
@@ -74,12 +73,6 @@ def test_unknown_name() -> None:
         getattr(mudline, "nonsense")  # noqa: B009 - a name that no checker may know
 
 
-def test_lint_stays_a_function_whatever_is_imported() -> None:
-    for module in ("mudline.api", "mudline.cli.lint_command"):
-        importlib.import_module(module)
-    assert inspect.isfunction(mudline.lint)
-
-
 # ------------------------------------------------------------------------------------------------------------- reading
 
 
@@ -116,13 +109,6 @@ def test_what_cannot_be_read(path: Path) -> None:
     assert isinstance(caught.value, ValueError)
 
 
-def test_file_that_is_missing(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError):
-        mudline.read(tmp_path / "nowhere.keyxm")
-    with pytest.raises(FileNotFoundError):
-        mudline.lint(tmp_path / "nowhere.keyxm")
-
-
 def test_every_deck_is_of_one_class(path: Path) -> None:
     deck = mudline.read(path)
     texts = [mudline.from_keyword(CLEAN), mudline.from_json(deck.to_json()), mudline.from_yaml(deck.to_yaml())]
@@ -131,18 +117,6 @@ def test_every_deck_is_of_one_class(path: Path) -> None:
     assert [type(each) for each in made] == [mudline.Deck] * len(made)
     assert isinstance(deck, type(load_path(path)))
     assert copies[::2] == [deck, deck]
-
-
-def test_keyword_text(path: Path) -> None:
-    deck = mudline.from_keyword(CLEAN)
-    assert deck.sections == mudline.read(path).sections
-    assert (deck.file, deck.source, deck.folder) == ("<keyword>", "", None)
-    assert mudline.from_keyword(CLEAN.encode()) == deck
-    assert mudline.from_keyword(CLEAN, units="imperial").units == "imperial"
-    with pytest.raises(mudline.DeckError, match="<keyword>:6:11: SYN002 'ten' is not a number"):
-        mudline.from_keyword(BAD_NUMBER)
-    with pytest.raises(mudline.DeckError, match="SYN012"):
-        mudline.from_keyword(CLEAN.encode("utf-16"))
 
 
 TEXTS = {
@@ -170,20 +144,7 @@ def test_text_in_place_of_a_path(text: object, function: str) -> None:
     assert callable(getattr(mudline, function))
 
 
-@pytest.mark.parametrize(("given", "found"), [(b"scr.keyxm", "bytes"), (3, "int"), (None, "NoneType")])
-def test_what_is_no_path(given: object, found: str) -> None:
-    with pytest.raises(TypeError, match=f"^path must be a str or os.PathLike, not {found}$"):
-        mudline.read(cast("str", given))
-
-
 # ------------------------------------------------------------------------------------------------------------- linting
-
-
-def test_lint(path: Path) -> None:
-    assert mudline.lint(path) == []
-    (found,) = mudline.lint(str(changed(path, UNSORTED)))
-    assert (found.code, found.slug, found.severity) == ("CRV002", "unsorted-points", "info")
-    assert str(found).startswith(f"{path.as_posix()}:25:2: CRV002 ")
 
 
 def test_lint_never_raises_for_content(path: Path) -> None:
@@ -191,15 +152,6 @@ def test_lint_never_raises_for_content(path: Path) -> None:
     path.write_bytes(b"\x00\x01\x02" * 100)
     assert [found.code for found in mudline.lint(path)] == ["SYN012"]
     assert [found.code for found in mudline.lint(changed(path.with_suffix(".json"), "{"))] == ["DOC001"]
-
-
-def test_lint_selects(path: Path) -> None:
-    changed(path, UNUSED)
-    assert [found.code for found in mudline.lint(path)] == ["UNT002", "REF003"]
-    assert mudline.lint(path, select=["SYN"]) == []
-    assert mudline.lint(path, ignore=["unused-curve", "UNT002"]) == []
-    with pytest.raises(ValueError, match="'XYZ' names no rule"):
-        mudline.lint(path, select=["XYZ"])
 
 
 # --------------------------------------------------------------------------------------------------- scene and contact
@@ -249,12 +201,6 @@ def test_positions_of_a_scene(path: Path, tmp_path: Path) -> None:
     file.write_text("node,x,y,z\n99,0,0,0\n", encoding="utf-8")
     with pytest.raises(mudline.DeckError, match="99"):
         mudline.read_positions(file, scene)
-
-
-def test_a_scene_without_elements_cannot_be_evaluated() -> None:
-    scene = mudline.from_keyword(CLEAN.partition("*NODE")[0]).scene()
-    with pytest.raises(mudline.DeckError, match="RUN001 the deck has no elements to evaluate"):
-        scene.contact()
 
 
 def test_scene_of_a_deck_with_errors(path: Path) -> None:

@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from types import NoneType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -79,74 +78,6 @@ def test_what_is_not_one_of_our_objects(name: str, bad: Wrong) -> None:
         call(bad)
 
 
-NO_TEXT = {name: bad for name, bad in NO_OBJECT.items() if name not in {"text", "bytes"}}
-TEXTS: dict[str, tuple[str, Call]] = {
-    "from_keyword": ("text", mudline.from_keyword),
-    "from_json": ("text", mudline.from_json),
-    "from_yaml": ("text", mudline.from_yaml),
-    "read": ("path", mudline.read),
-    "lint": ("path", mudline.lint),
-    "read_positions": ("path", lambda bad: mudline.read_positions(bad, SCENE)),
-    "plot": ("path", lambda bad: RESULT.plot(instead(bad, NoneType))),
-    "Deck": ("file", mudline.Deck),
-    "Deck source": ("source", lambda bad: mudline.Deck("x", bad)),
-    "ForceCurve name": ("name", lambda bad: mudline.ForceCurve([(0, 0), (1, 1)], instead(bad, NoneType))),
-}
-
-
-@pytest.mark.parametrize("bad", NO_TEXT.values(), ids=NO_TEXT)
-@pytest.mark.parametrize("name", TEXTS)
-def test_what_is_no_text_or_path(name: str, bad: Wrong) -> None:
-    argument, call = TEXTS[name]
-    with pytest.raises(TypeError, match=argument):
-        call(bad)
-
-
-NO_NUMBERS = {name: bad for name, bad in NO_OBJECT.items() if name not in {"none", "number", "nan", "list"}}
-NUMBERS: dict[str, tuple[str, Call]] = {
-    "ForceCurve": ("points", mudline.ForceCurve),
-    "curve.evaluate": ("ratios", CURVE.evaluate),
-    "curve.segment": ("ratios", CURVE.segment),
-    "curve.extrapolated": ("ratios", CURVE.extrapolated),
-    "curve.ratios_at_force": ("force", CURVE.ratios_at_force),
-    "evaluate": ("positions", MODEL.evaluate),
-    "evaluate present": ("present", lambda bad: MODEL.evaluate(present=bad)),
-    "evaluate velocities": ("velocities", lambda bad: MODEL.evaluate(velocities=bad)),
-    "evaluate times": ("times", lambda bad: MODEL.evaluate(times=bad)),
-    "stream": ("positions", lambda bad: list(MODEL.stream(bad))),
-    "stream present": ("present", lambda bad: list(MODEL.stream(WHERE, present=bad))),
-    "stream velocities": ("velocities", lambda bad: list(MODEL.stream(WHERE, velocities=bad))),
-    "stream times": ("times", lambda bad: list(MODEL.stream(WHERE, times=bad))),
-    "step": ("positions", lambda bad: MODEL.step(bad, None, STATE)),
-    "step velocities": ("velocities", lambda bad: MODEL.step(WHERE, bad, STATE)),
-    "tangent": ("positions", lambda bad: MODEL.tangent(bad, None, STATE)),
-    "tangent velocities": ("velocities", lambda bad: MODEL.tangent(WHERE, bad, STATE)),
-    "stiffest": ("positions", MODEL.stiffest),
-    "stiffest velocities": ("velocities", lambda bad: MODEL.stiffest(WHERE, bad)),
-    "stiffest velocities alone": ("velocities", lambda bad: MODEL.stiffest(None, bad)),
-    "contact_warnings": ("positions", lambda bad: mudline.contact_warnings(SCENE, RESULT, bad)),
-}
-
-
-@pytest.mark.parametrize("bad", NO_NUMBERS.values(), ids=NO_NUMBERS)
-@pytest.mark.parametrize("name", NUMBERS)
-def test_what_are_no_numbers(name: str, bad: Wrong) -> None:
-    argument, call = NUMBERS[name]
-    with pytest.raises(ValueError, match=argument):
-        call(bad)
-
-
-SHAPES = [(), (0,), (3,), (2, 3), (3, 2), (0, 3), (1, 1, 1, 1), (2, 3, 2)]
-
-
-@pytest.mark.parametrize("shape", SHAPES, ids=str)
-@pytest.mark.parametrize("name", [name for name in NUMBERS if "curve" not in name.lower()])
-def test_numbers_of_another_shape(name: str, shape: tuple[int, ...]) -> None:
-    argument, call = NUMBERS[name]
-    with pytest.raises(ValueError, match=argument):
-        call(np.zeros(shape))
-
-
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 def test_numbers_that_are_not_finite(bad: float) -> None:
     calls: dict[str, Callable[[], object]] = {
@@ -182,50 +113,6 @@ def test_units_that_are_none(bad: Wrong, tmp_path: Path) -> None:
     for call in calls:
         with pytest.raises(ValueError, match=r"^units must be one of metric, imperial, user, not "):
             call()
-
-
-@pytest.mark.parametrize("bad", [None, 3, "", "SYN", b"SYN", [3], ["SYN", None], {1}, 1j])
-@pytest.mark.parametrize("argument", ["select", "ignore"])
-def test_rules_are_several_words(argument: str, bad: Wrong, tmp_path: Path) -> None:
-    path = tmp_path / "deck.keyxm"
-    path.write_text(CLEAN, encoding="utf-8")
-    with pytest.raises(TypeError, match=f"^{argument} must be several str, not "):
-        mudline.lint(path, **{argument: bad})
-
-
-WORDS: dict[str, tuple[str, Call]] = {
-    "tension": ("tension", SCENE.contact),
-    "backend": ("backend", lambda bad: SCENE.contact(backend=bad)),
-    "ContactModel backend": ("backend", lambda bad: mudline.ContactModel(MODEL.input, backend=bad)),
-    "table": ("table", RESULT.to_dataframe),
-    "arrow table": ("table", RESULT.to_arrow),
-    "side": ("side", RESULT.friction_state_of),
-}
-
-
-@pytest.mark.parametrize("bad", [None, 3, -1, math.nan, "", "x", b"x", [], [1], {}, {1}, 1j], ids=repr)
-@pytest.mark.parametrize("name", WORDS)
-def test_words_that_are_none_of_those_expected(name: str, bad: Wrong) -> None:
-    argument, call = WORDS[name]
-    with pytest.raises(ValueError, match=argument):
-        call(bad)
-
-
-WHOLE: dict[str, tuple[str, Call]] = {
-    "step of a series": ("index", SERIES.step),
-    "steps from": ("start", lambda bad: SERIES.steps(bad, 1)),
-    "steps to": ("stop", lambda bad: SERIES.steps(0, bad)),
-    "threads": ("threads", lambda bad: mudline.ContactModel(MODEL.input, threads=instead(bad, NoneType))),
-    "plot": ("elements", lambda bad: SERIES.plot(elements=instead(bad, list))),
-}
-
-
-@pytest.mark.parametrize("bad", [None, math.nan, 0.5, "", "x", b"x", [], {"x": 1}, 1j, np.array([0.5])], ids=repr)
-@pytest.mark.parametrize("name", WHOLE)
-def test_whole_numbers_that_are_none(name: str, bad: Wrong) -> None:
-    argument, call = WHOLE[name]
-    with pytest.raises(TypeError, match=argument):
-        call(bad)
 
 
 @pytest.mark.parametrize("bad", ["", "x", b"x", [], [0.1], {}, 1j, np.datetime64("2020-01-01")], ids=repr)

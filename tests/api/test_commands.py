@@ -47,14 +47,6 @@ def test_fix_is_that_of_the_command(tmp_path: Path) -> None:
     assert mudline.fix(mudline.from_keyword(UNTIDY), ignore=["repeated-point"]).content == UNTIDY.encode()
 
 
-def test_what_cannot_be_read_is_not_fixed() -> None:
-    found = mudline.fix(SAMPLES / "broken.keyxm")
-    assert found.content == (SAMPLES / "broken.keyxm").read_bytes()
-    assert "correct what cannot be read first" in found.note
-    with pytest.raises(mudline.DeckError):
-        _ = found.deck
-
-
 def test_migrate_verifies_and_writes(tmp_path: Path) -> None:
     found = mudline.migrate(LEGACY, verify=True)
     assert found.replaced == {"ELASTIC SURFACE": 1, "EMBEDMENT": 1}

@@ -157,17 +157,3 @@ def test_a_deck_in_another_encoding_has_the_same_findings_and_values(path: Path,
     twin = load_bytes(REWRITTEN[form](data), str(path), folder=path.parent)
     assert twin == deck
     assert twin.diagnose(twin.problems) == deck.diagnose(deck.problems)
-
-
-@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
-def test_cp1252_is_read_and_utf16_is_refused(path: Path) -> None:
-    data = path.read_bytes()
-    named = data.replace(b"C ", b"C Br\xf6dr ", 1)
-    deck = load_bytes(named, str(path), folder=path.parent)
-    twin = load_bytes(named.decode("cp1252").encode(), str(path), folder=path.parent)
-    assert deck.sections == twin.sections
-    codes = [one.code for one in deck.diagnose(deck.problems) if one.code != "SYN012"]
-    assert codes == [one.code for one in twin.diagnose(twin.problems)]
-    for encoding in ("utf-16", "utf-16-le", "utf-16-be"):
-        with pytest.raises(mudline.DeckError, match=r"SYN012.*UTF-16"):
-            load_bytes(data.decode().encode(encoding), str(path), folder=path.parent).require()

@@ -20,11 +20,7 @@ _OURS = {
 _YAML = "yaml.dump(array[::100].tolist(), Dumper=yaml.CSafeDumper, default_flow_style=None)"
 _THEIRS = {
     "json write": ("json.dumps of lists", "rows = array.tolist()", "return json.dumps(rows)"),
-    "json read": (
-        "json.loads to an array",
-        "text = json.dumps(array.tolist())",
-        "return np.array(json.loads(text))",
-    ),
+    "json read": ("json.loads to an array", "text = json.dumps(array.tolist())", "return np.array(json.loads(text))"),
     "yaml write": ("yaml.dump in C, of one row in 100, multiplied", "pass", f"return {_YAML}"),
     "yaml read": (
         "yaml.load in C, of one row in 100, multiplied",

@@ -132,7 +132,7 @@ def folder_of(bench: Bench, count: int, write: Writer = apart, suffix: str = "ke
 def linters(bench: Bench, write: Writer) -> dict[str, Maker]:
     """Mudline with as many processes as it likes and without its cache, and the peers that are there."""
     makers: dict[str, Maker] = {
-        "mudline": lambda count: bench.mudline("lint", "--no-cache", folder_of(bench, count, write)),
+        "mudline": lambda count: bench.mudline("lint", "--no-cache", folder_of(bench, count, write))
     }
     peers: dict[str, tuple[str, str, tuple[str, ...]]] = {
         "yamllint": ("yaml", "python", ("-I", "-m", "yamllint", "-d", "default")),

@@ -37,12 +37,7 @@ def growth(bench: Bench) -> None:
 
 
 CURVE = {"mudline": "curve", "np.loadtxt": "curve", "opm": "opm-curve"}
-NODES = {
-    "mudline": "nodes",
-    "np.loadtxt": "nodes",
-    "opm": "opm-nodes",
-    "meshio": "abaqus",
-}
+NODES = {"mudline": "nodes", "np.loadtxt": "nodes", "opm": "opm-nodes", "meshio": "abaqus"}
 """The kind of table that each program reads."""
 
 _PROGRAMS = {
@@ -59,10 +54,7 @@ def readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
 
     head = _HEADS[kinds["np.loadtxt"]]
     loadtxt = Work("import numpy as np", f"return np.loadtxt(path, delimiter=',', skiprows={head})")
-    makers = {
-        "mudline": maker("mudline", _OURS),
-        "np.loadtxt": maker("np.loadtxt", loadtxt),
-    }
+    makers = {"mudline": maker("mudline", _OURS), "np.loadtxt": maker("np.loadtxt", loadtxt)}
     there = {name: work for name, work in _PROGRAMS.items() if name in kinds and bench.has(name)}
     return makers | {name: maker(name, work, name) for name, work in there.items()}
 

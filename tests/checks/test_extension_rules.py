@@ -6,7 +6,7 @@ import pytest
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
-from tests.checks.findings import CLAY, PIPE, PROPERTIES, RESTART, found, messages
+from tests.checks.findings import CLAY, PIPE, PROPERTIES, RESTART, found
 
 LINEAR = PROPERTIES + " STIFFNESS=5000\n"
 UNLOADING = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=9000\n"
@@ -101,20 +101,6 @@ def test_a_curve_that_pulls_is_an_error_unless_it_does_so_only_where_it_is_extra
     found_ = lint_bytes(deck.encode(), "deck.keyxm", select(["EXT006"]))
     assert [(str(one.severity), one.blocks) for one in found_] == [(severity, severity == "error")]
     assert "--tension cut" in found_[0].message
-
-
-def test_two_suction_laws_are_told_with_their_elements() -> None:
-    one = PIPE.replace("GEN=1, 10", "GEN=1, 1") + LINEAR + " SUCTION=50.0\n" + SUCTION
-    assert messages(one, "EXT006") == ["element 1 has SUCTION= of the seabed too: remove one of the two"]
-
-
-@pytest.mark.parametrize(
-    ("geometry", "code"),
-    [("0.5, 3.0, 1.0", "EXT003"), ("-0.5, 1.0, 3.0", "EXT003"), ("0.5, 0.0, 3.0", "EXT003"), ("0.5, x, 0.0", "EXT003")],
-)
-def test_the_geometry_of_a_trench_is_told_once(geometry: str, code: str) -> None:
-    trench = TRENCH.replace("0.5, 1.0, 3.0", geometry)
-    assert [one[0] for one in found(PIPE + LINEAR + " FRICTION=0.3, 0.5\n" + trench, "EXT003", "SBD010")] == [code]
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 import re
 from collections.abc import Iterator
 from itertools import combinations, starmap
@@ -15,10 +14,9 @@ from hypothesis import strategies as st
 from mudline.basics.limits import MOST_PASSES
 from mudline.checks import fixing as fixing_module
 from mudline.checks.context import LintContext
-from mudline.checks.engine import Fixing, LintSettings, lint_bytes
+from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.fixing import Fixed, fix_bytes, lint_one, with_severities
 from mudline.checks.registry import rules
-from mudline.checks.suppression import STY010
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
@@ -43,18 +41,6 @@ def changed(text: str, *chosen: Rule, fixing: Fixing = Fixing.SAFE) -> str:
     content = fix(text, *chosen, fixing=fixing).changed
     assert content is not None
     return content.decode()
-
-
-def test_all_findings_of_a_pass_are_fixed_at_once() -> None:
-    text = DECK.replace(", ", ",\t")
-    result = fix(text, TABS)
-    assert result.changed == DECK.encode()
-    assert list(result.fixed) == lint_bytes(text.encode(), "deck.keyxm", (TABS,))
-    assert result.note == ""
-
-
-def test_nothing_to_fix_changes_nothing() -> None:
-    assert fix(DECK, TABS) == Fixed(None, (), "")
 
 
 @pytest.mark.parametrize("end", ["\r\n", "\r", "\n"])
@@ -101,12 +87,6 @@ def test_a_fix_that_makes_the_deck_worse_is_dropped_and_the_others_are_made(bad:
     assert "not made" in result.note
 
 
-def test_of_two_repairs_of_one_place_the_second_is_made_where_the_first_cannot_be() -> None:
-    result = fix(DECK, replacing("4000.0", "4O00.0"), replacing("4000.0", "5000.0", code="TST002"))
-    assert result.changed == DECK.replace("4000.0", "5000.0").encode()
-    assert [one.code for one in result.fixed] == ["TST002"]
-
-
 @pytest.mark.parametrize(
     ("first", "second", "fixing", "made"),
     [
@@ -130,14 +110,6 @@ def test_of_repairs_that_overlap_one_is_made_at_once(
     assert (result.changed, result.note) == (DECK.replace("0.5, 4000.0", made).encode(), "")
 
 
-def test_a_repair_that_was_refused_is_made_when_another_has_made_it_possible() -> None:
-    use = replacing("STIFFNESS=Clay$", "STIFFNESS=Sand")
-    curve = " 0.5, 4001.0\n CURVE=Sand\n 0.0, 0.0\n 0.5, 1000.0"
-    define = replacing(" 0.5, 4000.0$", curve, code="TST002", kind="unsafe")
-    expected = DECK.replace("STIFFNESS=Clay", "STIFFNESS=Sand").replace(" 0.5, 4000.0", curve)
-    assert changed(DECK, use, define, fixing=Fixing.UNSAFE) == expected
-
-
 def test_errors_of_reading_are_fixed_before_others() -> None:
     text = DECK.replace("STIFFNESS=Clay", "STIFNESS=Clay")
     mend = replacing("STIFNESS", "STIFFNESS", code="SYN004", kind="unsafe", severity=Severity.ERROR)
@@ -159,25 +131,12 @@ def test_bad_repairs_among_good_ones_are_found_by_halving(monkeypatch: pytest.Mo
     assert fix(FOUR, bad, good).changed == FOUR.replace("2.0\n", "2.5\n").encode()
 
 
-def test_of_repairs_that_are_bad_together_one_is_made() -> None:
-    """Either row may be at the ratio 0.25, not both."""
-    result = fix(FOUR, replacing(r"0\.2, ", "0.25, "), replacing(r"0\.3, ", "0.25, ", code="TST002"))
-    assert result.changed == FOUR.replace("0.2, ", "0.25, ").encode()
-    assert [one.code for one in result.fixed] == ["TST001"]
-    assert result.note == "1 fix not made: the deck would have had a new error or lost something"
-
-
 def test_errors_that_were_there_before_keep_nothing_from_being_fixed() -> None:
     text = DECK.replace("STIFFNESS=Clay", "STIFFNESS=Mud").replace(" CURVE", "\tCURVE")
     result = fix(text, TABS)
     assert (result.changed, result.note) == (text.replace("\t", " ").encode(), "")
     other = replacing("STIFFNESS=Mud", "STIFFNESS=Clay\n LATERAL=-1", code="TST002")
     assert fix(text, other).changed is None
-
-
-def test_a_note_counts_what_was_not_made() -> None:
-    result = fix(FOUR, replacing(r"\b[13]\.0$", "x"))
-    assert result == Fixed(None, (), "2 fixes not made: the deck would have had a new error or lost something")
 
 
 @pytest.mark.parametrize(
@@ -238,21 +197,11 @@ def test_a_safe_fix_moves_no_block_before_others() -> None:
     assert fix(text, TABS._replace(check=check)).changed is None
 
 
-def test_a_safe_fix_may_add_to_the_end_of_its_block() -> None:
-    assert changed(DECK, replacing(r"(?<=4000\.0)$(?!\n 0.6)", "\n 0.6, 5000.0")) == DECK.replace(
-        "4000.0", "4000.0\n 0.6, 5000.0"
-    )
-
-
 @pytest.mark.parametrize("comment", ["C riser", "C A", "C"])
 def test_a_comment_may_be_laid_out_anew_and_not_lost(comment: str) -> None:
     text = DECK.replace("C A riser", "C A  riser")
     assert changed(text, replacing("^C A  riser", "C\tA riser")) == DECK.replace("C A", "C\tA")
     assert fix(text, replacing("^C A  riser", comment)).changed is None
-
-
-def test_a_repair_that_changes_nothing_is_none() -> None:
-    assert fix(DECK, replacing("Clay$", "Clay")) == Fixed(None, (), "")
 
 
 def test_a_safe_fix_leaves_the_blocks_that_there_are() -> None:
@@ -286,26 +235,9 @@ def test_fixing_ends_where_rules_do_not() -> None:
     assert result.note == f"fixing was stopped after {MOST_PASSES} passes: run it again to see what is left"
 
 
-@pytest.mark.untraced
-def test_many_bad_fixes_end_soon() -> None:
-    rows = "".join(f" {ratio}.0, {ratio}7.0\n" for ratio in range(300))
-    result = fix(f"{CURVES} CURVE=Clay\n{rows}", replacing("7.0$", "x"))
-    assert result.changed is None
-    assert result.note.startswith("300 fixes not made")
-
-
 def test_unused_suppressions_are_removed() -> None:
     text = DECK.replace(" CURVE=Clay", "C mudline: ignore CRV005\n CURVE=Clay")
     assert changed(text, *rules()) == DECK
-
-
-def test_a_report_can_be_sent_to_another_process() -> None:
-    settings = LintSettings(rules(), fixing=Fixing.SAFE, severities={STY010.code: Severity.ERROR})
-    assert pickle.loads(pickle.dumps(settings)) == settings  # noqa: S301 - of its own making
-    report = lint_one("deck.keyxm", (DECK + "C mudline: ignore CRV005\n").encode(), settings)
-    assert pickle.loads(pickle.dumps(report)) == report  # noqa: S301 - of its own making
-    assert [one.severity for one in report.fixed] == [Severity.ERROR]
-    assert (report.found, report.changed) == ((), DECK.encode())
 
 
 def test_a_document_is_linted_and_not_fixed() -> None:
@@ -352,13 +284,6 @@ def test_a_finding_is_as_severe_as_the_worst_below_it(given: dict[str, Severity]
     )
     assert one.severity.value == above
     assert [each.severity.value for each in one.following] == [below, "info"]
-
-
-def test_severities_of_findings_below_another_change_under_it() -> None:
-    below = finding(code="TST002", severity=Severity.INFO)
-    cause = finding(code="TST001", severity=Severity.ERROR, following=(below,))
-    (one,) = with_severities([cause], LintSettings((), severities={"TST002": Severity.WARNING}))
-    assert (one.severity, one.following[0].severity) == (Severity.ERROR, Severity.WARNING)
 
 
 def test_passes_that_are_all_made_are_told_while_there_are_tries(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,15 +8,13 @@ from functools import cache
 import pytest
 from hypothesis import given, settings
 
-from mudline.checks.context import LintContext
-from mudline.checks.engine import LintSettings, lint_bytes, problems_in
+from mudline.checks.engine import LintSettings, lint_bytes
 from mudline.checks.fixing import lint_one
 from mudline.checks.registry import rules
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.model.scene.model import resolve
 from tests.checks.legality import Outcome, deck, outcome
-from tests.helpers.builders.decks import CLAY, PIPE, STEEL
 from tests.helpers.builders.documents import Values, document
 
 
@@ -80,18 +78,3 @@ def test_a_curve_that_is_cut_blocks_nothing() -> None:
     scene = resolve(load_bytes(text.encode(), "deck.keyxm"))
     assert scene.require() is scene
     assert scene.contact(tension="cut").evaluate().contact.all()
-
-
-def test_a_rule_that_advises_never_blocks() -> None:
-    context = LintContext(load_bytes(CUTOFF.encode(), "deck.keyxm"), dialect="flexcom")
-    chosen = [rule for rule in rules() if rule.check is not None and not rule.blocks]
-    assert {problem.blocking.value for problem in problems_in(context, chosen)} == {"never"}
-
-
-def test_a_section_of_a_set_that_something_else_may_define() -> None:
-    """Such a deck once had no finding and was refused all the same: lines may have defined the set."""
-    section = STEEL.replace("SET=ALL", "SET=Elsewhere")
-    law = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
-    found = outcome(f"{PIPE}*LINES\n 1, 2, 3\n{section}{CLAY}{law}".encode())
-    assert {code for code, _, _ in found.blocking} == {"SBD009"}
-    assert found.agrees

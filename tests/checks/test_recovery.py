@@ -79,10 +79,6 @@ def only(text: str) -> Diagnostic:
     return one
 
 
-def test_the_deck_without_a_fault_is_clean() -> None:
-    assert found(DECK) == []
-
-
 CAUSES = {
     "a misspelt *ELEMENT": (("*ELEMENT\n", "*ELEMNT\n"), "SYN009", 8),
     "a misspelt *NODE": (("*NODE\n", "*NODS\n"), "SYN009", 4),
@@ -118,19 +114,6 @@ PLAIN = {
     "a name before a point": ((" 0.5, 20000.0\n", " Clay, 0.5, 20000.0\n"), "SYN003", 22),
 }
 """Faults that nothing is known to correct: each has its finding, and there may be others."""
-
-
-@pytest.mark.parametrize(("change", "code", "line"), PLAIN.values(), ids=PLAIN)
-def test_a_fault_without_a_correction_is_found_at_its_place(change: tuple[str, str], code: str, line: int) -> None:
-    assert (code, line) in {(one.code, one.line) for one in found(changed(change))}
-
-
-@pytest.mark.parametrize("change", [change for change, _, _ in CAUSES.values()], ids=CAUSES)
-def test_a_deck_that_is_refused_is_refused_with_the_cause(change: tuple[str, str]) -> None:
-    deck = load_bytes(changed(change).encode(), "deck.keyxm")
-    refused = deck.diagnose(resolve(deck).blocking())
-    if refused:
-        assert named_causes(deck, refused, rules()) == [only(changed(change))]
 
 
 SECOND = {
@@ -182,16 +165,6 @@ def test_two_slips_alike_are_two_findings() -> None:
     assert [one.line for one in found(text) if one.code == "REF001"] == [28, 31]
 
 
-def test_a_title_below_a_section_is_no_keyword() -> None:
-    (one,) = found(DECK.replace("$MODEL\n", "$MODEL\n Flowline 12, as laid\n"))
-    assert one.message.startswith("1 line of $MODEL under no keyword")
-
-
-def test_two_slips_are_two_findings() -> None:
-    both = found(changed(("*ELEMENT\n", "*ELEMNT\n"), ("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n")))
-    assert [(one.code, one.line) for one in both] == [("SYN009", 8), ("SYN009", 19)]
-
-
 def test_what_follows_is_not_left_out_where_its_cause_is_not_reported() -> None:
     text = changed(("*NODE\n", "*NODS\n"))
     chosen = select(["REF006"])
@@ -214,13 +187,6 @@ def test_a_warning_is_an_error_where_the_deck_as_written_is_illegal() -> None:
     assert (one.code, one.severity, one.blocks) == ("SYN015", Severity.ERROR, True)
 
 
-def test_decimal_commas_of_a_row_with_too_many_fields_are_an_error() -> None:
-    (one,) = found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))
-    assert (one.code, one.severity) == ("SYN015", Severity.ERROR)
-    assert one.fix is not None
-    assert [edit.text for edit in one.fix.edits] == ["0.5, 20000.5"]
-
-
 def test_the_severity_of_the_configuration_holds_for_the_cause() -> None:
     text = changed(("*NODE\n", "*NODS\n")).encode()
     mild = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO})
@@ -235,33 +201,10 @@ def test_a_refused_deck_is_refused_with_the_cause() -> None:
     assert [(one.code, one.line) for one in named_causes(deck, refused, rules())] == [("SYN009", 4)]
 
 
-def test_a_missing_line_is_named() -> None:
-    assert only(changed(("*NODE\n", ""))).message.startswith("this line and those below it read as *NODE: ")
-    assert only(changed(("$MODEL\n", ""))).message.startswith("the line $MODEL is missing above this one: ")
-
-
-@pytest.mark.parametrize("name", ["deck.keyxm", "deck.keyx"])
-@pytest.mark.parametrize("end", ["\r\n", "\r"])
-def test_line_ends_and_units_change_nothing(name: str, end: str) -> None:
-    for change, code, line in CAUSES.values():
-        told = [one for one in found(changed(change).replace("\n", end), name) if one.code != "STY006"]
-        assert (code, line) in [(one.code, one.line) for one in told]
-        assert len(told) == 1 or name == "deck.keyx"
-
-
 def test_a_proposed_line_ends_as_those_of_the_file() -> None:
     (one,) = (one for one in found(changed(("*NODE\n", "")).replace("\n", "\r\n")) if one.code != "STY006")
     assert one.fix is not None
     assert [edit.text for edit in one.fix.edits] == ["*NODE\r\n"]
-
-
-def test_a_misspelt_keyword_is_an_error_beside_another_one() -> None:
-    keyword, setting = ("*GEOMETRIC SETS\n", "*GEOMETRIK SETS\n"), (" STIFFNESS=", " STIFNESS=")
-    alone = only(changed(keyword))
-    beside, other = found(changed(keyword, setting))
-    assert (alone.code, alone.severity, alone.blocks) == ("SYN009", Severity.ERROR, True)
-    assert beside == alone
-    assert (other.code, other.severity) == ("SYN004", Severity.ERROR)
 
 
 def test_a_fix_is_made_as_before() -> None:
@@ -272,25 +215,6 @@ def test_a_fix_is_made_as_before() -> None:
 
 
 # ---------------------------------------------------------------------------------------------- what to write instead
-
-
-@pytest.mark.parametrize("mark", ["#", "//", "!", ";", "--"])
-def test_a_comment_of_another_program_is_named(mark: str) -> None:
-    one = only(changed(("*NODE\n", f"*NODE\n{mark} the nodes, as laid\n")))
-    assert one.message == f"'{mark} the nodes, as laid' is read as data: begin a comment with C and a space"
-    assert (one.line, one.column) == (5, 1)
-
-
-def test_hints_of_a_setting_say_what_to_write() -> None:
-    (empty,) = found(changed((" SET=Left\n STIFF", " SET=\n STIFF")))
-    assert empty.message == "SET= has no value: write the name of a set after it (ALL is every element)"
-    by_set = found(changed((" CURVE=Clay\n", " SET=Left\n")))
-    assert "name the curve by CURVE= here, and give it to the set in STIFFNESS=" in by_set[0].message
-
-
-def test_a_setting_of_another_name_is_no_row() -> None:
-    (one,) = (each for each in found("$MODEL\n*SEABED UNLOADING\n SET=ALL\n KU=4E5\n") if each.code == "SYN004")
-    assert one.message == "*SEABED UNLOADING has no setting KU=: it takes SET=, STIFFNESS="
 
 
 def test_nodes_out_of_sight_are_one_info() -> None:

@@ -11,11 +11,6 @@ from mudline.language.deck.loading import load_bytes
 from tests.checks.findings import CLAY, CURVES, PIPE, PROPERTIES, RESTART, curve, found, messages, repaired
 
 
-def test_unused_curves_are_told_each_once() -> None:
-    text = CURVES + CLAY + curve("a", (0, 0), (1, 1)) + curve("A", (0, 0), (1, 2)) + PROPERTIES + " STIFFNESS=CLAY\n"
-    assert found(text, "REF003", "REF004") == [("REF003", 6, 8), ("REF004", 9, 8)]
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -46,12 +41,6 @@ def test_curves_that_are_used_or_may_be(text: str) -> None:
 def test_a_curve_whose_name_reads_as_a_number_is_not_reached() -> None:
     text = CURVES + curve("100", (0, 0), (1, 1)) + PROPERTIES + " STIFFNESS=100\n"
     assert found(text, "REF003", "SBD017") == [("SBD017", 3, 8)]
-
-
-def test_a_second_curve_of_a_set_is_a_duplicate_too() -> None:
-    text = "$MODEL\n*ELASTIC SURFACE\n ,\n*EMBEDMENT\n 0, 0\n 1, 1\n SET=all\n 0, 0\n 1, 1\n"
-    assert found(text, "REF004") == [("REF004", 7, 6)]
-    assert messages(text, "REF004")[0].startswith("set 'all' already has a curve")
 
 
 @pytest.mark.parametrize(("again", "letter"), [(" 9, 8\n", "info"), (" 3\n", "warning"), (" GEN=2, 9\n", "warning")])
@@ -112,12 +101,6 @@ def test_sets_are_repeated_without_case_and_over_blocks() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET=a\n 1\n SET=b\n 2\n*ELEMENT SETS\n SET=A\n 3\n SET=ALL\n 1\n SET=All\n"
     text += " SET=\n SET=a\n"
     assert found(text, "REF016") == [("REF016", 8, 6), ("REF016", 14, 6)]
-
-
-def test_items_of_lists_repeat_parameters() -> None:
-    text = "$PREPROCESSOR\n*PARAMETERS\n soil_k, 1\n Soil, /K:2, mu:3/\n n, /1 2/\n n, /3 4/\n od\n x, =[soil_k]\n"
-    assert found(text, "REF017") == [("REF017", 4, 2), ("REF017", 6, 2)]
-    assert "and 1 more" in messages(text, "REF017")[1]
 
 
 @pytest.mark.parametrize(

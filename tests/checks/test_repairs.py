@@ -12,7 +12,6 @@ from mudline.checks.engine import Fixing, LintSettings, lint_bytes
 from mudline.checks.fixing import fix_bytes
 from mudline.checks.registry import select
 from mudline.editing.migration.migrating import Migration, legacy_blocks, migrate
-from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from tests.checks import corpus
@@ -76,12 +75,6 @@ def test_the_names_of_sections_and_keywords_are_corrected_whole() -> None:
     assert fixed(text, "SYN009", "SYN010") == wanted
 
 
-def test_names_in_json_have_no_fix() -> None:
-    deck = to_json(load_bytes(b"$MODEL\n*OCAEN\n 1, 2\n$LOADCASE\n", "deck.keyxm"))
-    found = [*findings(deck, "SYN009", "deck.json"), *findings(deck, "SYN010", "deck.json")]
-    assert [(one.code, one.fix) for one in found] == [("SYN009", None), ("SYN010", None)]
-
-
 def test_labels_get_braces_in_rows_lists_and_tables() -> None:
     text = (
         "$MODEL\n*LINES\n LINE=Flowline\n*ELEMENT SETS\n SET=Tie-in\n 1, Seabed End, 4\n*NODE\n 1, 0.0, 0.0\n"
@@ -92,17 +85,6 @@ def test_labels_get_braces_in_rows_lists_and_tables() -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------ points
-
-
-def test_points_are_sorted_with_their_lines() -> None:
-    text = f"{CLAY} 0.50, 4.0E3\n  0.0,0.0\n 0.1,\t1200.\n"
-    assert fixed(text, "CRV002", fixing=Fixing.SAFE) == f"{CLAY}  0.0,0.0\n 0.1,\t1200.\n 0.50, 4.0E3\n"
-
-
-@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
-def test_the_last_line_may_lack_its_end(end: str) -> None:
-    text = f"{CLAY} 0.5, 4000.0\n 0.0, 0.0".replace("\n", end)
-    assert fixed(text, "CRV002") == f"{CLAY} 0.0, 0.0\n 0.5, 4000.0".replace("\n", end)
 
 
 @pytest.mark.parametrize(
@@ -134,12 +116,6 @@ def test_points_stay_where_their_order_is_not_all(rows: str) -> None:
     assert [one.fix for one in found] == [None]
 
 
-def test_a_comment_above_rows_without_a_set_counts_too() -> None:
-    text = f"{PIPE}{SURFACE}*EMBEDMENT\n{{}} 0.5, 4000\n 0, 0\n"
-    texts = (text.format("C stiff\n"), text.format("C mudline: ignore CRV005\n"))
-    assert [bool(one.fix) for deck in texts for one in findings(deck, "CRV002")] == [True, False]
-
-
 @given(st.lists(st.integers(0, 99), min_size=2, max_size=12, unique=True))
 def test_sorting_is_done_at_once(ratios: list[int]) -> None:
     rows = [f" 0.{ratio:02d}, {100 * ratio}.0\n" for ratio in ratios]
@@ -165,22 +141,6 @@ def test_no_fix_removes_the_first_point_of_a_curve_whose_name_is_missing(used: s
     assert fixed(text, fixing=Fixing.SAFE) is None
 
 
-def test_a_point_that_is_equal_by_an_equation_is_kept() -> None:
-    found = findings(f"{CLAY} 0, 0\n 0.5, 4000\n 0.5, =[2 * 2000]\n", "CRV004")
-    assert [one.fix for one in found] == [None]
-
-
-def test_a_very_long_curve_is_left_alone() -> None:
-    rows = "".join(f" {ratio}, {10 * ratio}\n" for ratio in range(1001, -1, -1))
-    assert [one.fix for one in findings(CLAY + rows, "CRV002")] == [None]
-
-
-def test_points_in_json_have_no_fix() -> None:
-    deck = to_json(load_bytes(f"{CLAY} 0.5, 4000\n 0, 0\n 0, 0\n".encode(), "deck.keyxm"))
-    found = [*findings(deck, "CRV002", "deck.json"), *findings(deck, "CRV004", "deck.json")]
-    assert [(one.code, one.fix) for one in found] == [("CRV002", None), ("CRV004", None)]
-
-
 # ------------------------------------------------------------------------------------------------------------ curves
 
 OTHER = f"{PROPERTIES} STIFFNESS=Clay\n"
@@ -192,21 +152,10 @@ def test_an_unused_curve_goes_without_its_comments() -> None:
     assert fixed(text, "REF003") == f"{CURVES}C one\nC two\n\nCarried over\nC three\n{kept}{OTHER}"
 
 
-def test_a_keyword_without_another_curve_goes_with_its_last() -> None:
-    kept = "*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 0.5, 4000\n"
-    unused = "*SEABED STIFFNESS\nC one\n CURVE=Sand\n 0, 0\n 0.1, 300\n CURVE=Silt\n 0, 0\n 0.1, 200"
-    assert fixed(f"$MODEL\n{OTHER}{kept}{unused}", "REF003") == f"$MODEL\n{OTHER}{kept}C one\n"
-
-
 def test_a_curve_that_a_comment_keeps_keeps_its_block() -> None:
     kept = "C mudline: ignore REF003 -- for the next survey\n CURVE=Silt\n 0, 0\n 0.1, 200\n"
     text = f"{CURVES} CURVE=Sand\n 0, 0\n 0.1, 300\n{kept}{PROPERTIES} STIFFNESS=1000.0\n"
     assert fixed(text, "REF003") == f"{CURVES}{kept}{PROPERTIES} STIFFNESS=1000.0\n"
-
-
-def test_a_curve_in_json_is_not_removed() -> None:
-    deck = to_json(load_bytes(f"{CURVES} CURVE=Clay\n 0, 0\n 0.5, 4000\n".encode(), "deck.keyxm"))
-    assert [one.fix for one in findings(deck, "REF003", "deck.json")] == [None]
 
 
 # ------------------------------------------------------------------------------------------------------------ legacy

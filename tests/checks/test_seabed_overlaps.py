@@ -64,11 +64,6 @@ def test_a_lost_definition_is_told_at_the_later_set() -> None:
     assert "of SET='A' for 2 elements (first: 3):" in messages(MODEL + soil("A") + soil("B", 6000), "SBD008")[0]
 
 
-def test_one_element_is_told_by_its_number() -> None:
-    text = MODEL.replace("GEN=3, 6", "GEN=4, 6") + soil("A") + soil("B", 6000)
-    assert "of SET='A' for element 4:" in messages(text, "SBD008")[0]
-
-
 def test_sets_of_unknown_elements_are_compared_by_name() -> None:
     for lines, expected in ((soil("ALL") + soil("A"), 0), (soil("A") + soil("A"), 1), (soil("ALL") + soil("all"), 1)):
         laid = "$MODEL\n*LINES\n LINE=A\n" + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + lines
@@ -123,15 +118,6 @@ def test_one_of_two_degrees_of_freedom(lines: str, expected: int) -> None:
 
 def test_nodes_above_the_bed_are_free_to_be_held() -> None:
     assert found(PIPE.replace("-0.05", "5.0") + RIGID + SLOPE + HELD + " 1, 2\n", "SBD021") == []
-
-
-def test_nodes_that_are_held_alone_are_counted() -> None:
-    told = messages(PIPE + RIGID + SLOPE + HELD + " GEN=1, 5, 2\n 3, 1\n", "SBD021")
-    assert len(told) == 1
-    assert told[0] == (
-        "of degrees of freedom 1 and 2 only 2 is constrained at 4 nodes (first: 1) on a sloping rigid seabed, and both "
-        "are held there: give both, or remove this one"
-    )
 
 
 LINEAR = PROPERTIES + " STIFFNESS=5000\n"

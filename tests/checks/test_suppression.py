@@ -26,10 +26,6 @@ def before(line: str, comment: str) -> str:
     return FALLING.replace(line, f"{comment}\n{line}")
 
 
-def test_without_comments_both_are_found() -> None:
-    assert found(FALLING, *CODES) == [("REF003", 3, 8), ("CRV005", 6, 2)]
-
-
 @pytest.mark.parametrize(
     "comment",
     [
@@ -45,16 +41,6 @@ def test_without_comments_both_are_found() -> None:
 )
 def test_the_next_line(comment: str) -> None:
     assert codes(before(" 0.5, 900.0", comment)) == ["REF003"]
-
-
-def test_several_codes_by_comma_or_blank() -> None:
-    both = FALLING.replace(" CURVE", "C mudline: ignore-block CRV005 ,unused-curve\n CURVE")
-    assert codes(both) == []
-    assert codes(both.replace(" ,", " ")) == []
-
-
-def test_a_comment_holds_for_one_line_only() -> None:
-    assert codes(before(" 0.1, 1200.0", "C mudline: ignore CRV005")) == ["REF003", "STY010", "CRV005"]
 
 
 def test_the_block_that_a_comment_stands_in() -> None:
@@ -84,14 +70,6 @@ def test_what_hides_nothing_is_told_at_the_word() -> None:
     (one, two) = lint_bytes(text.encode(), "deck.keyxm", select(["CRV", "STY010"]))
     assert one.message == "CRV001 is not found in the next line: remove it from this comment"
     assert [fix.edits[0].start for fix in (one.fix, two.fix) if fix] == [(6, 27), (6, 33)]
-
-
-def test_only_rules_that_run_are_judged() -> None:
-    text = before(" 0.1, 1200.0", "C mudline: ignore CRV005")
-    assert codes(text, "STY010") == []
-    assert codes(text, "CRV005") == ["CRV005"]
-    assert codes(before(" 0.1, 1200.0", "C mudline: ignore"), "STY010", "CRV005") == ["CRV005"]
-    assert "STY010" in [code for code, _, _ in found(before(" 0.1, 1200.0", "C mudline: ignore"))]
 
 
 def test_words_that_name_no_rule_are_told_with_what_was_meant() -> None:
@@ -150,10 +128,3 @@ def test_a_document_that_keyword_text_cannot_say_hides_nothing() -> None:
     text = to_json(deck).replace('"Clay"', '"Clay, soft"')
     told = lint_bytes(text.encode(), "deck.json", select(["CRV005"]))
     assert [one.code for one in told] == ["CRV005"]
-
-
-def test_opaque_blocks_and_binary_content() -> None:
-    assert codes("$MODEL\n*LINE PATHS\nC mudline: ignore-block CRV005\n x\n", "CRV005", "STY010") == ["STY010"]
-    deck = load_bytes(b"$MODEL\n*LINE PATHS\nC mudline: ignore-block CRV005\n x\n", "deck.keyxm")
-    assert len(lint_bytes(to_json(deck).encode(), "deck.json", select(["CRV005", "STY010"]))) == 1
-    assert lint_bytes("C mudline: ignore-file\n".encode("utf-16"), "deck.keyxm", select(["SYN012"])) != []

@@ -59,23 +59,6 @@ def test_command_tells_that_a_file_cannot_be_written(
     assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "out.json"]
 
 
-def test_file_that_may_not_be_written(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (folder / "out.json").write_text("old", encoding="utf-8")
-    monkeypatch.setattr(os, "access", Mock(return_value=False))
-    outcome = run("convert", place(), "-o", "out.json")
-    assert (outcome.code, outcome.err) == (2, "mudline: out.json: cannot be written: permission denied\n")
-    assert (folder / "out.json").read_text(encoding="utf-8") == "old"
-
-
-@pytest.mark.parametrize("options", [("convert", "--to", "json"), ("evaluate",)], ids=["convert", "evaluate"])
-def test_directory_is_not_replaced(place: Place, folder: Path, options: tuple[str, ...]) -> None:
-    (folder / "out.json").mkdir()
-    command, *rest = options
-    outcome = run(command, place(), "-o", "out.json", *rest)
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err == "mudline: out.json: cannot be written: is a directory\n"
-
-
 # --------------------------------------------------------------------------------------- every command that writes
 
 

@@ -34,16 +34,6 @@ def curve(text: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return np.column_stack((found.ratios, found.forces))
 
 
-@pytest.mark.parametrize("model", sorted(MODELS))
-@pytest.mark.parametrize("legacy", [False, True])
-def test_a_deck_reads_the_points_of_the_model(model: str, legacy: bool) -> None:
-    name = "ALL" if legacy else "Clay"
-    outcome = run("backbone", model, *CLAY, "--name", name, *["--legacy"] * legacy)
-    assert (outcome.code, outcome.err) == (0, "")
-    points = Backbone(MODELS[model], Soil(0.3, 5000.0, 1500.0)).points(MODELS[model].published, 0.005, 0.001)
-    assert curve(DECK.format(bed=(OLD if legacy else NEW) + outcome.out)).tolist() == points.tolist()
-
-
 def test_the_head_says_source_soil_error_and_range() -> None:
     lines = run("backbone", "f114", *CLAY, "--weight", "6000", "--tolerance", "0.02").out.splitlines()
     assert lines[:8] == [
@@ -135,21 +125,3 @@ def test_a_first_point_that_is_too_near_to_zero_is_refused() -> None:
     outcome = run("backbone", "aubeny", *soil)
     assert (outcome.code, outcome.out) == (2, "")
     assert "the curve is too steep for a float64 from z/D = 0 on" in outcome.err
-
-
-def test_models_that_cannot_have_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    weighed = run("backbone", "aubeny", *CLAY, "--weight", "6000")
-    assert weighed.code == 2
-    assert "--weight: the model aubeny has no term of the soil's weight" in weighed.err
-    twice = np.array([[0.0, 0.0], [0.1, 1.0], [0.1, 2.0]])
-    monkeypatch.setattr(Backbone, "points", lambda *_: twice)  # two ratios that rounding makes equal
-    fine = run("backbone", "aubeny", *CLAY, "--tolerance", "1e-5")
-    assert fine.code == 2
-    assert "--tolerance 1e-05 is too fine for this model" in fine.err
-
-
-def test_picture(folder: Path) -> None:
-    outcome = run("backbone", "f114", *CLAY, "--plot", "f114.svg")
-    assert outcome.code == 0
-    drawn = (folder / "f114.svg").read_text(encoding="utf-8")
-    assert "model" in drawn

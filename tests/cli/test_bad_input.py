@@ -94,31 +94,9 @@ def test_content_that_is_no_deck_is_refused(place: Place, name: str, command: tu
     assert Path("deck.keyxm").read_bytes() == data
 
 
-def test_nothing_follows_from_a_merge_conflict(place: Place) -> None:
-    assert codes(place, BAD["merge"][0]) == {"SYN018"}
-    assert codes(place, BAD["merged in part"][0]) == {"SYN018"}
-
-
 def test_binary_content_is_not_shown(place: Place) -> None:
     lines = run("lint", place(BINARY)).out.splitlines()
     assert [line for line in lines if line] == [lines[0], "Found 1 error in 1 file."]
-
-
-def test_set_name_of_300_characters(place: Place) -> None:
-    name = "n" * 300
-    assert codes(place, CLEAN.replace("Pipe", name)) == {"REF011"}
-    for command in EVERY:
-        assert run(command[0], place(CLEAN.replace("Pipe", name)), *command[1:]).code == (command[0] == "lint")
-
-
-def test_windows_line_ends_and_mark_change_nothing(place: Place) -> None:
-    data = b"\xef\xbb\xbf" + CLEAN.replace("\n", "\r\n").encode()
-    plain = place(CLEAN, "plain.keyxm")
-    other = place(data, "other.keyxm")
-    for command in EVERY:
-        expected, found = (run(command[0], name, *command[1:]) for name in (plain, other))
-        assert found.code == expected.code == 0
-        assert found.out.replace("other", "plain") == expected.out
 
 
 ONE_LINE = {
@@ -141,20 +119,6 @@ def test_file_of_one_long_line(place: Place, head: str, text: str) -> None:
     assert_quiet(outcome)
     assert len(outcome.out) < 5000
     assert peak < 40 * LONG + IMPORTED
-
-
-def test_long_names_do_not_fill_the_screen(place: Place) -> None:
-    text = f"$MODEL\n*ELEMENT SETS\n SET={'n' * LONG}\n 1\n*{'k' * LONG}\n${'s' * LONG}\n"
-    for command in ("lint", "show"):
-        assert len(run(command, place(text)).out) < 15_000
-    assert len(run("convert", place(text + "*NODE\n 1, x, 2\n"), "--to", "json").err) < 5000
-
-
-@pytest.mark.parametrize("text", ["", "\n", "\r\n\r\n", "C only a comment", "C only\nC comments\n", "\ufeff", "$MODEL"])
-def test_nearly_nothing(place: Place, text: str) -> None:
-    assert run("lint", place(text)).code == (text != "$MODEL")
-    for command in EVERY:
-        assert_quiet(run(command[0], place(text), *command[1:]))
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "null", "{}", '{"format": 1}', '{"a": NaN}', "[" * 100_000, "1e999"])

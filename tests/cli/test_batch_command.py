@@ -19,7 +19,7 @@ from mudline.cli.inputs import Input
 from mudline.tools.running import executors, remembered
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, PULLING
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 DEEP = CLEAN.replace("-0.1,", "-0.2,")
 """Twice as deep as CLEAN: twice the force."""
@@ -115,23 +115,6 @@ def test_row_has_what_is_worst(four: str) -> None:
     assert float(table[1]["largest_force"]) == row["largest_force"]
 
 
-def test_series_and_pulls(place: Place, folder: Path) -> None:
-    place(PULLING, "decks/pulling.keyxm")
-    place(CLEAN, "decks/clean.keyxm")
-    steps = np.array([[[-down, 0.0, 0.0], [-down, 10.0, 0.0], [0.3, 20.0, 0.0]] for down in (0.1, 0.3, 0.2)])
-    np.savez(folder / "steps.npz", positions=steps, time=np.array([0.0, 0.5, 1.0]))
-    found = rows("decks", "--positions", "steps.npz")
-    pulled, pushed = found["pulling"], found["clean"]
-    assert (pulled["steps"], pulled["positions"]) == (3, "file")
-    assert (pushed["largest_force"], pushed["largest_force_time"], pushed["largest_uplift"]) == (3500.0, 0.5, None)
-    assert pulled["largest_uplift"] < 0.0
-    assert (pulled["largest_uplift_element"], pulled["largest_uplift_time"]) == (1, 0.0)
-    assert pushed["touchdown_from"] < pushed["touchdown_to"]
-    shown = batch("decks", "--positions", "steps.npz", "-q").out
-    assert "steps" in shown
-    assert "uplift" in shown
-
-
 def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
     np.save(folder / "steps.npy", np.array([[[-0.1, 0.0, 0.0], [-0.1, 10.0, 0.0], [0.3, 20.0, 0.0]]] * 3))
     np.save(folder / "state.npy", np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 20.0, 0.0]]))
@@ -143,62 +126,7 @@ def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
     assert state["a"]["reason"] == "--summary-only is for time steps: state.npy is one state"
 
 
-def test_what_no_law_of_the_seabed_holds_is_not_in_contact(place: Place) -> None:
-    bare = CLEAN.partition("*SEABED PROPERTIES")[0]
-    place(bare, "in/conductor.keyxm")
-    place(f"{bare}*RIGID SURFACE\n 0.0\n".replace(", -0.1, ", ", 0.0, "), "in/rigid.keyxm")
-    rows = {Path(row["deck"]).stem: row for row in batch("in", "--output-format", "json").json()}
-    figures = ("in_contact", "touchdown_from", "contact_length", "reaction")
-    assert [rows["conductor"][name] for name in figures] == [0, None, 0.0, None]
-    assert rows["rigid"]["in_contact"] == 1
-    assert rows["rigid"]["contact_length"] == pytest.approx(10.0)
-
-
-def test_columns_are_those_of_evaluate(place: Place) -> None:
-    row = batch(place(), "--output-format", "json").json()[0]
-    evaluated = run("evaluate", "deck.keyxm", "--output-format", "json").json()["summary"][0]
-    for name in ("contact_length", "reaction", "submerged_weight", "ratio"):
-        assert row[name] == pytest.approx(evaluated[name])
-    text = batch("deck.keyxm").out
-    assert " subm." in text
-    assert " length" in text
-
-
-def test_units_that_differ_are_shown_and_compared() -> None:
-    found = batch(SAMPLES / "imperial-riser.keyxi", SAMPLES / "scr-touchdown.keyxm", "-q")
-    lines = found.out.splitlines()
-    assert [line.split()[:2] for line in lines[-4:-2]] == [
-        ["scr-touchdown.keyxm", "metric"],
-        ["imperial-riser.keyxi", "imperial"],
-    ]
-    assert "[" not in found.out
-
-
 # ------------------------------------------------------------------------------------------------------- exit codes
-
-
-def test_warnings_fail_only_when_that_is_asked_for(two: str) -> None:
-    assert batch(two).code == 0
-    outcome = batch(two, "--fail-on", "warning")
-    assert outcome.code == 1
-    assert outcome.err.count("RUN003") == 1
-    assert "(1 more deck)\n" in outcome.err
-
-
-def test_path_that_is_missing_has_a_row(place: Place) -> None:
-    found = batch(place(), "nowhere.keyxm", "--output-format", "json")
-    assert found.code == 2
-    assert [(row["deck"], row["reason"]) for row in found.json()] == [
-        ("nowhere.keyxm", "no such file or directory"),
-        ("deck.keyxm", None),
-    ]
-
-
-def test_gitignore_hides_decks(four: str, folder: Path) -> None:
-    (folder / ".git").mkdir()
-    (folder / ".gitignore").write_text("c.keyxm\n", encoding="utf-8")
-    assert set(rows(four)) == {"a", "b", "d"}
-    assert set(rows(four, "--no-gitignore", code=1)) == {"a", "b", "c", "d"}
 
 
 @pytest.mark.parametrize(
@@ -233,31 +161,6 @@ def test_positions_from_one_file(two: str, folder: Path) -> None:
     assert found["a"]["reason"] == "all.csv:5: DAT001 node 9 is not defined in the deck"
 
 
-@pytest.mark.parametrize("given", ["{folder}/{name}.csv", "at/{name}.csv", "at"])
-def test_positions_by_name(two: str, folder: Path, given: str) -> None:
-    where = folder / ("decks" if "{folder}" in given else "at")
-    where.mkdir(exist_ok=True)
-    (where / "a.csv").write_text(STATE, encoding="utf-8")
-    found = rows(two, "--positions", given, code=1)
-    assert found["a"]["largest_force"] == 3500.0
-    assert found["b"]["reason"].startswith("its positions were not found: ")
-
-
-def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path) -> None:
-    for where, depth in {"near": "-0.3", "far": "-0.2"}.items():
-        place(CLEAN, f"decks/{where}/case.keyxm")
-        (folder / "at" / where).mkdir(parents=True)
-        (folder / "at" / where / "case.csv").write_text(STATE.replace("-0.3", depth), encoding="utf-8")
-    found = batch("decks", "--positions", "at", "--output-format", "json").json()
-    assert [(row["deck"], row["largest_force"]) for row in found] == [
-        ("decks/near/case.keyxm", 3500.0),
-        ("decks/far/case.keyxm", 2500.0),
-    ]
-    (folder / "at" / "far" / "case.npz").touch()
-    message = "several files of positions: at/far/case.csv, at/far/case.npz"
-    assert rows("decks/far", "decks/near", "--positions", "at", code=1)["case"]["reason"] in (message, None)
-
-
 # ------------------------------------------------------------------------------------------------------------ names
 
 
@@ -272,14 +175,6 @@ def test_results_are_named_as_the_decks_below_their_common_folder() -> None:
     assert results("c.keyxm", "c-nodes.keyxm", form="csv") == ["c.keyxm.csv", "c-nodes.keyxm.csv"]
     assert results("c.keyxm", "c-nodes.keyxm") == ["c.npz", "c-nodes.npz"]
     assert results("summary.keyxm", "e/summary.keyxm") == ["summary.keyxm.npz", "e/summary.npz"]
-
-
-def test_decks_after_expand_keep_their_folders() -> None:
-    assert run("expand", "-q", SAMPLES / "variations.keyxm", "-o", "waves").code == 0
-    found = batch("waves", "--form", "npz", "--output-format", "json").json()
-    expected = {f"{row['deck'].removeprefix('waves/').removesuffix('.keyxm')}.npz" for row in found}
-    assert {name for name in files() if name.endswith(".npz")} == expected
-    assert (len(found), "Near/Wave 08s.npz" in expected) == (6, True)
 
 
 def test_results_do_not_replace_what_they_are_made_from(two: str, folder: Path) -> None:
@@ -377,14 +272,6 @@ def test_deck_that_fails_now_has_no_old_results(place: Place) -> None:
     outcome = again()
     assert (outcome.code, taken(outcome)) == (1, 1)
     assert not [name for name in files() if name.startswith("a")]
-
-
-@pytest.mark.usefixtures("two")
-def test_other_decks_stay_known(place: Place) -> None:
-    again()
-    place(CLEAN, "decks/c.keyxm")
-    assert batch("decks/c.keyxm", "decks/b.keyxm", "--form", "csv").code == 0
-    assert taken(again()) == 3
 
 
 # ------------------------------------------------------------------------------------------- processes, interruption

@@ -42,11 +42,6 @@ def test_commands_are_offered() -> None:
     assert offered("s") == [f"plain,{name}" for name in COMMANDS if name.startswith("s")]
 
 
-@pytest.mark.parametrize("command", ["lint", "show"])
-def test_paths_are_left_to_the_shell(command: str) -> None:
-    assert offered(command, "decks/ri") == ["file,decks/ri"]
-
-
 def test_options_and_their_words_are_offered() -> None:
     assert "plain,--output-format" in offered("lint", "--o")
     assert offered("lint", "--fail-on", "w") == ["plain,warning"]
@@ -57,9 +52,3 @@ def test_rules_are_offered_by_code_and_name() -> None:
     assert offered("lint", "--ignore", "CRV001,too-f") == ["plain,CRV001,too-few-points"]
     assert offered("lint", "--extend-select", "SYN001") == ["plain,SYN001"]
     assert offered("rules", "too-f") == ["plain,too-few-points"]
-
-
-def test_formats_and_commands_are_offered() -> None:
-    assert offered("lint", "--output-format", "sa") == ["plain,sarif"]
-    assert offered("convert", "--to", "y") == ["plain,yaml"]
-    assert offered("help", "li") == ["plain,lint"]

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from mudline.language.deck.loading import load_bytes, load_path
+from mudline.language.deck.loading import load_path
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, process, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.helpers.samples import FAULTY
 
 LEGIBLE = sorted(path.name for path in SAMPLES.glob("*.key*") if path.name not in FAULTY)
@@ -26,12 +26,6 @@ def test_samples_make_the_round_trip(name: str, folder: Path) -> None:
     back = load_path(folder / name, name)
     assert back == original
     assert run("convert", name, "--to", "json").output == (folder / "a.json").read_bytes()
-
-
-def test_told_on_standard_error(place: Place) -> None:
-    outcome = run("convert", place(), "-o", "out.json")
-    assert (outcome.code, outcome.out, outcome.err) == (0, "", "mudline: deck.keyxm -> out.json\n")
-    assert run("convert", place(), "-o", "out.json", "-q").err == ""
 
 
 @pytest.mark.parametrize("options", [("--to", "json"), ("-o", "-", "--to", "json")])
@@ -55,20 +49,6 @@ def test_form_to_write_may_differ_from_the_suffix(place: Place, folder: Path) ->
     assert json.loads((folder / "deck.txt").read_text(encoding="utf-8"))["units"] == "metric"
 
 
-def test_form_to_read_may_differ_from_the_suffix(place: Place) -> None:
-    text = run("convert", place(), "--to", "json").output
-    place(text, "deck.txt")
-    outcome = run("convert", "deck.txt", "--from", "json", "--to", "keyword")
-    assert outcome.code == 0
-    assert load_bytes(outcome.output, "deck.keyxm").sections == load_bytes(CLEAN.encode(), "deck.keyxm").sections
-
-
-def test_keyword_text_from_standard_input() -> None:
-    outcome = run("convert", "-", "--to", "yaml", stdin=CLEAN.encode())
-    assert outcome.code == 0
-    assert outcome.out.startswith("format: mudline-deck/1\n")
-
-
 def test_document_from_standard_input() -> None:
     text = run("convert", "-", "--to", "yaml", stdin=CLEAN.encode()).output
     for options in (("--from", "yaml"), ("--stdin-filename", "x.yml")):
@@ -77,23 +57,12 @@ def test_document_from_standard_input() -> None:
         assert outcome.out.startswith("$MODEL\n*OCEAN\n")
 
 
-def test_nothing_said_about_the_form(place: Place) -> None:
-    outcome = run("convert", place())
-    assert outcome.code == 2
-    assert "unknown format to write: give -o OUT with a suffix, or --to" in outcome.err
-
-
 @pytest.mark.parametrize("name", ["out.jsn", "out", "out.csv"])
 def test_suffix_that_tells_no_form(place: Place, folder: Path, name: str) -> None:
     outcome = run("convert", place(), "-o", name)
     assert outcome.code == 2
     assert f"{name}: unknown file format" in outcome.err
     assert not (folder / name).exists()
-
-
-def test_curves_are_written_as_they_stand(place: Place) -> None:
-    block = run("convert", place(UNSORTED), "--to", "json").json()["sections"][0]["blocks"][-1]
-    assert block["curves"][0]["points"] == [[0.1, 1000.0], [0.0, 0.0], [0.5, 3000.0]]
 
 
 def test_curves_are_written_sorted(place: Place) -> None:
@@ -110,29 +79,12 @@ def test_curve_with_an_equation_for_a_ratio_keeps_its_order(place: Place) -> Non
     assert points == [[0.1, 1000.0], [0.0, 0.0], ["=[0.25*2]", 3000.0]]
 
 
-def test_units_override(place: Place) -> None:
-    assert run("convert", place(), "--to", "json", "--units", "imperial").json()["units"] == "imperial"
-
-
 @pytest.mark.parametrize("target", ["out.json", "-"])
 def test_deck_that_cannot_be_read_is_refused(place: Place, folder: Path, target: str) -> None:
     outcome = run("convert", place(BAD_NUMBER), "-o", target, "--to", "json")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err.startswith("deck.keyxm:6:11: error: SYN002 'ten' is not a number")
     assert not (folder / "out.json").exists()
-
-
-def test_many_reasons_are_counted(place: Place) -> None:
-    deck = CLEAN.replace(" 2, -0.1, 10.0\n", "".join(f" {n}, x, 10.0\n" for n in range(10, 60)))
-    outcome = run("convert", place(deck), "--to", "json")
-    assert outcome.code == 1
-    lines = outcome.err.splitlines()
-    assert len(lines) == 41
-    assert lines[-1] == "mudline: 10 more errors: mudline lint shows all"
-
-
-def test_deck_that_is_illegal_but_legible_is_converted(place: Place) -> None:
-    assert run("convert", place(ILLEGAL), "--to", "json").code == 0
 
 
 def test_document_that_breaks_the_schema_is_refused_with_its_path(place: Place) -> None:

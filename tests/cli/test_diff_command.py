@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from html import unescape
+
 from pathlib import Path
 
 import pytest
@@ -13,24 +14,11 @@ from mudline.cli import diff_command
 from mudline.cli.diff_command import code, fenced
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, LINEAR
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 BARE = CLEAN.partition("*SEABED")[0]
 OLD = BARE + "*ELASTIC SURFACE\n 20000.0, 0.3, 0.6\n"
 NEW = BARE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=20000.0\n FRICTION=0.3, 0.6\n"
-
-
-def test_equal_decks(place: Place) -> None:
-    ran = run("diff", place(), place(CLEAN.replace("0.1, 1000.0", "1e-1, 1.0E3"), "b.keyxm"))
-    assert (ran.code, ran.out, ran.err) == (0, "no difference\n", "")
-
-
-def test_a_change_in_text(place: Place) -> None:
-    ran = run("diff", place(), place(CLEAN.replace("1000.0", "1200.0"), "b.keyxm"))
-    assert ran.code == 1
-    assert ran.out == (
-        "--- deck.keyxm\n+++ b.keyxm\ncurves\n  ~ Clay/0.1: 1000.0 -> 1200.0  (line -25 +25)\n1 difference\n"
-    )
 
 
 def test_a_migrated_pair(place: Place) -> None:
@@ -56,35 +44,10 @@ def test_a_difference_beside_the_spelling(place: Place) -> None:
     )
 
 
-def test_one_deck_from_standard_input(place: Place) -> None:
-    assert run("diff", place(), "-", "--units", "metric", stdin=CLEAN.encode()).code == 0
-    assert run("diff", "-", place(), "--stdin-filename", "x.keyxm", stdin=LINEAR.encode()).code == 1
-
-
 @pytest.mark.parametrize("words", [("-", "-"), ("deck.keyxm",), ("deck.keyxm", "no"), ("--tolerance", "2", "-", "a")])
 def test_wrong_usage(place: Place, words: tuple[str, ...]) -> None:
     place()
     assert run("diff", *words, stdin=b"").code == 2
-
-
-def test_tolerance_that_is_no_number(place: Place) -> None:
-    assert run("diff", place(), "deck.keyxm", "--tolerance", "nan").code == 2
-
-
-def test_a_deck_that_cannot_be_read(place: Place) -> None:
-    ran = run("diff", place(), place(BAD_NUMBER, "b.keyxm"))
-    assert (ran.code, ran.out) == (1, "")
-    assert ran.err.startswith("b.keyxm:6:11: error: SYN002")
-
-
-def test_many_differences_are_counted(place: Place) -> None:
-    nodes = "".join(f" {number}, 0, {number}\n" for number in range(100, 150))
-    more = place(CLEAN.replace("*ELEMENT\n", f"*NODE\n{nodes}*ELEMENT\n"), "b.keyxm")
-    assert "nodes\n  + 100-149: 50 nodes\n50 differences\n" in run("diff", place(), more).out
-    assert "nodes\n  - 100-149: 50 nodes\n" in run("diff", more, "deck.keyxm").out
-    assert run("diff", "-v", "deck.keyxm", more).out.count("  + ") == 50
-    moved = place(Path(more).read_text(encoding="utf-8").replace(", 0, ", ", 1, "), "c.keyxm")
-    assert "  and 10 more (-v shows all)\n" in run("diff", more, moved).out
 
 
 def test_text_of_a_deck_does_not_act_on_a_terminal(place: Place) -> None:
@@ -123,14 +86,6 @@ def test_text() -> None:
         "+ here.keyxm: only in the second folder\n"
         "4 decks: 1 changed, 1 added, 1 removed, 1 equal\n"
     )
-
-
-@pytest.mark.usefixtures("folders")
-def test_more_and_less_text() -> None:
-    assert "= equal.keyxm: no difference\n" in run("diff", "-v", "old", "new").out
-    quiet = run("diff", "-q", "old", "new").out
-    assert "+++ new/a/changed.keyxm" in quiet
-    assert "decks" not in quiet
 
 
 @pytest.mark.usefixtures("folders")
@@ -195,19 +150,6 @@ def test_a_folder_and_a_deck_are_not_compared() -> None:
     for words in (("old", "nowhere"), ("nowhere", "old")):
         ran = run("diff", *words)
         assert (ran.code, ran.err) == (2, "mudline: nowhere: no such file or directory\n")
-
-
-@pytest.mark.usefixtures("folders")
-def test_a_tolerance_holds_for_all_decks() -> None:
-    assert "1 added, 1 removed, 2 equal" in run("diff", "old", "new", "--tolerance", "0.5").out
-
-
-@pytest.mark.usefixtures("folders")
-def test_what_a_gitignore_hides(folder: Path) -> None:
-    for name in ("old", "new"):
-        (folder / name / ".gitignore").write_text("a/\n", encoding="utf-8")
-    assert run("diff", "old", "new").out.endswith("3 decks: 1 added, 1 removed, 1 equal\n")
-    assert "1 changed" in run("diff", "old", "new", "--no-gitignore").out
 
 
 @pytest.mark.skipif(os.name != "posix", reason="the null device has another name")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-from io import StringIO
 from typing import Any
 
 import pytest
@@ -50,12 +48,6 @@ def test_text_marks_what_a_deck_does_not_give(family: list[str]) -> None:
     assert lines[-1] == "5 values differ"
 
 
-def test_csv(family: list[str]) -> None:
-    head, *rows = csv.reader(StringIO(run("diff", *family[:3], "--matrix", "--output-format", "csv").out))
-    assert head == ["group", "value", *family[:3]]
-    assert sorted(row[2:] for row in rows) == [["0.1", "0.1", "0.05"], ["4.0", "6.0", "8.0"]]
-
-
 def test_elements_that_differ_in_other_runs_have_rows_of_their_own(place: Place) -> None:
     """The heavy set is element 1 in the base, both elements in the second deck, and element 2 in the third."""
     parts = "*ELEMENT SETS\n SET=Pipe\n 1, 2\n SET=Heavy\n {}\n"
@@ -70,12 +62,6 @@ def test_elements_that_differ_in_other_runs_have_rows_of_their_own(place: Place)
         "elements 2/sections/rigid/Di": [0.46, 0.4, 0.4],
         "elements 1/sections/rigid/Di": [0.4, 0.4, 0.46],
     }
-
-
-def test_equal_decks(place: Place) -> None:
-    ran = run("diff", place(), place(CLEAN, "b.keyxm"), "--matrix")
-    assert (ran.code, ran.out) == (0, "no difference\n")
-    assert run("diff", "deck.keyxm", "b.keyxm", "--matrix", "-q").out == ""
 
 
 @pytest.mark.parametrize(

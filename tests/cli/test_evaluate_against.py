@@ -12,7 +12,7 @@ from mudline.model.contact import numpy_driver
 from mudline.model.contact.result import Part
 from mudline.model.results.against import Comparison
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.cli.runner import assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
 from tests.helpers.builders.decks import CLEAN_WARNING, STEPS_WARNING
 
@@ -64,18 +64,6 @@ def test_json_and_csv(place: Place, folder: Path) -> None:
         assert archive["ratio_against"][0] == 0.25
 
 
-def test_own_results_differ_by_nothing(place: Place) -> None:
-    options = (place(), "--positions", place(STEPS, "steps.csv"))
-    assert run("evaluate", *options, "-o", "own.csv").code == 0
-    found = run("evaluate", *options, "--against", "own.csv", "--output-format", "json").json()["against"]
-    assert [(row["column"], row["compared"], row["rms"]) for row in found["columns"]] == [
-        ("force", 4, 0.0),
-        ("stiffness", 4, 0.0),
-        ("ratio", 4, 0.0),
-    ]
-    assert found["elements_not_in_file"] == found["times_not_in_file"] == []
-
-
 def test_times_are_met_and_told(place: Place) -> None:
     other = place("time,element,force\n2.50001,1,900\n2.50001,2,1300\n9,1,1\n", "other.csv")
     options = (place(), "--positions", place(STEPS, "steps.csv"), "--against", other)
@@ -117,15 +105,6 @@ def test_the_time_of_the_largest_difference_in_a_series_of_several_parts(
     assert column["largest_difference"]["time"] == column["largest_relative"]["time"] == 4.0
 
 
-def test_elements_without_positions_are_not_compared() -> None:
-    other = "o.csv"
-    Path(other).write_text("time,element,force\n" + "".join(f"0,{n},1\n" for n in range(1, 201)), encoding="utf-8")
-    options = ("--positions", SAMPLES / "positions.csv", "--against", other, "--output-format", "json")
-    found = run("evaluate", SAMPLES / "scr-touchdown.keyxm", *options, "-q").json()["against"]
-    assert found["columns"][0]["compared"] == 60
-    assert len(found["times_not_in_file"]) == 7
-
-
 @pytest.mark.parametrize(
     ("text", "place_", "message"),
     [
@@ -152,16 +131,3 @@ def test_series_need_times(place: Place) -> None:
     assert (outcome.code, "no column time, to compare with 2 time steps" in outcome.err) == (1, True)
     outcome = run("evaluate", *options, place("time,element,force\n7,1,2\n", "o.csv"))
     assert (outcome.code, "none of its times is evaluated: these are from 0.0 to 2.5" in outcome.err) == (1, True)
-
-
-@pytest.mark.parametrize("steps", [False, True])
-def test_nothing_to_compare(place: Place, steps: bool) -> None:
-    options = ("--positions", place(STEPS, "steps.csv")) if steps else ()
-    other = place("time,element,force\n0,1,\n", "o.csv")
-    outcome = run("evaluate", place(), *options, "--against", other, "-q")
-    assert (outcome.code, outcome.out.splitlines()[-2].split()) == (0, ["force", "0"])
-    found = run("evaluate", place(), *options, "--against", other, "-q", "--output-format", "json").json()
-    assert_fits(found, "evaluate")
-    assert found["against"]["columns"] == [
-        {"column": "force", "compared": 0, "largest_difference": None, "largest_relative": None, "rms": None}
-    ]

@@ -95,11 +95,6 @@ def test_json() -> None:
     assert line["ratio"] == pytest.approx(15000.0 / line["submerged_weight"])
 
 
-def test_linear_law() -> None:
-    first, _ = evaluate(LINEAR)["elements"]
-    assert (first["law"], first["force"], first["stiffness"]) == ("linear", 2000.0, 20000.0)
-
-
 def test_nulls() -> None:
     deck = LINEAR.partition("*GEOMETRIC SETS")[0] + "*SEABED PROPERTIES" + LINEAR.partition("*SEABED PROPERTIES")[2]
     first, _ = evaluate(deck)["elements"]
@@ -119,13 +114,6 @@ def test_tension_is_kept_or_cut() -> None:
     assert (cut["force"], cut["slope"], cut["stiffness"]) == (0.0, 0.0, 0.0)
     assert (cut["law"], cut["contact"]) == ("curve-cut", True)
     assert evaluate(PULLING)["elements"][0] == kept
-
-
-def test_reactions_add_up() -> None:
-    found = run("evaluate", SAMPLES / "scr-touchdown.keyxm", "--output-format", "json").json()
-    forces = sum(element["force"] * element["length"] for element in found["elements"])
-    assert sum(node["reaction"][0] for node in found["nodes"]) == pytest.approx(forces, rel=1e-12)
-    assert forces == pytest.approx(294685, rel=1e-5)
 
 
 def test_text(place: Place) -> None:
@@ -166,20 +154,6 @@ def test_text_of_nodes(place: Place) -> None:
     )
 
 
-def test_several_laws_have_a_total() -> None:
-    text = run("evaluate", SAMPLES / "legacy-flowline.keyxm").out
-    total = next(line for line in text.splitlines() if line.startswith("total"))
-    assert total.split() == ["total", "60", "60", "0.0082", "97712.7"]
-
-
-def test_imperial_units(place: Place) -> None:
-    text = run("evaluate", place(CLEAN, "deck.keyxi")).out
-    assert "(imperial units)" in text
-    for unit in ("[ft]", "[lbf]", "[lbf/ft]", "[lbf/ft2]"):
-        assert unit in text
-    assert "[" not in run("evaluate", place(), "--units", "user").out
-
-
 def test_like_elements_are_told_together(place: Place) -> None:
     nodes = "".join(f" {n}, {-0.1 - 0.001 * (n > 60) * n}, {n}.0\n" for n in range(1, 122))
     elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 121))
@@ -208,20 +182,6 @@ def test_of_many_rows_those_near_touchdown_are_shown(place: Place) -> None:
     assert any(line.startswith("56 more lines, farther") for line in table)  # elements 1 to 59 in one, 60 to 114
 
 
-def test_a_node_in_the_seabed_is_no_element_in_contact(place: Place) -> None:
-    out = run("evaluate", place(CLEAN.replace(" 2, -0.1, ", " 2, 0.3, "))).out
-    assert "No element is in contact in the mean of its nodes" in out
-    assert " 2.502 " in out  # a quarter of element 1, whose ends are 0.1 m below and 0.3 m above
-
-
-def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> None:
-    deck = (
-        CLEAN.replace(" 2, 2, 3\n", " 5, 2, 3\n").replace(" 1, 2\n*GEO", " 1, 5\n*GEO").replace(" 3, 0.3,", " 3, -0.1,")
-    )
-    lines = run("evaluate", place(deck)).out.splitlines()
-    assert [line.split()[0] for line in lines[-3:-1]] == ["1", "5"]
-
-
 CSV = {
     "elements": (
         (
@@ -246,16 +206,6 @@ def test_csv(place: Place, table: str) -> None:
     assert (outcome.code, tuple(outcome.out.splitlines()[:2])) == (0, CSV[table])
 
 
-def test_plan(place: Place) -> None:
-    outcome = run("evaluate", place(), "--plan")
-    lines = outcome.out.splitlines()
-    assert (outcome.code, outcome.err) == (0, "")
-    assert lines[0] == "Plan, all steps at once"
-    assert lines[1].split() == ["stage", "active", "why"]
-    assert [line.split()[0] for line in lines[3:12]] == [name.split()[0] for name in STAGES]
-    assert "2 elements on 1 force-embedment curve" in lines[4]
-
-
 def test_plan_in_json_and_csv(place: Place) -> None:
     found = run("evaluate", place(FRICTION), "--plan", "--output-format", "json").json()
     assert_fits(found, "evaluate")
@@ -267,26 +217,6 @@ def test_plan_in_json_and_csv(place: Place) -> None:
     rows = list(csv.DictReader(run("evaluate", place(), "--plan", "--output-format", "csv").out.splitlines()))
     assert [row["stage"] for row in rows if row["active"] == "true"] == ["floor", "normal law", "assembly"]
     assert {row["active"] for row in rows} == {"true", "false"}
-
-
-def test_plan_needs_no_coordinates() -> None:
-    options = ("--elements", SAMPLES / "elements.csv")
-    outcome = run("evaluate", SAMPLES / "lines-deck.keyxm", *options, "--plan")
-    assert (outcome.code, outcome.err) == (0, "")
-    assert "80 elements" in outcome.out
-
-
-def test_rigid_bed_is_told(place: Place) -> None:
-    outcome = run("evaluate", place(RIGID))
-    assert outcome.code == 0
-    assert "2 elements (first: 1) are held by a rigid seabed, a constraint: its force is not known" in outcome.err
-
-
-def test_a_seabed_that_is_not_there_is_an_error_of_the_run(place: Place) -> None:
-    deck = place(CLEAN.replace("*SEABED PROPERTIES", "*SEABED PROFILE\n TYPE=2D\n FILE=gone.dat\n*SEABED PROPERTIES"))
-    assert ": warning REF015 " in run("lint", deck).out
-    outcome = run("evaluate", deck)
-    assert (outcome.code, ": error: REF015 the file 'gone.dat'" in outcome.err) == (1, True), outcome.err
 
 
 def test_deck_without_elements(place: Place) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -33,14 +32,6 @@ def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monke
     assert file.num_row_groups > 1
     times = file.read()["time"].to_numpy()
     assert (np.diff(times) >= 0.0).all()
-
-
-def test_without_pyarrow(place: Place, folder: Path) -> None:
-    with patch.dict("sys.modules", {"mudline.model.results.forms.parquet": None}):
-        outcome = run("evaluate", place(), "-o", "out.parquet")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == 'mudline: .parquet needs pyarrow: python -m pip install "mudline[frames]"\n'
-    assert [path.name for path in folder.iterdir()] == ["deck.keyxm"]
 
 
 @pytest.mark.parametrize("name", OUTPUTS)

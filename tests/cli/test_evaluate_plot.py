@@ -9,7 +9,7 @@ import pytest
 from tests.cli.conftest import Place
 from tests.cli.runner import run
 from tests.cli.test_evaluate_files import STEPS
-from tests.helpers.builders.decks import CLEAN, CLEAN_WARNING
+from tests.helpers.builders.decks import CLEAN
 
 pytest.importorskip("matplotlib")
 
@@ -19,16 +19,6 @@ def words(folder: Path) -> str:
     return (folder / "p.svg").read_text(encoding="utf-8")
 
 
-def test_one_state(place: Place, folder: Path) -> None:
-    outcome = run("evaluate", place(), "--plot", "p.svg")
-    assert (outcome.code, outcome.err) == (0, f"mudline: plot -> p.svg\n{CLEAN_WARNING}")
-    assert "Elements in contact" in outcome.out
-    text = words(folder)
-    for label in ("height X [m]", "embedment [m]", "arc length along the line [m]", "per unit length [N/m2]", "Clay"):
-        assert f"<!-- {label}" in text or label in text, label
-    assert "time [s]" not in text
-
-
 def test_steps_have_traces(place: Place, folder: Path) -> None:
     options = ("--positions", place(STEPS, "steps.csv"), "--plot", "p.svg", "-o", "out.json")
     assert run("evaluate", place(), *options).code == 0
@@ -36,11 +26,6 @@ def test_steps_have_traces(place: Place, folder: Path) -> None:
     for label in ("time [s]", "total reaction", "least to largest", "when the total reaction is largest"):
         assert label in text, label
     assert (folder / "out.json").exists()
-
-
-def test_a_curve_is_in_the_legend_whatever_its_name(place: Place, folder: Path) -> None:
-    assert run("evaluate", place(CLEAN.replace("Clay", "_Clay")), "--plot", "p.svg").code == 0
-    assert "_Clay" in words(folder)
 
 
 @pytest.mark.parametrize(
@@ -93,21 +78,3 @@ def test_what_cannot_be_drawn_is_wrong_usage(
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err
     assert sorted(file.name for file in folder.iterdir()) == ["deck.keyxm", "steps.csv"], "nothing is written"
-
-
-def test_elements_are_for_a_plot(place: Place) -> None:
-    outcome = run("evaluate", place(), "--plot-elements", "1")
-    assert (outcome.code, "--plot-elements is for a plot: give --plot" in outcome.err) == (2, True)
-
-
-def test_elements(place: Place, folder: Path) -> None:
-    options = ("--positions", place(STEPS, "steps.csv"), "--plot", "p.svg", "-q")
-    assert run("evaluate", place(), *options, "--plot-elements", "2, 1").code == 0
-    text = words(folder)
-    assert text.index("penetration of element 2 [m]") < text.index("penetration of element 1 [m]")
-
-
-def test_a_plot_that_cannot_be_written(place: Place) -> None:
-    outcome = run("evaluate", place(), "--plot", "nowhere/p.svg", "-q")
-    assert outcome.code == 2
-    assert outcome.err == "mudline: nowhere/p.svg: cannot be written: no such file or directory\n"

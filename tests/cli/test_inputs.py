@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -39,16 +38,6 @@ def test_directory_is_searched_for_decks(place: Place) -> None:
     assert names("./decks") == [f"./{name}" for name in expected]
 
 
-def test_current_directory_adds_nothing_to_the_names(place: Place) -> None:
-    place(CLEAN, "inner/deck.keyxm")
-    assert names(".") == ["inner/deck.keyxm"]
-
-
-def test_every_file_counts_once(place: Place) -> None:
-    place(CLEAN, "decks/a.keyxm")
-    assert names("decks/a.keyxm", "decks", "decks/a.keyxm", "-", "-") == ["decks/a.keyxm", "<stdin>"]
-
-
 @pytest.mark.parametrize("command", ["lint", "validate"])
 def test_directory_without_a_deck(command: str, folder: Path) -> None:
     (folder / "empty").mkdir()
@@ -66,20 +55,6 @@ def test_missing_path_does_not_keep_the_others_from_being_read(command: str, pla
     assert outcome.err == (
         "mudline: nowhere.keyxm: no such file or directory\nmudline: gone/: no such file or directory\n"
     )
-
-
-@pytest.mark.parametrize("command", ["show", "curves", "evaluate", "convert"])
-def test_one_deck_that_is_missing(command: str) -> None:
-    outcome = run(command, "nowhere.keyxm", *(["--to", "json"] if command == "convert" else []))
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err == "mudline: nowhere.keyxm: no such file or directory\n"
-
-
-@pytest.mark.parametrize("command", ["show", "curves", "convert"])
-def test_directory_where_one_deck_belongs(command: str, folder: Path) -> None:
-    outcome = run(command, str(folder), *(["--to", "json"] if command == "convert" else []))
-    assert outcome.code == 2
-    assert outcome.err.endswith("is a directory: this command takes one deck\n")
 
 
 @pytest.mark.parametrize("command", ["lint", "show"])
@@ -116,13 +91,6 @@ def test_name_of_standard_input_gives_the_form(command: str) -> None:
     assert (outcome.code, outcome.err) == (0, warned)
 
 
-def test_name_of_standard_input_gives_the_units() -> None:
-    deck = CLEAN.replace(" 100.0, 1025.0, 9.81", " 100.0, 1025.0, 1.0").encode()
-    assert run("show", "-", "--output-format", "json", stdin=deck).json()["units"] == "user"
-    named = run("show", "-", "--stdin-filename", "x.keyxi", "--output-format", "json", stdin=deck).json()
-    assert (named["units"], named["file"]) == ("imperial", "x.keyxi")
-
-
 def test_gravity_tells_the_units_of_standard_input() -> None:
     deck = CLEAN.replace("9.81", "32.17").encode()
     assert run("show", "-", "--output-format", "json", stdin=deck).json()["units"] == "imperial"
@@ -151,44 +119,9 @@ def ignore(folder: Path, *lines: str) -> None:
     (folder / ".gitignore").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def test_what_is_hidden_is_left_out(decks: Path) -> None:
-    ignore(decks, "# generated", "", "/old/", "runs/*/[cd].keyxm")
-    for given in ("decks", "decks/", "./decks"):
-        assert [name.rpartition("decks/")[2] for name in names(given)] == ["a.keyxm", "runs/2/keep.keyxm"]
-    assert len(names("decks", gitignore=False)) == 5
-
-
 def test_a_file_that_is_named_is_taken(decks: Path) -> None:
     ignore(decks, "*")
     assert names("decks/a.keyxm") == ["decks/a.keyxm"]
-
-
-def test_deeper_files_go_first_and_may_take_back(decks: Path) -> None:
-    ignore(decks, "*.keyxm")
-    ignore(decks / "runs/2", "!keep.keyxm")
-    assert names("decks") == ["decks/runs/2/keep.keyxm"]
-
-
-def test_nothing_in_a_hidden_folder_is_taken_back(decks: Path) -> None:
-    ignore(decks, "runs/")
-    ignore(decks / "runs", "!*")
-    assert names("decks") == ["decks/a.keyxm", "decks/old/b.keyxm"]
-
-
-def test_patterns_hold_from_their_own_folder(decks: Path) -> None:
-    ignore(decks / "runs", "/2/d.keyxm", "/runs", "/old")
-    assert "decks/runs/2/d.keyxm" not in names("decks")
-    assert "decks/old/b.keyxm" in names("decks")
-    assert len(names("decks")) == 4
-
-
-def test_files_above_hold_in_a_repository(decks: Path) -> None:
-    ignore(decks.parent, "/decks/runs/2", "decks")
-    assert len(names("decks")) == 5
-    (decks.parent / ".git").mkdir()
-    assert names("decks/runs") == ["decks/runs/1/c.keyxm"]
-    (decks / ".git").write_text("gitdir: elsewhere", encoding="utf-8")
-    assert len(names("decks/runs")) == 3
 
 
 def test_a_hidden_folder_that_is_named_is_searched(decks: Path) -> None:
@@ -196,13 +129,6 @@ def test_a_hidden_folder_that_is_named_is_searched(decks: Path) -> None:
     ignore(decks.parent, "runs")
     assert len(names("decks")) == 2
     assert len(names("decks/runs")) == 3
-
-
-def test_the_folder_of_git_is_not_searched(decks: Path) -> None:
-    (decks / ".git").mkdir()
-    (decks / ".git/x.keyxm").write_text(CLEAN, encoding="utf-8")
-    assert not [name for name in names("decks") if ".git" in name]
-    assert "decks/.git/x.keyxm" in names("decks", gitignore=False)
 
 
 def test_a_file_that_cannot_be_read_is_told(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -227,14 +153,6 @@ def test_commands_that_search(decks: Path, command: str) -> None:
     assert outcome.code == 2
     assert outcome.err.endswith("; --no-gitignore takes what a .gitignore hides)\n")
     assert run(command, "decks", "--no-gitignore").code == 0
-
-
-def test_decks_in_json_are_hidden_too(decks: Path) -> None:
-    ignore(decks, "*.json")
-    (decks / "x.json").write_text('{"format": "mudline-deck/1"}', encoding="utf-8")
-    for options, found in ((), False), (("--no-gitignore",), True):
-        rows = json.loads(run("validate", "decks", "--output-format", "json", *options).out)
-        assert ("x.json" in json.dumps(rows)) is found
 
 
 @pytest.mark.parametrize(
@@ -362,13 +280,6 @@ def test_a_deck_in_another_encoding_is_read_and_written_in_it(place: Place, fold
     assert "Глина" in (folder / "deck.keyxm").read_bytes().decode("cp866")
     assert run("set", "OCEAN.depth=55", "--encoding", "cp866", "deck.keyxm").code == 0
     assert "55" in (folder / "deck.keyxm").read_bytes().decode("cp866")
-
-
-def test_the_configuration_gives_the_encoding(place: Place) -> None:
-    place('encoding = "cp866"\n', "mudline.toml")
-    place(RUSSIAN.encode("cp866"))
-    assert "Глина" in run("show", "deck.keyxm").out
-    assert "Глина" in run("curves", "deck.keyxm").out
 
 
 @pytest.mark.parametrize("name", ["nonsense", "hex"])

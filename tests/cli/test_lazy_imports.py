@@ -9,7 +9,6 @@ import sys
 import pytest
 
 from tests.cli.conftest import Place
-from tests.helpers.builders.decks import BAD_NUMBER
 from tests.helpers.processes import TIMEOUT
 
 HEAVY = frozenset({"click", "lark", "matplotlib", "numpy", "pydantic", "rich", "yaml", "numba", "scipy", "pyarrow"})
@@ -39,14 +38,6 @@ def test_version_needs_nothing() -> None:
     assert "mudline.cli.main" not in names
 
 
-def test_help_needs_no_command() -> None:
-    names = modules("--help")
-    assert heavy(names) == {"click"}
-    assert not any(
-        name.startswith(("mudline.language.deck", "mudline.model.scene", "mudline.language.keywords")) for name in names
-    )
-
-
 def test_import_of_the_package_needs_nothing() -> None:
     program = "import sys, mudline; print(mudline.__version__, dir(mudline)); print(*sys.modules, file=sys.stderr)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
@@ -57,10 +48,6 @@ def test_import_of_the_package_needs_nothing() -> None:
 def test_clean_lint_needs_no_rich(place: Place, form: str) -> None:
     names = modules("lint", place(), "--output-format", form)
     assert heavy(names) == {"click", "lark", "numpy", "pydantic"}
-
-
-def test_findings_for_programs_need_no_rich(place: Place) -> None:
-    assert "rich" not in modules("lint", place(BAD_NUMBER), "--output-format", "json", code=1)
 
 
 @pytest.mark.parametrize("other", ["", "*COATINGS\n SET=ALL\n 0.05, 900.0\n"])
@@ -76,10 +63,6 @@ def test_evaluation_loads_only_what_the_deck_needs(place: Place) -> None:
     assert not names & {"rich", "matplotlib", "yaml", "scipy", "numba", "multiprocessing", "pyarrow"}
     assert "mudline.model.contact.laws.curve" in names
     assert "mudline.model.contact.laws.linear" not in names
-
-
-def test_curves_draw_nothing_unasked(place: Place) -> None:
-    assert "matplotlib" not in modules("curves", place())
 
 
 def test_names_of_the_api_are_loaded_when_used() -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import copy
 import json
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -111,59 +109,7 @@ def test_a_deck_is_linted_again_when_a_file_that_it_names_has_changed_or_gone(
     assert len(linted) == 3
 
 
-def test_a_deck_is_linted_again_when_its_profile_has_changed(folder: Path, place: Place, linted: Linted) -> None:
-    (folder / "bed.txt").write_text("-1000.0, 0.0\n1000.0, 0.0\n", encoding="utf-8")
-    deck = CLEAN + "*SEABED PROFILE\n TYPE=PROFILE\n FILE=bed.txt\n"
-    first = run("lint", place(deck), "--output-format", "concise")
-    assert run("lint", "deck.keyxm", "--output-format", "concise") == first
-    assert len(linted) == 1
-    (folder / "bed.txt").write_text("-1000.0, O.0\n1000.0, 0.0\n", encoding="utf-8")
-    assert run("lint", "deck.keyxm", "--output-format", "concise") != first
-    assert len(linted) == 2
-
-
 # -------------------------------------------------------------------------------------------- decks without findings
-
-
-LIBRARIES = """
-import sys
-from mudline.__main__ import main
-from mudline.tools.running import remembered
-
-remembered._COARSE = 0.0
-print(main(["lint", *sys.argv[1:]]), sorted({"lark", "numpy", "pydantic"} & sys.modules.keys()))
-"""
-
-
-def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Path, place: Place) -> None:
-    place("[tool.mudline]\nignore = ['STB']\n", "pyproject.toml")
-    place(name="static.keyxm")
-    words = [sys.executable, "-c", LIBRARIES, place(), place(RESTART, "wave.keyxm")]
-    environment = {**os.environ, remembered.PLACE: str(folder / "cache")}
-    done = [subprocess.run(words, env=environment, capture_output=True, text=True, check=True) for _ in range(2)]
-    assert done[0].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 ['lark', 'numpy', 'pydantic']\n"
-    assert done[1].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
-
-
-@pytest.mark.parametrize("form", ["json", "concise", "sarif", "junit", "gitlab", "github", "jsonl"])
-def test_every_form_is_the_same_from_the_cache(place: Place, linted: Linted, form: str) -> None:
-    words = ("lint", place(), place(name="b.keyxm"), "-v", "--output-format", form)
-    assert run(*words) == run(*words)
-    assert len(linted) == 2
-
-
-def test_standard_input_asks_nothing(folder: Path, linted: Linted) -> None:
-    run("lint", "-", stdin=CLEAN.encode())
-    assert linted
-    assert not (folder / "cache").exists()
-
-
-def test_a_file_that_is_missing_is_reported_beside_known_ones(place: Place, linted: Linted) -> None:
-    words = ("lint", place(), "missing.keyxm")
-    first = run(*words)
-    assert first.code == 2
-    assert run(*words) == first
-    assert len(linted) == 1
 
 
 def test_findings_come_back_whole(linted: Linted) -> None:

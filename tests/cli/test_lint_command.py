@@ -14,8 +14,8 @@ from mudline.language.diagnostics import Diagnostic
 from mudline.tools.running import executors, remembered
 from tests.checks.test_recovery import changed
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
+from tests.cli.runner import Outcome, assert_fits, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.helpers.builders.decks import UNUSED as SOFT
 
 UNUSED = SOFT.replace(" 0.1, 1.0\n", " 0.1, 100.0\n")
@@ -53,12 +53,6 @@ def test_finding_with_its_source_line(place: Place) -> None:
     ]
 
 
-def test_concise_is_a_line_a_finding(place: Place) -> None:
-    outcome = run("lint", place(BAD_NUMBER), "--output-format", "concise")
-    message = run("lint", "deck.keyxm", "--output-format", "json").json()[0]["message"]
-    assert outcome.out == f"deck.keyxm:6:11: SYN002 {message}\n"
-
-
 def test_json_has_the_keys_of_the_contract(place: Place) -> None:
     outcome = run("lint", place(BAD_NUMBER), "--output-format", "json")
     (found,) = outcome.json()
@@ -78,21 +72,6 @@ def test_json_has_the_keys_of_the_contract(place: Place) -> None:
     }
 
 
-def test_all_samples_keep_to_the_schema() -> None:
-    outcome = run("lint", SAMPLES, "--output-format", "json")
-    found = outcome.json()
-    assert_fits(found, "lint")
-    assert len({each["code"] for each in found}) >= 15
-    keys = [(each["file"], each["line"], each["column"], each["code"]) for each in found]
-    assert keys == sorted(keys)
-
-
-def test_json_is_sorted_whatever_the_order_of_the_files(place: Place) -> None:
-    first, second = place(BAD_NUMBER, "b.keyxm"), place(BAD_NUMBER, "a.keyxm")
-    outcome = run("lint", first, second, "--output-format", "json")
-    assert [found["file"] for found in outcome.json()] == ["a.keyxm", "b.keyxm"]
-
-
 @pytest.mark.parametrize(
     ("deck", "limit", "code"),
     [
@@ -110,19 +89,10 @@ def test_fail_on(deck: str, limit: str, code: int) -> None:
     assert lint(deck, "--fail-on", limit).code == code
 
 
-def test_warnings_fail_without_being_told_to() -> None:
-    assert lint(UNUSED).code == 1
-    assert lint(UNSORTED).code == 0
-
-
 def test_exit_zero() -> None:
     outcome = lint(BAD_NUMBER, "--exit-zero")
     assert outcome.code == 0
     assert "SYN002" in outcome.out
-
-
-def test_exit_zero_does_not_hide_a_missing_path() -> None:
-    assert run("lint", "nowhere.keyxm", "--exit-zero").code == 2
 
 
 @pytest.mark.parametrize(
@@ -143,14 +113,6 @@ def test_selection(options: tuple[str, ...], expected: list[str]) -> None:
     assert codes(lint(MANY, "--output-format", "json", *options)) == expected
 
 
-@pytest.mark.parametrize("option", ["--select", "--ignore", "--extend-select"])
-def test_unknown_rule_is_wrong_usage(option: str) -> None:
-    outcome = lint(CLEAN, option, "CRV0O2")
-    assert outcome.code == 2
-    assert outcome.out == ""
-    assert "'CRV0O2' names no rule" in outcome.err
-
-
 def test_statistics_count_instead_of_listing() -> None:
     outcome = lint(MANY + " CURVE=Gravel\n 0.0, 0.0\n 0.1, 100.0\n", "--statistics")
     assert outcome.code == 1
@@ -164,41 +126,6 @@ def test_statistics_count_instead_of_listing() -> None:
 
 def test_summary_counts_by_severity() -> None:
     assert "\nFound 1 error, 1 warning, 1 info in 1 file.\n" in lint(MANY).out
-
-
-def test_summary_of_several_files(place: Place) -> None:
-    names = [place(BAD_NUMBER, "a.keyxm"), place(ILLEGAL, "b.keyxm"), place(CLEAN, "c.keyxm")]
-    outcome = run("lint", *names)
-    assert "Found 2 errors" in outcome.out
-    assert "in 3 files.\n" in outcome.out
-
-
-def test_quiet_tells_the_findings_only(place: Place) -> None:
-    assert run("lint", place(), "-q").out == ""
-    outcome = run("lint", place(BAD_NUMBER), "-q")
-    assert [line.split()[1] for line in outcome.out.splitlines()] == ["SYN002"]
-
-
-def test_verbose_tells_every_file_on_standard_error(place: Place) -> None:
-    names = [place(BAD_NUMBER, "a.keyxm"), place(CLEAN, "b.keyxm")]
-    outcome = run("lint", *names, "-v", "--output-format", "json")
-    assert outcome.err == "mudline: a.keyxm: 1 finding\nmudline: b.keyxm: 0 findings\n"
-    assert codes(outcome) == ["SYN002"]
-
-
-def test_units_override_what_the_suffix_tells(place: Place) -> None:
-    outcome = run("lint", place(), "--units", "imperial", "--output-format", "json")
-    assert_fits(outcome.json(), "lint")
-    assert run("lint", place(), "--units", "parsec").code == 2
-
-
-@pytest.mark.parametrize("form", ["json", "yaml"])
-def test_document_is_linted_as_the_deck_that_it_holds(place: Place, form: str) -> None:
-    text = run("convert", place(UNUSED), "--to", form).output
-    outcome = run("lint", place(text, f"deck.{form}"), "--output-format", "json")
-    (found,) = outcome.json()
-    assert (found["code"], found["file"]) == ("REF003", f"deck.{form}")
-    assert found["line"] > 1
 
 
 # ------------------------------------------------------------------------------------------------------ configuration
@@ -303,15 +230,6 @@ def test_output_is_the_same_whatever_the_number_of_processes(
     monkeypatch.setenv("MUDLINE_CACHE_DIR", str(folder / "cache"))
     assert [run("lint", *words, "2") for _ in range(2)] == [alone] * 2
     assert len(list((folder / "cache").iterdir())) == 1
-
-
-def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_processes", None)
-    assert "20 fixed" in run("lint", decks, "--fix", "--jobs", "2").out
-
-
-def test_number_that_is_none(place: Place) -> None:
-    assert run("lint", place(), "--jobs", "-1").code == 2
 
 
 def test_findings_of_one_rule_of_style_are_one_entry_in_text_alone(place: Place) -> None:

@@ -44,24 +44,10 @@ def test_help_lists_the_commands(option: str) -> None:
 
 
 @pytest.mark.parametrize("command", EVERY)
-def test_help_of_a_command(command: str) -> None:
-    outcome = run(command, "--help")
-    assert (outcome.code, outcome.err) == (0, "")
-    assert outcome.out.startswith(f"Usage: mudline {command} ")
-    assert "--color [auto|always|never]" in outcome.out
-
-
-@pytest.mark.parametrize("command", EVERY)
 def test_a_command_has_few_options_of_its_own(command: str) -> None:
     own, _, common = run(command, "--help").out.partition("Common options:")
     assert len(re.findall(r"^  -", own, re.MULTILINE)) <= {"lint": 24, "report": 18}.get(command, 17)
     assert re.findall(r"^  (?:-\w, )?--(\w+)", common, re.MULTILINE) == ["color", "quiet", "verbose", "help"]
-
-
-def test_no_command_shows_the_help_as_an_error() -> None:
-    outcome = run()
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err == run("--help").out
 
 
 @pytest.mark.parametrize("command", EVERY)
@@ -71,33 +57,12 @@ def test_help_as_a_command(command: str) -> None:
     assert outcome.out == run(command, "--help").out
 
 
-def test_help_of_all_and_of_none() -> None:
-    assert run("help").out == run("--help").out
-    outcome = run("help", "lnit")
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err.endswith("mudline: unknown command 'lnit': did you mean lint?\n")
-
-
 @pytest.mark.parametrize("command", EVERY)
 def test_unknown_option(command: str) -> None:
     outcome = run(command, "--nonsense")
     assert (outcome.code, outcome.out) == (2, "")
     assert f"Try 'mudline {command} --help' for help." in outcome.err
     assert "--nonsense" in outcome.err
-
-
-@pytest.mark.parametrize("command", ["lint", "validate", "convert", "show", "curves", "evaluate"])
-def test_nothing_to_read(command: str) -> None:
-    outcome = run(command)
-    assert (outcome.code, outcome.out) == (2, "")
-    assert "Missing argument" in outcome.err
-
-
-@pytest.mark.parametrize("command", ["lint", "validate", "show", "curves", "evaluate", "rules"])
-def test_unknown_format(command: str) -> None:
-    outcome = run(command, "x", "--output-format", "xml")
-    assert (outcome.code, outcome.out) == (2, "")
-    assert "'xml' is not one of" in outcome.err
 
 
 def test_message_about_an_argument_does_not_act_on_the_terminal() -> None:

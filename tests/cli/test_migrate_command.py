@@ -25,15 +25,6 @@ def test_in_place(place: Place) -> None:
     assert Path("deck.keyxm").read_text(encoding="utf-8") == MIGRATED
 
 
-def test_a_second_time_changes_nothing(place: Place) -> None:
-    name = place(MIGRATED)
-    stamp = Path(name).stat().st_mtime_ns
-    outcome = run("migrate", name)
-    assert (outcome.code, outcome.err) == (0, "mudline: deck.keyxm: no legacy seabed keyword\n")
-    assert Path(name).stat().st_mtime_ns == stamp
-    assert run("migrate", "-q", name).err == ""
-
-
 def test_to_another_file_in_another_form(place: Place) -> None:
     name = place(SAMPLE)
     assert run("migrate", name, "-o", "new.json").code == 0
@@ -52,17 +43,6 @@ def test_standard_input() -> None:
     assert (outcome.code, outcome.out) == (1, "")
     assert "give the deck as a file" in outcome.err
     assert list(Path().iterdir()) == []
-
-
-def test_diff_writes_nothing(place: Place) -> None:
-    name = place(PROFILE)
-    outcome = run("migrate", "--diff", name)
-    assert outcome.code == 0
-    assert "-*RIGID SURFACE\n" in outcome.out
-    assert "+ FILE=deck-profile.txt\n" in outcome.out
-    assert "--- /dev/null\n+++ deck-profile.txt\n@@ -0,0 +1,3 @@\n+C Y, elevation" in outcome.out
-    assert Path(name).read_text(encoding="utf-8") == PROFILE
-    assert [path.name for path in Path().iterdir()] == ["deck.keyxm"]
 
 
 def test_a_profile_is_written_beside_the_new_deck(place: Place) -> None:
@@ -119,31 +99,6 @@ def test_a_deck_that_another_one_continues_with_its_own_seabed_is_kept(given: li
     assert outcome.code == 1
     assert f"{child} continues this deck and has seabed keywords of its own" in outcome.err
     assert Path("base.keyxm").read_text(encoding="utf-8") == SAMPLE
-
-
-def test_a_deck_that_another_one_only_continues_is_migrated(place: Place) -> None:
-    place(SAMPLE, "base.keyxm")
-    place("$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
-    place(b"RESTART\xff\x00{", "noise.das")
-    assert run("migrate", "--verify", "base.keyxm").code == 0
-    assert Path("base.keyxm").read_text(encoding="utf-8") == MIGRATED
-
-
-def test_elements_of_a_deck_that_continues_one_keep_its_stiffness(place: Place) -> None:
-    bed = "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n SET=Pipe\n 0, 0\n 1, 5\n"
-    text = CLEAN.partition("*SEABED")[0] + bed
-    place(text, "base.keyxm")
-    assert run("migrate", "base.keyxm", "-o", "alone.keyxm").code == 0
-    assert " STIFFNESS=1e4\n" not in Path("alone.keyxm").read_text(encoding="utf-8")
-    place("$MODEL\n*NODE\n 9, 0.3, 30.0\n*ELEMENT\n 9, 3, 9\n$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
-    assert run("migrate", "base.keyxm", "-o", "more.keyxm").code == 0
-    assert " SET=ALL\n STIFFNESS=1e4\n SET=Pipe\n" in Path("more.keyxm").read_text(encoding="utf-8")
-
-
-def test_one_output_takes_one_deck(place: Place) -> None:
-    outcome = run("migrate", place(SAMPLE, "a.keyxm"), place(SAMPLE, "b.keyxm"), "-o", "c.keyxm")
-    assert outcome.code == 2
-    assert "-o takes one deck" in outcome.err
 
 
 @pytest.mark.parametrize("sample", sorted(path.name for path in SAMPLES.glob("*.keyx*")))

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import pytest
 
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, run
+from tests.cli.runner import run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL
 
 DYNAMIC = "$LOAD CASE\n*RESTART\n LAST=static\n$MODEL\n*ELEMENT SETS\n SET=First\n SUBSET=Pipe\n"
@@ -21,30 +18,12 @@ def pair(place: Place) -> str:
     return place(DYNAMIC, "dynamic.keyxm")
 
 
-def test_show_says_what_the_deck_continues(pair: str) -> None:
-    found = run("show", pair)
-    assert (found.code, found.err) == (0, "")
-    first, second, third, fourth = found.out.splitlines()[:4]
-    assert first == "dynamic.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed"
-    assert [second, third, fourth] == ["  continues static.keyxm", "  $LOAD CASE: *RESTART", "  $MODEL: *ELEMENT SETS"]
-
-
 def test_evaluate_and_curves_as_of_the_static_deck(pair: str) -> None:
     for command in (["evaluate", "--output-format", "csv"], ["curves", "--output-format", "csv"]):
         one, other = (run(command[0], name, *command[1:]) for name in (pair, "static.keyxm"))
         assert one.code == other.code == 0
         assert one.out == other.out
         assert one.out.count("\n") > 2
-
-
-def test_lint_and_validate(pair: str) -> None:
-    found = run("lint", pair, "static.keyxm")
-    assert (found.code, found.out) == (0, "No findings in 2 files.\nAll 9 keywords read.\n")
-    rows = json.loads(run("validate", ".", "--output-format", "json").out)["decks"]
-    assert [(row["file"], row["verdict"], row["elements"]) for row in rows] == [
-        ("dynamic.keyxm", "no errors", 2),
-        ("static.keyxm", "no errors", 2),
-    ]
 
 
 def test_a_missing_deck_is_a_warning(place: Place) -> None:
@@ -83,13 +62,3 @@ def test_a_file_that_is_not_there(place: Place) -> None:
     place("", "soil.txt")
     place("", "Sand.txt")
     assert run("lint", name, "--select", "REF015").code == 0
-
-
-def test_the_samples(tmp_path: Path) -> None:
-    positions = str(SAMPLES / "positions.csv")
-    results = []
-    for sample in ("scr-dynamic.keyxm", "scr-touchdown.keyxm"):
-        out = tmp_path / f"{sample}.csv"
-        assert run("evaluate", str(SAMPLES / sample), "--positions", positions, "-o", str(out)).code == 0
-        results.append(out.read_bytes())
-    assert results[0] == results[1]

@@ -10,7 +10,6 @@ import pytest
 
 from mudline.checks.registry import rules
 from tests.cli.runner import SAMPLES, assert_fits, run
-from tests.helpers.builders.decks import CLEAN
 from tests.helpers.samples import FAULTY
 
 CODES = [rule.code.code for rule in rules()]
@@ -41,25 +40,11 @@ def test_one_rule_is_explained(word: str) -> None:
     assert "    $MODEL" in lines
 
 
-@pytest.mark.parametrize("code", CODES)
-def test_page_fits_and_is_harmless(code: str) -> None:
-    text = run("rules", code, terminal=True).out
-    assert all(char.isprintable() or char == "\n" for char in text.replace("\x1b[", ""))
-    prose = [line for line in run("rules", code).out.splitlines() if not line.startswith("    ")]
-    assert max(map(len, prose)) <= 100
-
-
 def test_prefix_lists_its_rules() -> None:
     lines = run("rules", "CRV").out.splitlines()
     assert [line.split()[0] for line in lines[3:-1] if line[0] != " "] == [
         code for code in CODES if code.startswith("CRV")
     ]
-
-
-def test_unknown_rule_is_wrong_usage() -> None:
-    outcome = run("rules", "SYN0O2")
-    assert (outcome.code, outcome.out) == (2, "")
-    assert "'SYN0O2' names no rule: did you mean SYN0" in outcome.err
 
 
 def test_json() -> None:
@@ -91,14 +76,6 @@ def test_schema_describes_what_convert_writes(
     validator.validate(run("convert", SAMPLES / name, "--to", "json", *options).json())
 
 
-def test_schema_refuses_what_is_no_deck(validator: Draft202012Validator) -> None:
-    document = run("convert", "-", "--to", "json", stdin=CLEAN.encode()).json()
-    assert validator.is_valid(document)
-    document["sections"][0]["blocks"][0]["depth"] = "deep"
-    assert not validator.is_valid(document)
-    assert not validator.is_valid({"format": "mudline-deck/1"})
-
-
 # ---------------------------------------------------------------------------------------------------------------------
 
 
@@ -127,19 +104,3 @@ def test_a_wrong_configuration_is_wrong_usage(tmp_path: Path) -> None:
     outcome = run("config", str(tmp_path))
     assert outcome.code == 2
     assert "mudline.toml:1: ignore must be a list of texts" in outcome.err
-
-
-# ------------------------------------------------------------ mudline lsp without its library; what it serves is tested
-
-
-def test_without_its_library_it_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.lsp_command.find_spec", lambda _: None)
-    outcome = run("lsp")
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err == 'mudline: lsp needs pygls: python -m pip install "mudline[lsp]"\n'
-
-
-def test_the_library_is_imported_when_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("pygls")
-    monkeypatch.setattr("mudline.tools.lsp.serving.serve", lambda: 0)
-    assert run("lsp").code == 0

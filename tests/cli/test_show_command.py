@@ -70,12 +70,6 @@ elements      [N m2]          [N]    Cd    Ca  seabed law     along    across
 """
 
 
-def test_text(place: Place) -> None:
-    outcome = run("show", place())
-    assert (outcome.code, outcome.err) == (0, "")
-    assert outcome.out == TEXT
-
-
 def test_json(place: Place) -> None:
     outcome = run("show", place(), "--output-format", "json")
     found = outcome.json()
@@ -134,26 +128,6 @@ def test_springs_of_nodes_replace_the_law_of_their_set(place: Place) -> None:
     assert [curve["elements"] for curve in found["curves"]] == [1]
 
 
-def test_linear_law_shows_its_stiffness(place: Place) -> None:
-    text = run("show", place(LINEAR)).out
-    assert "stiffness" in text
-    assert "linear  Pipe         2      20000\n" in text
-    assert "Force-embedment curves" not in text
-
-
-def test_imperial_units_stand_in_the_headings(place: Place) -> None:
-    text = run("show", place(CLEAN, "deck.keyxi")).out
-    assert "20.008 ft long" in text
-    assert "[ft]" in text
-    assert "[lbf/ft]" in text
-
-
-def test_user_units_have_no_names(place: Place) -> None:
-    text = run("show", place(), "--units", "user").out
-    assert "[" not in text
-    assert "20.008 long" in text
-
-
 def test_what_a_plus_means_is_said(place: Place) -> None:
     name = place(LINEAR + "*LINES\n LINE=Riser\n")
     outcome = run("show", name)
@@ -169,29 +143,6 @@ def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
     assert outcome.code == 1
     assert "3 nodes, 2 elements" in outcome.out
     assert outcome.err == "mudline: deck.keyxm has 1 error: see mudline lint\n"
-
-
-def test_empty_deck(place: Place) -> None:
-    outcome = run("show", place(""))
-    assert outcome.code == 1
-    assert outcome.out.startswith("deck.keyxm: metric units, 0 nodes, 0 elements, no seabed\n")
-
-
-def test_section_of_kept_keywords_and_empty_section(place: Place) -> None:
-    text = run("show", place("$LOAD CASE\n*DRILLING MUD\n 1\n$DATABASE\n")).out
-    assert "  $LOAD CASE\n    passed through unchanged: *DRILLING MUD\n  $DATABASE\n" in text
-
-
-def test_long_list_of_keywords_is_folded(place: Place) -> None:
-    text = run("show", place("$MODEL\n" + "".join(f"*KEYWORD {n}\n" for n in range(30)))).out
-    lines = [line for line in text.splitlines() if "*KEYWORD" in line]
-    assert len(lines) > 3
-    assert all(len(line) <= 120 for line in lines)
-
-
-def test_length_is_that_of_the_elements_whose_nodes_are_known(place: Place) -> None:
-    outcome = run("show", place(CLEAN.replace(" 3, 0.3, 20.0\n", "")), "--output-format", "json")
-    assert outcome.json()["length"] == 10.0
 
 
 def test_length_that_overflows_is_null(place: Place) -> None:
@@ -211,17 +162,6 @@ def test_many_diameters_are_shown_when_asked_for(place: Place) -> None:
     assert "2 more diameters: -v shows all\n" in text
     assert "    42.5         1" not in text
     assert "    42.5         1" in run("show", place(deck), "-v").out
-
-
-def test_elements_without_a_diameter_are_counted(place: Place) -> None:
-    deck = CLEAN.replace(" SET=Pipe\n 1, 2\n", " SET=Pipe\n 1\n")
-    outcome = run("show", place(deck))
-    assert "    none         1\n" in outcome.out
-
-
-def test_repeated_keywords_are_counted(place: Place) -> None:
-    text = run("show", place("$MODEL\n*NODE\n*TENSIONER\n*NODE\n*TENSIONER\n*OCEAN\n*TENSIONER\n")).out
-    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    passed through unchanged: *TENSIONER (3 blocks)\n" in text
 
 
 def test_the_bed_and_what_it_gives(place: Place) -> None:

@@ -97,38 +97,12 @@ def test_contents_by_load_case(place: Place) -> None:
         assert row["filled_weight"] == pytest.approx(filled)
 
 
-def test_masses_at_labelled_nodes_and_without_weight(place: Place) -> None:
-    """Half of a mass belongs to each element at its node; the end of the line has one element."""
-    masses = "*LABEL\n TYPE=NODE\n 3, LABEL=Top\n*MASS\n 2, 100.0\n {Top}, 40.0, TYPE=NO WEIGHT MASS\n"
-    found = rows(
-        place(
-            HALVES.replace("*SEABED PROPERTIES", masses + "*SEABED PROPERTIES").replace(
-                "SET=Pipe\n ST", "SET=Half\n ST"
-            )
-        )
-    )
-    assert [one["masses_at_nodes"] for one in found] == [50.0, 90.0]
-
-
-def test_gaps_stand_out(place: Place) -> None:
-    bare = HALVES.replace(" SET=Pipe\n 207", " SET=Half\n 207").replace("SET=Pipe\n STIFFNESS", "SET=Half\n STIFFNESS")
-    pipe = run("show", place(bare), "--sheet").out.partition("Sheet: mass")[0]
-    assert [line.split()[:2] for line in pipe.splitlines()[-3:-1]] == [["1", "none"], ["2", "Half"]]
-    colored = run("show", "deck.keyxm", "--sheet", "--color", "always").out
-    assert colored.count("\x1b[1;33mnone") == 6  # a section and a law of one, Cd and Ca of both
-
-
 def test_what_the_weights_leave_out(place: Place) -> None:
     text = run("show", place(CLEAN + "*COATINGS\n 1\n")).out
     embedment, sheet = text.partition("Sheet: pipe")[::2]
     assert embedment.endswith("weights without *COATINGS\n\n")
     assert "weights without *COATINGS\n" in sheet
     assert "weights without" not in run("show", place(CLEAN)).out
-
-
-def test_a_run_ends_where_a_line_does(place: Place) -> None:
-    two = CLEAN.replace(" 3, 0.3, 20.0\n", " 3, 0.3, 20.0\n 4, 0.3, 40.0\n").replace(" 2, 2, 3\n", " 2, 3, 4\n")
-    assert [(one["first_element"], one["length"]) for one in rows(place(two))] == [(1, 10.0), (2, 20.0)]
 
 
 def test_csv_and_workbook_have_the_same_values(tmp_path: Path) -> None:
@@ -142,15 +116,3 @@ def test_csv_and_workbook_have_the_same_values(tmp_path: Path) -> None:
     assert dict(zip(head, units, strict=True))["empty_weight"] == "[N/m]"
     assert [float(row["filled_weight"]) for row in table] == [row[head.index("filled_weight")] for row in cells]
     assert cells[2][head.index("law")] is None
-
-
-def test_a_workbook_needs_a_file() -> None:
-    assert "-o FILE.xlsx" in run("show", CATENARY, "--output-format", "xlsx").err
-    ran = run("show", CATENARY, "-o", "sheet.csv", "--output-format", "xlsx")
-    assert (ran.code, "sheet.csv is no xlsx" in ran.err) == (2, True)
-
-
-def test_a_deck_without_elements_has_no_sheet(place: Place) -> None:
-    ran = run("show", place("$MODEL\n*OCEAN\n 5.0, 1025.0\n"), "--sheet")
-    assert (ran.code, ran.out) == (0, "")
-    assert ran.err == "mudline: deck.keyxm: the deck shows no elements, which a sheet is of\n"

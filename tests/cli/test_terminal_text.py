@@ -9,12 +9,12 @@ import pytest
 from rich.cells import cell_len
 
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.checks.output import form, visible, visible_lines
+from mudline.checks.output import form, visible
 from mudline.cli.printing import excerpt
 from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, Outcome, assert_fits, process, run
+from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
@@ -57,34 +57,13 @@ def test_no_color_is_respected_unless_overruled(place: Place, monkeypatch: pytes
     assert "\x1b[" in run("lint", name, terminal=True).out
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=str)
-def test_colours_change_nothing_else(place: Place, command: tuple[str, ...]) -> None:
-    name = place(UNUSED)
-    assert plain(run(*command, name, "--color", "always").out) == run(*command, name).out
-
-
 @pytest.mark.parametrize("form", ["json", "jsonl", "concise"])
 def test_machine_formats_have_no_colours(place: Place, form: str) -> None:
     outcome = run("lint", place(BAD_NUMBER), "--output-format", form, "--color", "always", terminal=True)
     assert "\x1b" not in outcome.out
 
 
-def test_dumb_terminal(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("TERM", "dumb")
-    assert "\x1b" not in run("lint", place(BAD_NUMBER), terminal=True).out
-
-
 # ------------------------------------------------------------------------------------------------ text that looks alive
-
-
-@pytest.mark.parametrize("text", ["[/x]", "[red]", ":smile:"])
-@pytest.mark.parametrize("command", COMMANDS, ids=str)
-def test_markup_in_names_is_plain_text(place: Place, command: tuple[str, ...], text: str) -> None:
-    deck = CLEAN.replace("Clay", f"Cl{text}ay").replace("Pipe", f"P{text}ipe")
-    outcome = run(*command, place(deck, f"deck{text.replace('/', '')}.keyxm"))
-    assert outcome.code == 0
-    if command[0] in {"show", "curves", "evaluate"}:
-        assert f"Cl{text}ay" in outcome.out
 
 
 HOSTILE = {
@@ -128,12 +107,6 @@ def test_conversion_is_harmless_on_a_terminal_and_exact_in_a_pipe(place: Place, 
     )
 
 
-def test_hostile_file_name() -> None:
-    outcome = bad_line(" 2, -0.1, ten", name="a\x1b[31mb\nc.keyxm")
-    assert plain(outcome.out).startswith("a\ufffd[31mb\ufffdc.keyxm:6:11: ")
-    assert "\x1b" not in outcome.out
-
-
 # ------------------------------------------------------------------------------------------------ the mark and its line
 
 
@@ -155,22 +128,6 @@ def test_mark_counts_the_columns_of_wide_characters() -> None:
     assert any(line[: line.index("^")] == "   | " + " " * (first - 5) and line.endswith("^^^^") for line in under)
 
 
-def test_mark_counts_what_is_escaped(place: Place) -> None:
-    name = place(CLEAN.replace(" 2, -0.1, 10.0", " 2, \u00e4\u6f22, 10.0"))
-    outcome = process("lint", name, env={"PYTHONIOENCODING": "ascii"})
-    source, under = marked(outcome)
-    assert source == " 6 |  2, \\xe4\\u6f22, 10.0"
-    assert under == "   |     ^^^^^^^^^^"
-
-
-def test_mark_at_the_end_of_a_line(place: Place) -> None:
-    outcome = run("lint", place(CLEAN.replace("*OCEAN\n 100.0, 1025.0, 9.81\n", "") + "*OCEAN\n 1, 2, =[1"))
-    source, under = marked(outcome)
-    assert source.endswith("=[1")
-    assert under.rstrip().endswith("^")
-    assert len(under) <= len(source)
-
-
 @pytest.mark.parametrize("at", [0, 10, 60, 300, 5000])
 def test_long_line_is_cut_around_the_fault(at: int) -> None:
     line = f" 2, {' ' * at}ten, {'9' * 4000}"
@@ -188,11 +145,6 @@ def test_lines_fit_the_terminal(place: Place, monkeypatch: pytest.MonkeyPatch, w
     name = place(CLEAN.replace(" 2, -0.1, 10.0", f" 2, -0.1, {'9' * 50} {'8' * 200}, ten"))
     lines = plain(run("lint", name, terminal=True).out).splitlines()
     assert max(map(cell_len, lines)) <= width
-
-
-def test_message_is_not_broken_in_a_pipe(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "20")
-    assert run("lint", place(BAD_NUMBER)).out.splitlines()[0].endswith(" [bad-number]")
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
@@ -257,11 +209,6 @@ def test_mark(diagnostic: Diagnostic, under: str) -> None:
     assert lines(diagnostic)[1] == under
 
 
-@pytest.mark.parametrize("line", [3, 4, 99])
-def test_line_that_is_blank_or_not_there(line: int) -> None:
-    assert lines(found(line=line, column=1, end_line=line, end_column=1)) == [""]
-
-
 @pytest.mark.parametrize(
     ("text", "encoding", "shown"),
     [
@@ -281,11 +228,6 @@ def test_text_that_nobody_reads_to_its_end_is_cut() -> None:
     assert visible("x" * LONGEST_MESSAGE) == "x" * LONGEST_MESSAGE
     assert visible("x" * (LONGEST_MESSAGE + 1)) == "x" * (LONGEST_MESSAGE - 3) + "..."
     assert len(visible("\x1b" * 10_000_000)) == LONGEST_MESSAGE
-
-
-def test_visible_lines_keep_their_ends() -> None:
-    assert visible_lines("a\n\tb\n") == "a\n\tb\n"
-    assert visible_lines("a\n\tb\x1b\r\n") == "a\n\tb\ufffd\ufffd\n"
 
 
 def test_fix_in_json() -> None:

@@ -30,12 +30,6 @@ def test_deck_without_errors(place: Place) -> None:
     ]
 
 
-def test_warnings_are_no_errors(place: Place) -> None:
-    outcome = run("validate", place(UNUSED))
-    assert outcome.code == 0
-    assert "REF003" not in outcome.out
-
-
 def test_errors_come_before_the_table(place: Place) -> None:
     names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, "bad.keyxm")]
     outcome = run("validate", *names)
@@ -44,12 +38,6 @@ def test_errors_come_before_the_table(place: Place) -> None:
     assert lines[0].startswith("bad.keyxm:20:6: error REF001")
     assert lines[-1] == "1 of 2 decks has errors: 1 error"
     assert [line.split()[0] for line in lines[-4:-2]] == ["no", "1"]
-
-
-def test_quiet_leaves_the_table(place: Place) -> None:
-    outcome = run("validate", place(ILLEGAL), "-q")
-    assert outcome.code == 1
-    assert outcome.out.startswith("Decks\n")
 
 
 def test_json(place: Place) -> None:

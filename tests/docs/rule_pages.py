@@ -87,13 +87,7 @@ def rule_index(rules: Iterable[Rule]) -> str:
 def _row(rule: Rule) -> str:
     code = rule.code
     severity = f"{code.severity}, off" if rule.off else code.severity
-    fields = (
-        f"[{code.code}]({code.code}.md)",
-        f"`{code.slug}`",
-        severity,
-        _fix(rule),
-        marked(rule.page.title),
-    )
+    fields = (f"[{code.code}]({code.code}.md)", f"`{code.slug}`", severity, _fix(rule), marked(rule.page.title))
     return f"| {' | '.join(fields)} |"
 
 

@@ -26,16 +26,8 @@ GOOD = (
     '[severity]\nLEG = "off"\n"unsorted-points" = "error"\n',
 )
 BAD = (
-    "selct = []",
-    'extend = ["base.toml"]',
-    'extend = " "',
-    'select = "SYN"',
-    "ignore = [1]",
-    'exclude = [" "]',
-    'fail-on = "warn"',
-    "dialect = 3",
-    "severity = 1",
-    '[severity]\nLEG001 = "loud"',
+    *("selct = []", 'extend = ["base.toml"]', 'extend = " "', 'select = "SYN"', "ignore = [1]", 'exclude = [" "]'),
+    *('fail-on = "warn"', "dialect = 3", "severity = 1", '[severity]\nLEG001 = "loud"'),
     '[per-file-ignores]\n"*.das" = "LEG"',
 )
 

@@ -10,13 +10,11 @@ import pytest
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.library.seabed_properties import SeabedProperties
 from mudline.language.keywords.values import OpaqueKeyword
 from tests.docs.blocks import Page
-from tests.docs.keyword_fields import inferences
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import declarations, keyword_page, keyword_pages, page_name, title
-from tests.docs.keyword_rules import Declared, keyword_of, rules_of
+from tests.docs.keyword_rules import Declared, keyword_of
 
 DECLARED = declarations()
 
@@ -57,15 +55,3 @@ def test_example_on_the_page_reads_without_a_finding(declared: Declared) -> None
     text = f"${declared.sections[0]}\n{declared.example}"
     own = [rule for rule in rules() if rule.code.code.startswith("SYN")]
     assert [str(found) for found in lint_bytes(text.encode(), "deck.keyxm", own)] == []
-
-
-def test_every_rule_concerns_a_keyword() -> None:
-    own = {rule.code.code for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))}
-    assert own == {rule.code.code for each in DECLARED for rule in rules_of(each)}
-
-
-def test_what_is_inferred_is_said_once() -> None:
-    said = inferences(SeabedProperties)
-    assert [each for each in said if each.startswith("`longitudinal mobilisation` of `FRICTION=`, `transverse ")]
-    assert [each for each in said if each.startswith("`stiffness` of `SUCTION=`: the unit")]
-    assert len(said) == len(set(said))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from inspect import cleandoc
 
-from tests.faults.draft import Draft
+from tests.faults.draft import Draft, Row
 
 Damage = Callable[[Draft], None]
 
@@ -42,3 +42,42 @@ class Group:
             return damage
 
         return register
+
+    def row(self, slug: str, codes: str | tuple[str, ...], did: str, damage: Damage, units: str = "") -> None:
+        """Make a kind of a change that one expression says; `units` are those of the decks that it is done to."""
+
+        def in_units(draft: Draft) -> None:
+            draft.needs(not units or draft.units in units.split())
+            damage(draft)
+
+        said = tuple(codes.split()) if isinstance(codes, str) else codes
+        self.kinds.append(Kind(slug, self.name, did, said, in_units, info=False))
+
+
+def put(row: Callable[[Draft], Row], column: int, text: str) -> Damage:
+    """Another field in a column of a row."""
+    return lambda draft: draft.put(row(draft), column, text)
+
+
+def scale(row: Callable[[Draft], Row], column: int, factor: float) -> Damage:
+    """The number in a column of a row multiplied."""
+    return lambda draft: draft.scale(row(draft), column, factor)
+
+
+def head(keyword: str, typed: str) -> Damage:
+    """Another line for that of a keyword."""
+    return lambda draft: draft.write(draft.block(keyword)[0], typed)
+
+
+def comment(keyword: str, text: str) -> Damage:
+    """A line put behind that of a keyword."""
+
+    def insert(draft: Draft) -> None:
+        draft.insert(draft.block(keyword)[0], text)
+
+    return insert
+
+
+def swap(keyword: str, key: str, old: str, new: str) -> Damage:
+    """Another text for a part of a setting."""
+    return lambda draft: draft.swap(draft.setting(keyword, key), old, new)

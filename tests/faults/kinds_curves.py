@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.faults.draft import Draft, Row, plain
-from tests.faults.kind import Group
+from tests.faults.kind import Group, scale
 
 CURVES = Group("curves and survey tables")
 curve = CURVES.kind
@@ -105,10 +105,7 @@ def one_force_negative(draft: Draft) -> None:
     draft.mark(draft.curve()[4])
 
 
-@curve("CRV005")
-def force_lost_a_digit(draft: Draft) -> None:
-    """A force a tenth of what it should be."""
-    draft.scale(_middle(draft), 1, 0.1)
+CURVES.row("force-lost-a-digit", "CRV005", "A force a tenth of what it should be.", scale(_middle, 1, 0.1))
 
 
 @curve("CRV005")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.faults.draft import Draft, Row
-from tests.faults.kind import Group
+from tests.faults.kind import Damage, Group, comment, head
 
 KEYWORDS = Group("keyword lines and files")
 kind = KEYWORDS.kind
@@ -12,122 +12,28 @@ STRAY = ("SYN001", "SYN002", "SYN003", "SYN004", "SYN011", "SYN015", "REF007")
 """What a row says that came under a keyword that is not its own: it is not read, or reads as something else."""
 
 
-def _misspelt(draft: Draft, keyword: str, typed: str) -> None:
-    draft.write(draft.block(keyword)[0], typed)
-
-
-@kind("SYN009")
-def misspelt_element(draft: Draft) -> None:
-    """`*ELEMNT`."""
-    _misspelt(draft, "*ELEMENT", "*ELEMNT")
-
-
-@kind("SYN009")
-def plural_element(draft: Draft) -> None:
-    """`*ELEMENTS`."""
-    _misspelt(draft, "*ELEMENT", "*ELEMENTS")
-
-
-@kind("SYN009")
-def plural_node(draft: Draft) -> None:
-    """`*NODES`."""
-    _misspelt(draft, "*NODE", "*NODES")
-
-
-@kind("SYN009")
-def misspelt_element_sets(draft: Draft) -> None:
-    """`*ELEMENT SEST`."""
-    _misspelt(draft, "*ELEMENT SETS", "*ELEMENT SEST")
-
-
-@kind("SYN009")
-def joined_element_sets(draft: Draft) -> None:
-    """`*ELEMENTSETS`, without its blank."""
-    _misspelt(draft, "*ELEMENT SETS", "*ELEMENTSETS")
-
-
-@kind("SYN009")
-def misspelt_geometric_sets(draft: Draft) -> None:
-    """`*GEOMETRIC SET`."""
-    _misspelt(draft, "*GEOMETRIC SETS", "*GEOMETRIC SET")
-
-
-@kind("SYN009")
-def misspelt_ocean(draft: Draft) -> None:
-    """`*OCAEN`."""
-    _misspelt(draft, "*OCEAN", "*OCAEN")
-
-
-@kind("SYN009")
-def misspelt_seabed_properties(draft: Draft) -> None:
-    """`*SEABED PROPERTY`."""
-    _misspelt(draft, "*SEABED PROPERTIES", "*SEABED PROPERTY")
-
-
-@kind("SYN009")
-def seabed_in_two_words(draft: Draft) -> None:
-    """`*SEA BED PROPERTIES`."""
-    _misspelt(draft, "*SEABED PROPERTIES", "*SEA BED PROPERTIES")
-
-
-@kind("SYN009")
-def misspelt_seabed_stiffness(draft: Draft) -> None:
-    """`*SEABED STIFNESS`."""
-    _misspelt(draft, "*SEABED STIFFNESS", "*SEABED STIFNESS")
-
-
-@kind("SYN009")
-def misspelt_embedment(draft: Draft) -> None:
-    """`*EMBEDEMENT`."""
-    _misspelt(draft, "*EMBEDMENT", "*EMBEDEMENT")
-
-
-@kind("SYN009")
-def misspelt_elastic_surface(draft: Draft) -> None:
-    """`*ELASTIC SURFACES`."""
-    _misspelt(draft, "*ELASTIC SURFACE", "*ELASTIC SURFACES")
-
-
-@kind("SYN009")
-def misspelt_profile(draft: Draft) -> None:
-    """`*SEABED PROFIL`."""
-    _misspelt(draft, "*SEABED PROFILE", "*SEABED PROFIL")
-
-
-@kind("SYN009")
-def misspelt_boundary(draft: Draft) -> None:
-    """`*BOUNDARIES`."""
-    _misspelt(draft, "*BOUNDARY", "*BOUNDARIES")
-
-
-@kind("SYN009")
-def underscore_in_keyword(draft: Draft) -> None:
-    """`*SEABED_PROPERTIES`."""
-    _misspelt(draft, "*SEABED PROPERTIES", "*SEABED_PROPERTIES")
-
-
-@kind("SYN010")
-def dollar_for_star(draft: Draft) -> None:
-    """`$NODE` for `*NODE`."""
-    _misspelt(draft, "*NODE", "$NODE")
-
-
-@kind("SYN010")
-def misspelt_model(draft: Draft) -> None:
-    """`$MODLE`."""
-    _misspelt(draft, "$MODEL", "$MODLE")
-
-
-@kind("SYN010")
-def misspelt_load_case(draft: Draft) -> None:
-    """`$LOADCASE`."""
-    _misspelt(draft, "$LOAD CASE", "$LOADCASE")
-
-
-@kind("SYN007", "SYN009")
-def star_for_dollar(draft: Draft) -> None:
-    """`*MODEL` for `$MODEL`."""
-    _misspelt(draft, "$MODEL", "*MODEL")
+for _slug, _codes, _keyword, _typed, _how in (
+    ("misspelt-element", "SYN009", "*ELEMENT", "*ELEMNT", ""),
+    ("plural-element", "SYN009", "*ELEMENT", "*ELEMENTS", ""),
+    ("plural-node", "SYN009", "*NODE", "*NODES", ""),
+    ("misspelt-element-sets", "SYN009", "*ELEMENT SETS", "*ELEMENT SEST", ""),
+    ("joined-element-sets", "SYN009", "*ELEMENT SETS", "*ELEMENTSETS", ", without its blank"),
+    ("misspelt-geometric-sets", "SYN009", "*GEOMETRIC SETS", "*GEOMETRIC SET", ""),
+    ("misspelt-ocean", "SYN009", "*OCEAN", "*OCAEN", ""),
+    ("misspelt-seabed-properties", "SYN009", "*SEABED PROPERTIES", "*SEABED PROPERTY", ""),
+    ("seabed-in-two-words", "SYN009", "*SEABED PROPERTIES", "*SEA BED PROPERTIES", ""),
+    ("misspelt-seabed-stiffness", "SYN009", "*SEABED STIFFNESS", "*SEABED STIFNESS", ""),
+    ("misspelt-embedment", "SYN009", "*EMBEDMENT", "*EMBEDEMENT", ""),
+    ("misspelt-elastic-surface", "SYN009", "*ELASTIC SURFACE", "*ELASTIC SURFACES", ""),
+    ("misspelt-profile", "SYN009", "*SEABED PROFILE", "*SEABED PROFIL", ""),
+    ("misspelt-boundary", "SYN009", "*BOUNDARY", "*BOUNDARIES", ""),
+    ("underscore-in-keyword", "SYN009", "*SEABED PROPERTIES", "*SEABED_PROPERTIES", ""),
+    ("dollar-for-star", "SYN010", "*NODE", "$NODE", " for `*NODE`"),
+    ("misspelt-model", "SYN010", "$MODEL", "$MODLE", ""),
+    ("misspelt-load-case", "SYN010", "$LOAD CASE", "$LOADCASE", ""),
+    ("star-for-dollar", "SYN007 SYN009", "$MODEL", "*MODEL", " for `$MODEL`"),
+):
+    KEYWORDS.row(_slug, _codes, f"`{_typed}`{_how}.", head(_keyword, _typed))
 
 
 @kind("SYN007")
@@ -148,65 +54,35 @@ def load_case_line_missing(draft: Draft) -> None:
     draft.remove([head])
 
 
-def _missing(draft: Draft, keyword: str) -> None:
-    block = draft.block(keyword)
-    draft.needs(draft.rows.index(block[0]) > 1)
-    draft.mark(block[1])
-    draft.remove([block[0]])
+def _missing(keyword: str) -> Damage:
+    def remove(draft: Draft) -> None:
+        block = draft.block(keyword)
+        draft.needs(draft.rows.index(block[0]) > 1)
+        draft.mark(block[1])
+        draft.remove([block[0]])
+
+    return remove
 
 
-@kind(*STRAY)
-def node_line_missing(draft: Draft) -> None:
-    """The `*NODE` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*NODE")
+for _keyword in (
+    *("*NODE", "*ELEMENT", "*ELEMENT SETS", "*GEOMETRIC SETS"),
+    *("*SEABED PROPERTIES", "*SEABED STIFFNESS", "*EMBEDMENT"),
+):
+    KEYWORDS.row(
+        f"{_keyword[1:].lower().replace(' ', '-')}-line-missing",
+        (*STRAY, "SBD006") if _keyword == "*SEABED PROPERTIES" else STRAY,
+        f"The `{_keyword}` line is missing. Seen at the first row behind it.",
+        _missing(_keyword),
+    )
+KEYWORDS.row("star-missing", STRAY, "`ELEMENT` without its star.", head("*ELEMENT", "ELEMENT"))
 
 
-@kind(*STRAY)
-def element_line_missing(draft: Draft) -> None:
-    """The `*ELEMENT` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*ELEMENT")
-
-
-@kind(*STRAY)
-def element_sets_line_missing(draft: Draft) -> None:
-    """The `*ELEMENT SETS` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*ELEMENT SETS")
-
-
-@kind(*STRAY)
-def geometric_sets_line_missing(draft: Draft) -> None:
-    """The `*GEOMETRIC SETS` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*GEOMETRIC SETS")
-
-
-@kind(*STRAY, "SBD006")
-def seabed_properties_line_missing(draft: Draft) -> None:
-    """The `*SEABED PROPERTIES` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*SEABED PROPERTIES")
-
-
-@kind(*STRAY)
-def seabed_stiffness_line_missing(draft: Draft) -> None:
-    """The `*SEABED STIFFNESS` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*SEABED STIFFNESS")
-
-
-@kind(*STRAY)
-def embedment_line_missing(draft: Draft) -> None:
-    """The `*EMBEDMENT` line is missing. Seen at the first row behind it."""
-    _missing(draft, "*EMBEDMENT")
-
-
-@kind(*STRAY)
-def star_missing(draft: Draft) -> None:
-    """`ELEMENT` without its star."""
-    _misspelt(draft, "*ELEMENT", "ELEMENT")
-
-
-@kind(*STRAY)
-def star_missing_at_seabed(draft: Draft) -> None:
-    """`SEABED STIFFNESS` without its star."""
-    _misspelt(draft, "*SEABED STIFFNESS", "SEABED STIFFNESS")
+KEYWORDS.row(
+    "star-missing-at-seabed",
+    STRAY,
+    "`SEABED STIFFNESS` without its star.",
+    head("*SEABED STIFFNESS", "SEABED STIFFNESS"),
+)
 
 
 @kind(*STRAY, "SBD003")
@@ -235,10 +111,7 @@ def _comment(draft: Draft, keyword: str, text: str) -> None:
     draft.insert(draft.block(keyword)[0], text)
 
 
-@kind(*STRAY, "SYN013")
-def hash_comment(draft: Draft) -> None:
-    """A comment with #."""
-    _comment(draft, "*NODE", "# nodes of the flowline")
+KEYWORDS.row("hash-comment", (*STRAY, "SYN013"), "A comment with #.", comment("*NODE", "# nodes of the flowline"))
 
 
 @kind(*STRAY, "SYN013")

@@ -50,10 +50,7 @@ def wall_for_inner_diameter(draft: Draft) -> None:
     draft.put(row, 3, plain((draft.value(row, 2) - draft.value(row, 3)) / 2))
 
 
-@kind("GEO001")
-def diameters_exchanged(draft: Draft) -> None:
-    """Di first, then Do."""
-    draft.exchange(pipe_row(draft), 2, 3)
+LENGTHS.row("diameters-exchanged", "GEO001", "Di first, then Do.", lambda draft: draft.exchange(pipe_row(draft), 2, 3))
 
 
 @kind("UNT006", "UNT002")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.faults.draft import Draft, Row, typed
-from tests.faults.kind import Group
+from tests.faults.kind import Group, swap
 
 TYPING = Group("typing")
 kind = TYPING.kind
@@ -344,10 +344,7 @@ def misspelt_friction(draft: Draft) -> None:
     draft.swap(draft.setting("*SEABED PROPERTIES", "FRICTION"), "FRICTION", "FRICTON")
 
 
-@kind("SYN004")
-def misspelt_curve(draft: Draft) -> None:
-    """CURV= for CURVE=."""
-    draft.swap(draft.setting("*SEABED STIFFNESS", "CURVE"), "CURVE", "CURV")
+TYPING.row("misspelt-curve", "SYN004", "CURV= for CURVE=.", swap("*SEABED STIFFNESS", "CURVE", "CURVE", "CURV"))
 
 
 @kind("SYN004")
@@ -356,10 +353,7 @@ def plural_setting(draft: Draft) -> None:
     draft.swap(draft.setting("*GEOMETRIC SETS", "SET"), "SET=", "SETS=")
 
 
-@kind("SYN005")
-def misspelt_choice(draft: Draft) -> None:
-    """TYPE=ELASTC."""
-    draft.swap(draft.setting("*SEABED PROPERTIES", "TYPE"), "ELASTIC", "ELASTC")
+TYPING.row("misspelt-choice", "SYN005", "TYPE=ELASTC.", swap("*SEABED PROPERTIES", "TYPE", "ELASTIC", "ELASTC"))
 
 
 @kind("SYN005")

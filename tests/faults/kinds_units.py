@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.faults.draft import Draft, Row, plain, typed
-from tests.faults.kind import Group
+from tests.faults.kind import Group, put, scale
 
 UNITS = Group("units and magnitudes")
 kind = UNITS.kind
@@ -37,18 +37,12 @@ def pipe_row(draft: Draft) -> Row:
 # --------------------------------------------------------------------------------------------------------------- water
 
 
-@kind("UNT004")
-def water_in_tonnes(draft: Draft) -> None:
-    """Sea water of 1.025, in t/m3 or g/cm3."""
-    only(draft, "metric", "imperial")
-    draft.put(ocean_row(draft), 1, "1.025")
-
-
-@kind("UNT004")
-def water_in_pounds(draft: Draft) -> None:
-    """Sea water of 64 lb/ft3 where slug/ft3 belongs."""
-    only(draft, "imperial")
-    draft.put(ocean_row(draft), 1, "64.0")
+UNITS.row(
+    "water-in-tonnes", "UNT004", "Sea water of 1.025, in t/m3 or g/cm3.", put(ocean_row, 1, "1.025"), "metric imperial"
+)
+UNITS.row(
+    "water-in-pounds", "UNT004", "Sea water of 64 lb/ft3 where slug/ft3 belongs.", put(ocean_row, 1, "64.0"), "imperial"
+)
 
 
 @kind("UNT004")
@@ -58,11 +52,9 @@ def water_in_kilograms(draft: Draft) -> None:
     draft.put(ocean_row(draft), 1, "1025.0")
 
 
-@kind("UNT004")
-def water_in_slugs(draft: Draft) -> None:
-    """Sea water of 1.99 slug/ft3 in a metric deck."""
-    only(draft, "metric")
-    draft.put(ocean_row(draft), 1, "1.99")
+UNITS.row(
+    "water-in-slugs", "UNT004", "Sea water of 1.99 slug/ft3 in a metric deck.", put(ocean_row, 1, "1.99"), "metric"
+)
 
 
 @kind("UNT004")
@@ -72,11 +64,7 @@ def water_as_weight(draft: Draft) -> None:
     draft.put(ocean_row(draft), 1, "10055.0")
 
 
-@kind("UNT004")
-def water_lost_a_digit(draft: Draft) -> None:
-    """102.5 for 1025."""
-    only(draft, "metric")
-    draft.put(ocean_row(draft), 1, "102.5")
+UNITS.row("water-lost-a-digit", "UNT004", "102.5 for 1025.", put(ocean_row, 1, "102.5"), "metric")
 
 
 @kind("UNT004")
@@ -96,11 +84,9 @@ def gravity_of_the_other_system(draft: Draft) -> None:
     draft.put(ocean_row(draft), 2, "32.2" if draft.units == "metric" else "9.81")
 
 
-@kind("UNT001")
-def gravity_without_point(draft: Draft) -> None:
-    """981 for 9.81, or 3217 for 32.17."""
-    only(draft, "metric", "imperial")
-    draft.scale(ocean_row(draft), 2, 100.0)
+UNITS.row(
+    "gravity-without-point", "UNT001", "981 for 9.81, or 3217 for 32.17.", scale(ocean_row, 2, 100.0), "metric imperial"
+)
 
 
 @kind("UNT001", "SBD010")
@@ -133,31 +119,14 @@ def ocean_depth_in_other_unit(draft: Draft) -> None:
 # --------------------------------------------------------------------------------------------------------------- steel
 
 
-@kind("UNT004")
-def steel_in_tonnes(draft: Draft) -> None:
-    """Steel of 7.85, in t/m3 or g/cm3."""
-    draft.put(pipe_row(draft), 4, "7.85")
-
-
-@kind("UNT004")
-def steel_in_pounds(draft: Draft) -> None:
-    """Steel of 490 lb/ft3 where slug/ft3 belongs."""
-    only(draft, "imperial")
-    draft.put(pipe_row(draft), 4, "490.0")
-
-
-@kind("UNT004")
-def steel_in_kilograms(draft: Draft) -> None:
-    """Steel of 7850 kg/m3 in an imperial deck."""
-    only(draft, "imperial")
-    draft.put(pipe_row(draft), 4, "7850.0")
-
-
-@kind("UNT004")
-def steel_in_slugs(draft: Draft) -> None:
-    """Steel of 15.2 slug/ft3 in a metric deck."""
-    only(draft, "metric")
-    draft.put(pipe_row(draft), 4, "15.2")
+UNITS.row("steel-in-tonnes", "UNT004", "Steel of 7.85, in t/m3 or g/cm3.", put(pipe_row, 4, "7.85"))
+UNITS.row(
+    "steel-in-pounds", "UNT004", "Steel of 490 lb/ft3 where slug/ft3 belongs.", put(pipe_row, 4, "490.0"), "imperial"
+)
+UNITS.row(
+    "steel-in-kilograms", "UNT004", "Steel of 7850 kg/m3 in an imperial deck.", put(pipe_row, 4, "7850.0"), "imperial"
+)
+UNITS.row("steel-in-slugs", "UNT004", "Steel of 15.2 slug/ft3 in a metric deck.", put(pipe_row, 4, "15.2"), "metric")
 
 
 @kind("UNT004")
@@ -167,10 +136,7 @@ def steel_as_weight(draft: Draft) -> None:
     draft.put(pipe_row(draft), 4, "77000.0")
 
 
-@kind("UNT004")
-def steel_gained_a_digit(draft: Draft) -> None:
-    """78500 for 7850."""
-    draft.scale(pipe_row(draft), 4, 10.0)
+UNITS.row("steel-gained-a-digit", "UNT004", "78500 for 7850.", scale(pipe_row, 4, 10.0))
 
 
 @kind("UNT004")
@@ -182,44 +148,12 @@ def steel_lost_a_digit(draft: Draft) -> None:
 # -------------------------------------------------------------------------------------------------------------- moduli
 
 
-@kind("UNT005")
-def young_in_gigapascals(draft: Draft) -> None:
-    """E of 207."""
-    only(draft, "metric")
-    draft.put(pipe_row(draft), 0, "207.0")
-
-
-@kind("UNT005")
-def young_in_megapascals(draft: Draft) -> None:
-    """E of 207 000."""
-    only(draft, "metric")
-    draft.put(pipe_row(draft), 0, "207000.0")
-
-
-@kind("UNT005")
-def young_in_kilopascals(draft: Draft) -> None:
-    """E of 207E6, in kN/m2."""
-    only(draft, "metric")
-    draft.put(pipe_row(draft), 0, "207.0E6")
-
-
-@kind("UNT005")
-def young_in_psi(draft: Draft) -> None:
-    """E of 30E6 psi, in a metric or an imperial deck."""
-    draft.put(pipe_row(draft), 0, "30.0E6")
-
-
-@kind("UNT005")
-def young_in_ksi(draft: Draft) -> None:
-    """E of 30 000 ksi."""
-    draft.put(pipe_row(draft), 0, "30000.0")
-
-
-@kind("UNT005")
-def young_in_pascals(draft: Draft) -> None:
-    """E of 207E9 N/m2 in an imperial deck."""
-    only(draft, "imperial")
-    draft.put(pipe_row(draft), 0, "207.0E9")
+UNITS.row("young-in-gigapascals", "UNT005", "E of 207.", put(pipe_row, 0, "207.0"), "metric")
+UNITS.row("young-in-megapascals", "UNT005", "E of 207 000.", put(pipe_row, 0, "207000.0"), "metric")
+UNITS.row("young-in-kilopascals", "UNT005", "E of 207E6, in kN/m2.", put(pipe_row, 0, "207.0E6"), "metric")
+UNITS.row("young-in-psi", "UNT005", "E of 30E6 psi, in a metric or an imperial deck.", put(pipe_row, 0, "30.0E6"))
+UNITS.row("young-in-ksi", "UNT005", "E of 30 000 ksi.", put(pipe_row, 0, "30000.0"))
+UNITS.row("young-in-pascals", "UNT005", "E of 207E9 N/m2 in an imperial deck.", put(pipe_row, 0, "207.0E9"), "imperial")
 
 
 @kind("UNT005")
@@ -231,10 +165,7 @@ def both_moduli_in_other_unit(draft: Draft) -> None:
     draft.scale(row, 1, factor)
 
 
-@kind("UNT005")
-def young_lost_a_digit(draft: Draft) -> None:
-    """20.7E9 for 207E9."""
-    draft.scale(pipe_row(draft), 0, 0.1)
+UNITS.row("young-lost-a-digit", "UNT005", "20.7E9 for 207E9.", scale(pipe_row, 0, 0.1))
 
 
 @kind("UNT005")
@@ -256,10 +187,7 @@ def shear_is_young(draft: Draft) -> None:
     draft.put(row, 1, draft.field(row, 0))
 
 
-@kind("UNT005")
-def poisson_for_shear(draft: Draft) -> None:
-    """Poisson's ratio where G belongs."""
-    draft.put(pipe_row(draft), 1, "0.3")
+UNITS.row("poisson-for-shear", "UNT005", "Poisson's ratio where G belongs.", put(pipe_row, 1, "0.3"))
 
 
 # -------------------------------------------------------------------------------------------------------------- seabed

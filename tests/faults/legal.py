@@ -76,12 +76,7 @@ def flowline(
 
 
 def riser(
-    u: Units,
-    section: Rigid | Flexible,
-    seabed: list[str],
-    *,
-    depth: float = 1000.0,
-    above: Section | None = None,
+    u: Units, section: Rigid | Flexible, seabed: list[str], *, depth: float = 1000.0, above: Section | None = None
 ) -> Model:
     """A flowline of eight elements, and a free hanging catenary above it, which may have a section of its own."""
     points = parts.laid(8, 10.0, 0.03 * section.outer)
@@ -147,9 +142,7 @@ def _both() -> dict[str, tuple[Units, Model]]:
                 u, EXPORT, linear_bed(u, 250.0e3, "0.4, 0.0", f"LATERAL={number(u, 20.0e3, -2, 1)}"), generate=False
             ),
             "suction-zone": riser(
-                u,
-                SCR,
-                linear_bed(u, 120.0e3, more=f"SUCTION={number(u, 15.0e3, -2, 1)}, {number(u, 0.15, 1)}"),
+                u, SCR, linear_bed(u, 120.0e3, more=f"SUCTION={number(u, 15.0e3, -2, 1)}, {number(u, 0.15, 1)}")
             ),
             "spar": _spar(u),
             "pipe-in-pipe": _pipe_in_pipe(u),
@@ -234,13 +227,8 @@ def _single() -> dict[str, tuple[Units, Model]]:
             u,
             FLOWLINE,
             [
-                "*SEABED PROPERTIES",
-                "TYPE=RIGID",
-                "SET=ALL",
-                "FRICTION=0.3, 0.5",
-                "*SEABED PROFILE",
-                "TYPE=SLOPING",
-                "SLOPE=0.5",
+                *("*SEABED PROPERTIES", "TYPE=RIGID", "SET=ALL", "FRICTION=0.3, 0.5", "*SEABED PROFILE"),
+                *("TYPE=SLOPING", "SLOPE=0.5"),
             ],
             slope=0.5,
         ),

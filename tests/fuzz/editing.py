@@ -41,19 +41,7 @@ _OF_DECK = ("documentSymbol", "foldingRange", "formatting", "inlayHint", "codeAc
 _CONTEXT: dict[str, dict[str, object]] = {"references": {"includeDeclaration": True}, "codeAction": {"diagnostics": []}}
 _EDGES: tuple[object, ...] = (None, -1, 2**31, 1e308, "", "x" * 1000, [], {}, True, [[[]]], {"uri": 1}, *_OTHERS)
 _TYPED = (
-    "",
-    "\n",
-    "\r",
-    "\r\n",
-    "$",
-    " ",
-    "1",
-    ",",
-    "=[p]",
-    "\U0001f600",
-    "\ud800",
-    "\udc00",
-    "é",
+    *("", "\n", "\r", "\r\n", "$", " ", "1", ",", "=[p]", "\U0001f600", "\ud800", "\udc00", "é"),
     "C mudline: ignore\n",
 )
 

@@ -36,19 +36,9 @@ KILLED, SURVIVED, IMPOSSIBLE = 1, 0, 3
 SLOW = 1.0
 """Seconds of processor time, traced, beyond which a test is left out."""
 _LAWS = (
-    *(
-        "friction",
-        "suction",
-        "trench",
-        "test_law_borders.py",
-        "test_law_pieces.py",
-        "test_closed_forms.py",
-        "test_damping.py",
-        "test_errors.py",
-        "test_lateral.py",
-    ),
-    *("test_normal_laws.py", "test_plan.py", "test_registered_law.py", "test_soil.py", "test_stiffest.py"),
-    *("test_tangent.py", "test_unloading.py"),
+    *("friction", "suction", "trench", "test_law_borders.py", "test_closed_forms.py", "test_damping.py"),
+    *("test_errors.py", "test_lateral.py", "test_normal_laws.py", "test_plan.py", "test_registered_law.py"),
+    *("test_soil.py", "test_stiffest.py", "test_tangent.py", "test_unloading.py"),
 )
 _RECOVERY = ("recovery", "recovery_rows", "engine")
 PACKAGES = {
@@ -261,11 +251,7 @@ def main() -> None:
     paths, tests = modules_of(given.package)
     runner = Runner(given.package, paths, given.sample, given.seed)
     options = [
-        "--no-cov",
-        "-n0",
-        "-q",
-        "-pno:cacheprovider",
-        "--hypothesis-profile=mutants",
+        *("--no-cov", "-n0", "-q", "-pno:cacheprovider", "--hypothesis-profile=mutants"),
         "--continue-on-collection-errors",
     ]
     raise SystemExit(pytest.main([*options, *tests], plugins=[runner]))

@@ -30,8 +30,7 @@ JSON = {
         "curves samples/flowline-gen.keyxm",
     ),
     "evaluate": (
-        "evaluate -q samples/legacy-flowline.keyxm",
-        "evaluate -q samples/flowline-gen.keyxm --plan",
+        *("evaluate -q samples/legacy-flowline.keyxm", "evaluate -q samples/flowline-gen.keyxm --plan"),
         "evaluate -q samples/scr-touchdown.keyxm --positions samples/positions.csv",
         "evaluate -q samples/linear.keyxm --tension cut",
         "evaluate -q samples/full-cycle.keyxm --positions samples/full-cycle.csv",

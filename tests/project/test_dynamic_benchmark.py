@@ -9,25 +9,15 @@ import pytest
 
 import mudline
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.laws.suction import SuctionLaw, breakout_uplift
 from tests.benchmarks.dynamics.beam import DECKS
 from tests.benchmarks.dynamics.bouncing import TIMES, fall
-from tests.benchmarks.dynamics.chains import CASES, read_chain
+from tests.benchmarks.dynamics.chains import CASES
 from tests.benchmarks.dynamics.limits import EXPLICIT, limits
 from tests.benchmarks.dynamics.page import TABLES
-from tests.benchmarks.dynamics.peers import (
-    CHAINS,
-    CORRECTED,
-    LOWERED,
-    PULLED,
-    REST,
-    for_moordyn,
-    own,
-)
+from tests.benchmarks.dynamics.peers import CHAINS, CORRECTED, LOWERED, PULLED, REST, own
 from tests.benchmarks.dynamics.reference import Reference, Tolerance
 from tests.benchmarks.dynamics.schemes import RUNS, Truth, lifting, look, measure, row
 from tests.benchmarks.dynamics.schemes import TIMES as MOMENTS
-from tests.benchmarks.studies.motion import Forces, History, Motion
 from tests.benchmarks.studies.schemes import SCHEMES
 from tests.benchmarks.tables import FOLDER, Row, column, inserted, load
 
@@ -100,42 +90,6 @@ def test_what_limits_a_step_is_as_in_the_table() -> None:
         )
 
 
-class Raised:
-    """The line in the middle of its suction, which a load raises steadily: heights of its nodes beside that."""
-
-    def __init__(self, speed: float) -> None:
-        self.beam, self.speed = lifting().beam, speed
-        self.mass = self.beam.mass[: self.beam.nodes]
-        lying = self.beam.contact.step(self.beam.start, None, self.beam.contact.initial_state())[1]
-        law = SuctionLaw(*self.beam.contact.input.assigned["suction"].columns)
-        breakout = breakout_uplift(speed, law.depth_factor, law.depth_exponent, law.regularisation)
-        self.height = 0.5 * (law.first_corner[0] + law.second_corner[0]) * breakout[0] - self.beam.start[0, 0]
-        rest = np.zeros(self.beam.nodes)
-        self.load = np.zeros(self.beam.nodes)
-        steady = self.forces(rest, rest, lying)
-        self.load, self.begin = -steady.force, steady.history
-
-    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
-        both = np.concatenate([self.height + position, 0.0 * position])
-        moving = np.concatenate([self.speed + velocity, 0.0 * velocity])
-        beam = self.beam
-        result, after = beam.contact.step(beam.positions(both), beam.velocities(moving), history)
-        return Forces(result.reaction[:, 0] + self.load, position, velocity, after)
-
-
-@pytest.mark.parametrize("scheme", ["velocity-verlet", "central-difference"])
-def test_a_line_raised_as_a_whole_grows_above_the_limit_of_its_suction(scheme: str) -> None:
-    limit = next(float(one[f"{scheme} [s]"]) for one in kept_rows("limits") if one["what"] == "suction, damping")
-    line = Raised(speed=1e-6)
-    for share, grows in ((0.99, False), (1.01, True)):
-        start = np.full(line.beam.nodes, 1e-11)
-        motion = Motion.start(line, 0.0 * start, start, line.begin)
-        for _ in range(600):
-            motion = SCHEMES[scheme].step(line, motion, share * limit).motion
-        # at the limit of damping the growing motion is one of accelerations, with next to no velocity
-        assert (share * limit * np.abs(motion.acceleration).max() > 100.0 * start[0]) == grows
-
-
 def test_what_the_page_says_of_the_chain_holds_in_its_tables() -> None:
     def tensions(depth: int, when: str, source: str, friction: str = "no") -> FloatArray:
         row = next(
@@ -167,13 +121,6 @@ def test_a_chain_comes_out_as_it_is_in_the_table() -> None:
     for found, one in zip(own(case)[0], kept, strict=True):
         assert [str(cell) for cell in found[:4]] == [one[heading] for heading in CHAINS[:4]]
         assert found[4:] == pytest.approx([float(one[heading]) for heading in CHAINS[4:]], rel=1e-6)
-
-
-def test_moordyn_gets_the_seabed_of_its_own_test() -> None:
-    for case in CASES:
-        given = for_moordyn(read_chain(case), case, 200.0, 1e-3)
-        assert given["seabed"] == pytest.approx(1e5, rel=1e-8)
-        assert (given["axial"], given["mass"], given["diameter"], given["friction"]) == (1.674e9, 390.0, 0.252, 0.5)
 
 
 def test_the_bouncing_beam_comes_out_as_it_is_in_the_table() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import zipfile
 from importlib.abc import MetaPathFinder
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -44,19 +43,6 @@ def test_a_package_that_declares_them(site: Path, folder: str, monkeypatch: pyte
     monkeypatch.chdir(site)
     monkeypatch.setattr(sys, "path", [""])
     assert may_declare(GROUP)
-
-
-def test_an_archive_may_hold_a_package(site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    archive = site / "packages.zip"
-    with zipfile.ZipFile(archive, "w") as packed:
-        packed.writestr("chain-1.0.dist-info/METADATA", METADATA)
-        packed.writestr("chain-1.0.dist-info/entry_points.txt", DECLARED)
-    assert not may_declare(GROUP)
-    sys.path.append(str(archive))
-    assert may_declare(GROUP)
-    monkeypatch.undo()
-    monkeypatch.syspath_prepend(archive)
-    assert found()
 
 
 def test_a_finder_of_another_kind_may_know_a_package(site: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,14 +8,11 @@ import sys
 import tarfile
 import tomllib
 import zipfile
-from importlib import metadata
 from pathlib import Path
 
 import pytest
 
-import mudline
 from hatch_build import description
-from mudline.basics.resources import grammar_file
 from tests.helpers.lowest import constraints
 from tests.helpers.processes import TIMEOUT
 
@@ -60,28 +57,10 @@ def wheel_names(wheel: Path) -> set[str]:
     return set(contents(wheel))
 
 
-def test_version_is_that_of_the_metadata() -> None:
-    assert mudline.__version__ == metadata.version("mudline")
-
-
-def test_package_is_typed() -> None:
-    assert (Path(mudline.__file__).parent / "py.typed").is_file()
-
-
-@pytest.mark.parametrize("name", GRAMMAR)
-def test_checkout_finds_its_grammar(name: str) -> None:
-    assert grammar_file(name).samefile(ROOT / "grammar" / name)
-
-
 def test_wheel_holds_every_module(wheel_names: set[str]) -> None:
     source = ROOT / "src"
     modules = {path.relative_to(source).as_posix() for path in (source / "mudline").rglob("*.py")}
     assert modules <= wheel_names
-
-
-def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) -> None:
-    assert {f"mudline/grammar/{name}" for name in (*GRAMMAR, *TABLES)} <= wheel_names
-    assert {"mudline/py.typed", "mudline/language/highlighting/words.json"} <= wheel_names
 
 
 def test_wheel_holds_the_pages_of_rules_and_the_decks_that_examples_stand_on(wheel_names: set[str]) -> None:
@@ -108,15 +87,6 @@ def test_the_description_has_links_to_the_site_that_the_project_names() -> None:
     assert "https://mudline.example/docs/rules/index.html" in targets
     assert "https://mudline.example/docs/project/samples/index.html" in targets
     assert "](https://mudline.example/docs/tutorials/first-deck.html)" in text
-
-
-def test_the_description_of_a_project_without_an_address_has_no_link_that_leads_nowhere(wheel: Path) -> None:
-    (name,) = [name for name in contents(wheel) if name.endswith(".dist-info/METADATA")]
-    metadata_text = contents(wheel)[name].decode()
-    assert "Description-Content-Type: text/markdown\n" in metadata_text
-    assert "Project-URL" not in metadata_text
-    assert "\n# mudline\n" in metadata_text
-    assert "](" not in metadata_text.partition("\n# mudline\n")[2]
 
 
 def test_the_readme_is_short_and_has_a_picture() -> None:

@@ -10,31 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from mudline.basics.patterns import matches, read_pattern
+from mudline.basics.patterns import matches
 from mudline.cli.inputs import GivenDecks
 
 PIECES = [
-    "a",
-    "b",
-    "*",
-    "*",
-    "?",
-    "**",
-    "/",
-    "/",
-    "[ab]",
-    "[a-c]",
-    "[]a]",
-    r"\a",
-    r"\*",
-    "ab",
-    ".x",
-    " ",
-    "!",
-    "#",
-    "[!a]",
-    "./",
-    "\\",
+    *("a", "b", "*", "*", "?", "**", "/", "/", "[ab]", "[a-c]", "[]a]", r"\a", r"\*", "ab", ".x", " ", "!", "#"),
+    *("[!a]", "./", "\\"),
 ]
 FILES, PATHS = 300, 40
 ALONE = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull}
@@ -62,21 +43,6 @@ ALONE = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.
 )
 def test_what_a_pattern_fits(path: str, pattern: str, *, expected: bool) -> None:
     assert matches(path, [pattern]) is expected
-
-
-def test_the_last_pattern_that_fits_counts() -> None:
-    assert matches("a/old.das", ["*.das", "!new.das"])
-    assert not matches("a/new.das", ["*.das", "!new.das"])
-    assert matches("a/new.das", ["!new.das", "*.das"])
-    assert matches("a/new.das", ["a/", "!new.das"])
-
-
-def test_folders_are_told_from_files() -> None:
-    pattern = read_pattern("b/")
-    assert pattern is not None
-    assert pattern.fits("a/b", folder=True)
-    assert not pattern.fits("a/b", folder=False)
-    assert not pattern.fits("a/b/c", folder=True)
 
 
 def git(folder: Path, *words: str, given: str = "") -> set[str]:
@@ -113,6 +79,7 @@ def test_git_says_the_same(tmp_path: Path) -> None:
     assert wrong == []
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("seed", [5, 8, 10, 14])
 def test_git_finds_the_same_decks(tmp_path: Path, seed: int) -> None:
     """In a tree with `.gitignore` files at several depths, of which one is above the folder that is searched."""
@@ -139,8 +106,7 @@ def test_git_finds_the_same_decks(tmp_path: Path, seed: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "pattern",
-    ["*a*a*a*a*a*a*b", "**/a/**/a/**/a/**/b", "a*/*a*/*a*/**/b", "?" * 40 + "*b", "[a-z]*[a-z]*[a-z]*b"],
+    "pattern", ["*a*a*a*a*a*a*b", "**/a/**/a/**/a/**/b", "a*/*a*/*a*/**/b", "?" * 40 + "*b", "[a-z]*[a-z]*[a-z]*b"]
 )
 def test_many_stars_are_no_harm(pattern: str) -> None:
     """The time of a search with all ways to match would outlast every patience."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import cast
 
 import numpy as np
@@ -10,11 +9,10 @@ import pytest
 
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.parameters import Parameters
-from mudline.language.keywords.library.geometric_sets import FlexibleSection, GeometricSets
 from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
-from tests.helpers.samples import SAMPLES, Evaluated, evaluated, penetration, sample, submerged_weight
+from tests.helpers.samples import SAMPLES, Evaluated, evaluated, sample, submerged_weight
 
 # ------------------------------------------------------------------------------------------- steel catenary riser
 
@@ -22,50 +20,6 @@ from tests.helpers.samples import SAMPLES, Evaluated, evaluated, penetration, sa
 @pytest.fixture(scope="module")
 def riser() -> Evaluated:
     return evaluated(sample("scr-touchdown.keyxm"))
-
-
-def test_riser_has_its_elements_and_sets(riser: Evaluated) -> None:
-    scene = riser.scene
-    assert (len(scene.node_ids), len(scene.element_ids)) == (201, 200)
-    sizes = {name: len(ids) for name, ids in scene.sets.items()}
-    assert sizes == {
-        "ALL": 200,
-        "Flowline": 40,
-        "Trench Zone": 100,
-        "Lower Riser": 20,
-        "Upper Riser": 40,
-        "Bare Riser": 120,
-        "Fatigue Hot Spot": 20,
-    }
-    assert set(scene.diameter.tolist()) == {0.27305}
-    assert scene.length == pytest.approx(np.repeat([5.0, 2.0, 5.0, 26.0], [40, 100, 20, 40]), rel=2e-3)
-
-
-@pytest.mark.parametrize(
-    ("curve", "strength", "gradient"), [("Trench Clay", 900.0, 1200.0), ("Flowline Clay", 1800.0, 1500.0)]
-)
-def test_clays_are_sampled_from_the_formula_that_their_comment_names(
-    riser: Evaluated, curve: str, strength: float, gradient: float
-) -> None:
-    clay = riser.scene.curves[curve]
-    expected = [round(penetration(ratio, 0.27305, strength, gradient)) for ratio in clay.ratios.tolist()]
-    assert clay.forces.tolist() == expected
-
-
-def test_riser_weight_in_water() -> None:
-    scene = resolve(sample("scr-touchdown.keyxm"))
-    # pi/4 (0.27305^2 - 0.22225^2) 7850 = 155.1285 kg/m of steel, pi/4 0.27305^2 1025 = 60.0203 kg/m of water
-    assert submerged_weight(scene) == pytest.approx((155.1285 - 60.0203) * 9.81, rel=1e-5)
-
-
-def test_flat_flowline_is_carried(riser: Evaluated) -> None:
-    weight = submerged_weight(riser.scene)
-    flat = slice(0, 31)
-    reaction = riser.result.reaction[flat].sum(axis=0)
-    # 30 elements and the half of the 31st that its first node carries
-    carried = riser.scene.length[:30].sum() + 0.5 * riser.scene.length[30]
-    assert reaction[0] == pytest.approx(weight * carried, rel=3e-3)
-    assert reaction[1:].tolist() == [0.0, 0.0]
 
 
 def test_riser_hangs_in_equilibrium(riser: Evaluated) -> None:
@@ -128,72 +82,6 @@ def test_legacy_line_is_carried_by_each_soil() -> None:
     assert line.result.normal_force.sum() == pytest.approx(weight * 300.0, rel=0.02)
 
 
-def test_legacy_curve_is_sorted() -> None:
-    scene = resolve(sample("legacy-flowline.keyxm"))
-    assert set(scene.curves) == {"CLAY WEST", "SAND", "CLAY EAST"}
-    assert scene.curves["CLAY EAST"].ratios.tolist() == [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5]
-    for name, strength in (("CLAY WEST", 900.0), ("CLAY EAST", 1600.0)):
-        curve = scene.curves[name]
-        expected = [round(penetration(ratio, 0.2191, strength, 1500.0), -1) for ratio in curve.ratios.tolist()]
-        assert curve.forces.tolist() == expected
-    sand = scene.curves["SAND"]
-    assert sand.forces.tolist() == [round(9000.0 * 0.2191**2 * (ratio / 0.037) ** 1.5, -1) for ratio in sand.ratios]
-
-
-def test_imperial_riser() -> None:
-    riser = evaluated(sample("imperial-riser.keyxi"))
-    scene = riser.scene
-    assert scene.units == "imperial"
-    assert (len(scene.node_ids), len(scene.element_ids)) == (94, 93)
-    assert scene.diameter.tolist() == [1.05] * 82 + [1.9] * 11
-    assert [section.source for section in scene.section_table.sections] == ["Dd", "Do"]
-    weight = submerged_weight(scene)  # (3.6 - 1.9888 pi/4 1.05^2) 32.174 lbf/ft
-    assert weight == pytest.approx(60.419, abs=1e-3)
-    assert np.flatnonzero(riser.result.contact).tolist() == list(range(30))
-    ratio = 0.048 / 1.05
-    assert riser.result.force[0:30] == pytest.approx(40.2 + 800.0 * (ratio - 0.02), rel=1e-12)
-    assert riser.result.normal_force.sum() == pytest.approx(weight * 300.0, rel=0.01)
-    _, sections = next(scene.deck.blocks("GEOMETRIC SETS"))
-    bare = cast("GeometricSets", sections).sets[0]
-    assert (bare.ei_curve, bare.compression_check) == ("Bending", "YES")
-    assert isinstance(bare.section, FlexibleSection)
-    assert (bare.section.eiyy, bare.section.eizz, bare.section.gj) == (None, None, 2.6e6)
-
-
-def test_parametric_values() -> None:
-    deck = sample("parametric.keyxm")
-    parameters = Parameters(deck)
-    outer, wall = 10.75 * 0.0254, 0.719 * 0.0254
-    inner = outer - 2 * wall
-    area = math.pi / 4 * (outer**2 - inner**2)
-    weight = (7850.0 * area - 1025.0 * math.pi / 4 * outer**2) * 9.81
-    force = penetration(0.02, outer, 2000.0, 1400.0)
-    expected = {
-        "od": outer,
-        "id": inner,
-        "contents": 0.0,
-        "weight": weight,
-        "su_high": 3.2,
-        "su0": 2.0,
-        "f02": force,
-        "ratio": 0.02 * weight / force,
-        "embedded": 0.02 * weight / force * outer,
-        "friction_axial": 0.4,
-        "friction_lateral": 0.75,
-        "mobilisation_1": 0.01 * outer,
-        "mobilisation_2": 0.5 * outer,
-    }
-    values = {name: parameters.values[name] for name in expected}
-    assert values == pytest.approx(expected, rel=1e-12)
-    assert parameters.values["case folder"] == "Clay Cases"
-    scene = resolve(deck)
-    assert scene.diameter == pytest.approx(outer, rel=1e-15)
-    assert scene.curves["Clay"].forces[[1, -1]] == pytest.approx(
-        [force, penetration(0.5, outer, 2000.0, 1400.0)], rel=1e-12
-    )
-    assert scene.coordinates[-1].tolist()[1:] == [360.0 + 9 * 4.0, 0.0]
-
-
 @pytest.mark.parametrize("soil", [1, 2, 3])
 @pytest.mark.parametrize("flooded", [0, 1])
 def test_every_case_of_the_parametric_deck_is_in_equilibrium(soil: int, flooded: int) -> None:
@@ -210,14 +98,6 @@ def test_every_case_of_the_parametric_deck_is_in_equilibrium(soil: int, flooded:
     assert line.result.gap[line.scene.node_ids == 101] == pytest.approx(-weight / mattress, rel=1e-12)
     on_the_second_segment = [(1, 0), (1, 1), (2, 1)]
     assert (line.result.ratio[0] > 0.02) == ((soil, flooded) in on_the_second_segment)
-
-
-def test_generated_flowline() -> None:
-    line = evaluated(sample("flowline-gen.keyxm"))
-    assert (len(line.scene.node_ids), len(line.scene.element_ids)) == (501, 500)
-    assert line.scene.length == pytest.approx(4.0, rel=1e-12)
-    assert line.result.force == pytest.approx(485.0, rel=1e-12)
-    assert line.result.normal_force.sum() == pytest.approx(submerged_weight(line.scene) * 2000.0, rel=1e-3)
 
 
 def test_lines_deck_gets_its_elements_from_a_file() -> None:

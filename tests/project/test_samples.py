@@ -4,22 +4,17 @@ from __future__ import annotations
 
 import re
 
-import numpy as np
 import pytest
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
 from mudline.language.diagnostics import Severity
-from mudline.model.scene.model import resolve
-from tests.helpers.samples import FAULTY, SAMPLES, sample
+from tests.helpers.samples import FAULTY, SAMPLES
 
 DECKS = sorted(path.name for path in SAMPLES.glob("*.keyx?"))
 CLEAN = [name for name in DECKS if name not in FAULTY]
 
-INFO = {
-    "imperial-riser.keyxi": {"GEO003"},
-    "legacy-flowline.keyxm": {"LEG001", "CRV002"},
-}
+INFO = {"imperial-riser.keyxi": {"GEO003"}, "legacy-flowline.keyxm": {"LEG001", "CRV002"}}
 """What a clean deck may be told beside OFTEN, all of it info."""
 OFTEN = {"TIM005", "GEO010"}
 """A keyword of static runs without effect, and lines with free ends."""
@@ -94,25 +89,6 @@ def found_in(name: str) -> list[tuple[int, str]]:
 # ---------------------------------------------------------------------------------------------------------- as text
 
 
-def test_every_sample_is_there() -> None:
-    assert DECKS == [
-        "broken.keyxm",
-        "flowline-gen.keyxm",
-        "full-cycle.keyxm",
-        "imperial-riser.keyxi",
-        "legacy-flowline.keyxm",
-        "lines-deck.keyxm",
-        "parametric.keyxm",
-        "scr-dynamic.keyxm",
-        "scr-soil.keyxm",
-        "scr-touchdown.keyxm",
-        "scr-vessel-bad.keyxm",
-        "scr-vessel.keyxm",
-        "slope-friction.keyxm",
-        "variations.keyxm",
-    ]
-
-
 @pytest.mark.parametrize("name", DECKS)
 def test_a_sample_begins_with_what_it_shows_and_says_that_it_is_synthetic(name: str) -> None:
     text = (SAMPLES / name).read_text(encoding="utf-8")
@@ -130,10 +106,6 @@ def test_clean_samples_are_told_nothing_or_info(name: str) -> None:
     findings = lint_bytes((SAMPLES / name).read_bytes(), name, select())
     assert {finding.severity for finding in findings} <= {Severity.INFO}
     assert {finding.code for finding in findings} <= INFO.get(name, set()) | OFTEN
-
-
-def test_the_legacy_deck_is_told_of_its_keywords_and_of_its_unsorted_curve() -> None:
-    assert found_in("legacy-flowline.keyxm") == [(54, "LEG001"), (58, "LEG001"), (84, "CRV002"), (97, "TIM005")]
 
 
 def test_each_of_twenty_faults_all_over_a_deck_is_one_finding() -> None:
@@ -165,17 +137,3 @@ def test_no_bad_line_hides_another(line: int) -> None:
     lines[line - 1] = b"C"
     others = {fault for fault in FAULTS if fault[0] != line} - LEANING.get(line, set())
     assert others <= set(found(b"\n".join(lines), "broken.keyxm"))
-
-
-def test_bad_lines_do_not_hide_the_good_ones_beside_them() -> None:
-    scene = resolve(sample("broken.keyxm"))
-    assert sorted(scene.node_ids.tolist()) == list(range(1, 22))
-    assert scene.coordinates[np.argsort(scene.node_ids)][4:7, 1].tolist() == [20.0, 25.0, 30.5]
-    assert scene.element_ids.tolist() == list(range(1, 21))
-    sets = {name: ids.tolist() for name, ids in scene.sets.items()}
-    assert sets["Line"] == [*range(1, 8), *range(11, 18)]
-    assert sets["Crossing"] == [8, 9, 10]
-    assert sets["Spool"] == [18, 19, 20]
-    assert scene.diameter[:7].tolist() == [0.2191] * 7
-    assert scene.curves["Soft Clay"].ratios.tolist() == [0.0, 0.02, 0.1, 0.2]
-    assert scene.law_names[:8] == ["curve:Soft Clay"] * 7 + ["none"]

@@ -30,16 +30,5 @@ def test_a_form_has_what_the_host_asks_for(path: Path) -> None:
     assert all(each["attributes"]["options"] for each in fields if each["type"] == "dropdown")
 
 
-def test_a_fault_comes_with_a_deck_that_gives_nothing_away() -> None:
-    fields = {each["id"]: each for each in form(ROOT / ".github/ISSUE_TEMPLATE/fault.yml")["body"]}
-    assert fields["deck"]["validations"]["required"]
-    assert "--anonymous" in fields["deck"]["attributes"]["description"]
-
-
-def test_a_case_is_named_as_its_page_names_it() -> None:
-    name = form(ROOT / ".github/ISSUE_TEMPLATE/case.yml")["name"]
-    assert f"*{name}*" in (ROOT / "docs/send-a-case.md").read_text(encoding="utf-8").replace("\n", " ")
-
-
 def test_the_citation_is_of_this_version() -> None:
     assert form(ROOT / "CITATION.cff")["version"] == mudline.__version__

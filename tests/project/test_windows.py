@@ -9,7 +9,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from mudline.basics.paths import relative_path
 from tests.cli.runner import ROOT, SAMPLES, run
 
 DECKS = sorted(SAMPLES.glob("*.keyx?"))
@@ -25,13 +24,6 @@ def windows(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
     names = SimpleNamespace(path=path, sep="\\", curdir=".", fspath=str)
     monkeypatch.setattr("mudline.basics.paths.os", names)
     return names
-
-
-@pytest.mark.usefixtures("windows")
-def test_a_path_on_another_drive_is_absolute_and_one_on_the_same_is_relative() -> None:
-    assert relative_path(r"C:\decks\a\b.keyxm", r"C:\decks") == "a/b.keyxm"
-    assert relative_path(r"C:\other\b.keyxm", r"C:\decks") == "../other/b.keyxm"
-    assert relative_path(r"D:\decks\b.keyxm", r"C:\decks") == "D:/decks/b.keyxm"
 
 
 def test_an_archive_holds_decks_of_another_drive(windows: SimpleNamespace, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -76,6 +68,7 @@ def test_a_console_of_one_byte_a_character_shows_everything(
     assert b"\\x" not in outcome.output + outcome.errors
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.name)
 def test_line_ends_of_windows_change_no_finding_and_no_force(
     deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

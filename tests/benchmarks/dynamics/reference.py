@@ -141,11 +141,7 @@ class Reference:
         """Velocities, accelerations, and the powers of hoist, seabed and damping."""
         size = 2 * self.lifting.beam.nodes
         rates, forces = values[size : 2 * size], self._at(time, values)
-        powers = [
-            forces.hoist @ self.lifting.hoist.speed(time),
-            forces.contact @ rates,
-            forces.damping @ rates,
-        ]
+        powers = [forces.hoist @ self.lifting.hoist.speed(time), forces.contact @ rates, forces.damping @ rates]
         return np.concatenate([rates, forces.total / self.lifting.beam.mass, powers])
 
     def _commit(self, time: float, values: FloatArray) -> None:

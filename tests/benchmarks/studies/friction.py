@@ -41,8 +41,8 @@ from mudline.model.contact.laws.suction import (
 )
 from tests.benchmarks.studies.laws import DIAMETER
 from tests.benchmarks.studies.newton import Newton
+from tests.benchmarks.studies.suction import step
 from tests.benchmarks.tables import digits, load, save, table
-from tests.helpers.suction import step
 
 CYCLES, RELEASE = "stability-newton-cycles", "stability-release"
 STARTS = np.linspace(-20.0, 20.0, 101)

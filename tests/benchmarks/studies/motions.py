@@ -29,7 +29,7 @@ from mudline.model.contact.laws.suction import SuctionHistory, SuctionLaw, Sucti
 from mudline.model.curves import ForceCurve
 from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, WEIGHT, CurveLaw, Falling, Law, LinearLaw
 from tests.benchmarks.studies.motion import Forces, History, Motion, System, Trajectory
-from tests.helpers.suction import step
+from tests.benchmarks.studies.suction import step
 
 Rate = Callable[[float, FloatArray], list[float]]
 RUNS = 32

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from mudline.editing.comparison.comparing import compare
-from mudline.editing.comparison.model import Difference
 from mudline.language.deck.loading import load_path
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import ordered_deck
@@ -38,23 +37,11 @@ def test_an_extension_is_told_by_record_and_where_none_says_it_by_element() -> N
     ]
 
 
-def test_a_surface_without_sets_is_said_once() -> None:
-    surface = "$MODEL\n*NODE\n 1, 0, 0\n 2, 0, 1\n*ELEMENT\n 1, 1, 2\n*ELASTIC SURFACE\n 40000.0, 0.35, 0.6\n"
-    found = brief(differences(surface, surface.replace("40000.0, 0.35", "41000.0, 0.4")))
-    properties = "*ELASTIC SURFACE/properties"
-    assert found == [(f"{properties}/stiffness", 40000.0, 41000.0), (f"{properties}/longitudinal", 0.35, 0.4)]
-
-
 def test_a_type_of_all_records_is_said_of_each_once() -> None:
     bed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Pipe\n STIFFNESS=1e4\n"
     lean = ordered_deck().partition("*SEABED PROPERTIES")[0]
     found = brief(differences(lean + bed, lean + bed.replace("ELASTIC", "RIGID")))
     assert found == [("*SEABED PROPERTIES/Pipe/type", "ELASTIC", "RIGID")]
-
-
-def test_a_later_record_of_a_set_replaces_an_earlier_one() -> None:
-    twice = FRICTION + " SET=PIPE\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n"
-    assert between(twice, "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n") == []
 
 
 def test_the_order_of_boundary_conditions_does_not_count() -> None:
@@ -91,11 +78,6 @@ def test_the_order_of_soil_curves_does_not_count() -> None:
     assert found[0][1:] == ([300.0, 0.1], [310.0, 0.1])
 
 
-def test_slopes_and_profiles() -> None:
-    slope = "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=2.0\n"
-    assert ("*SEABED PROFILE/slope", 2.0, 3.0) in between(slope, slope.replace("2.0", "3.0"))
-
-
 @pytest.mark.parametrize("changed", [False, True])
 def test_points_of_a_profile_in_a_file(tmp_path: Path, changed: bool) -> None:
     text = ordered_deck() + "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n"
@@ -128,19 +110,8 @@ def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> 
     assert len(found) == 2 * 2980 + 1
 
 
-def test_units_of_the_decks() -> None:
-    (found,) = differences(ordered_deck(), ordered_deck(), name="b.keyxi")
-    assert found == Difference("changed", "units", "units", "metric", "imperial")
-
-
 def test_values_of_equations_behind_the_model_compare() -> None:
     given = "$PREPROCESSOR\n*PARAMETERS\n x, 0.5\n"
     assert between(given + BOUNDARY, given + BOUNDARY.replace("0.5", "=[x]")) == []
     found = between(given + BOUNDARY.replace("0.5", "=[2*x]"), given + BOUNDARY)
     assert [values[1:] for values in found] == [(1.0, 0.5)]
-
-
-def test_equations_without_a_value_behind_the_model_compare_as_written() -> None:
-    one, other = (BOUNDARY.replace("0.5", f"=[strange({number})]") for number in (1, 2))
-    assert between(one, one) == []
-    assert [values[1:] for values in between(one, other)] == [("=[strange(1)]", "=[strange(2)]")]

@@ -128,29 +128,12 @@ def test_a_largest_characteristic_length_is_the_default_or_counts(units: str, le
     assert (found.differences == []) is same
 
 
-def test_decks_of_one_family_have_no_spelling() -> None:
-    for text in (OLD, NEW):
-        found = compared(text, text.replace("2.5\n", "2.6\n"))
-        assert (len(found.differences), found.spelling) == (1, [])
-    bare = compared(OLD, PIPE_WITH_SETS)
-    assert bare.spelling == []
-    assert bare.differences
-
-
 def test_a_profile_that_both_decks_give_by_its_keyword_is_compared_as_ever() -> None:
     profile = "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={}\n"
     old = PIPE_WITH_SETS + "*ELASTIC SURFACE\n 5e4\n" + profile.format("1.0")
     new = PIPE_WITH_SETS + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5e4\n" + profile.format("1.5")
     assert shown(compared(old, new)) == ["*SEABED PROFILE/slope: 1.0 -> 1.5"]
     assert shown(compared(old, new.replace("1.5", "1"))) == []
-
-
-def test_a_lost_law_is_no_spelling() -> None:
-    """Both families in one deck: the curve of the legacy keyword held before the number."""
-    new = PIPE_WITH_SETS + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5e4\n"
-    old = new + "*EMBEDMENT\n SET=West\n 0, 0\n 0.5, 4000\n"
-    assert shown(compared(old, new))[0] == "elements 1-6/laws: curve -> linear"
-    assert shown(compared(old.replace("SET=West\n 0", "SET=ALL\n 0"), new))[0] == "elements 1-12/laws: curve -> linear"
 
 
 NUMBER = re.compile(r"(?<![\w.+-])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.])")

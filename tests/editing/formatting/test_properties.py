@@ -18,10 +18,8 @@ from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import DeckError, Severity
-from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.mesh import ElementRow, NodeRow
-from mudline.language.keywords.model import Block, Row, record_schema
-from mudline.language.syntax.rows import read_number
+from mudline.language.keywords.model import Row, record_schema
 from mudline.language.syntax.source import Source
 from tests.helpers.builders.keyword_texts import deck_texts, mutated
 from tests.helpers.builders.spellings import numbers
@@ -81,12 +79,6 @@ def test_samples(path: Path, end: bytes, mark: bytes) -> None:
     expected = check(data)
     assert check(mark + data.replace(b"\n", end)) == mark + expected.replace(b"\n", end)
     check(mark + data.replace(b"\n", end).rstrip())
-
-
-@pytest.mark.parametrize("declared", catalogue.block_classes())
-def test_the_example_of_every_keyword(declared: type[Block]) -> None:
-    text = f"$MODEL\n*OCEAN\n 5\n${declared.sections[0]}\n{declared.example}"
-    assert ink(check(text.lower().encode())) == ink(text.encode())
 
 
 @pytest.mark.untraced
@@ -183,14 +175,3 @@ def test_both_ways_give_the_same(text: str, cut: bool) -> None:
         assert laid_out(plain, NodeRow) == laid_out(words, NodeRow)
         other = word_rows("1234567.5, {label}, =[a, b]\n", 4)
         assert laid_out(plain, ElementRow, other) == laid_out(words, ElementRow, other)
-
-
-@given(
-    st.lists(st.lists(numbers.filter(lambda text: read_number(text) is not None), min_size=2, max_size=4), min_size=1)
-)
-@settings(max_examples=20)
-def test_numbers_parted_by_blanks(rows: list[list[str]]) -> None:
-    text = "".join(" \t" + "  ".join(row) + " \r\n" for row in rows)
-    plain = PlainRows.read(text, 4)
-    assert plain is not None
-    assert laid_out(plain, NodeRow) == laid_out(word_rows(text, 4), NodeRow)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from mudline.editing.migration import migrating
-from mudline.editing.migration.migrating import Verdict, migrate, verify
+from mudline.editing.migration.migrating import migrate, verify
 from mudline.editing.migration.rewriting import Rewriting, rewrite
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Span
@@ -52,20 +50,6 @@ def test_elements_that_would_lie_on_another_seabed_are_refused(monkeypatch: pyte
     with pytest.raises(DeckError) as caught:
         migrate(deck_of(TEXT))
     assert "an element would have a law of another kind" in caught.value.diagnostics[0].message
-
-
-def test_the_new_deck_is_where_the_old_one_was_and_has_its_units(tmp_path: Path) -> None:
-    deck = replace(deck_of(TEXT, folder=tmp_path, units="imperial"), source="runs/deck.keyxm")
-    found = migrate(deck)
-    assert (found.deck.units, found.after.deck.units) == ("imperial", "imperial")
-    assert (found.deck.source, found.deck.folder) == ("runs/deck.keyxm", tmp_path)
-
-
-def test_the_proof_says_how_much_it_compared() -> None:
-    """Ten depths of an element with each diameter; of a curve six at and beside points, three within, four beyond."""
-    assert verify(migrate(deck_of(TEXT))) == Verdict(12, 2, 2 * 10, 0, ())
-    curved = verify(migrate(deck_of(TEXT.replace("9.81\n", "9.81\n*EMBEDMENT\n 0, 0\n 1, 5\n"))))
-    assert curved == Verdict(12, 2, 2 * (10 + 6 + 3 + 4), 0, ())
 
 
 def test_a_curve_is_compared_within_its_segments_and_far_beyond_its_ends() -> None:

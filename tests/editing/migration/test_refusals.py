@@ -8,7 +8,6 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import lint_context
 from mudline.checks.registry import rules
 from mudline.editing.migration.migrating import migrate, verify
-from mudline.editing.migration.refusals import superseded_blocks
 from mudline.editing.migration.rewriting import curve_names
 from mudline.language.diagnostics import DeckError
 from tests.helpers.builders.decks import PIPE_WITH_SETS
@@ -92,18 +91,6 @@ def test_a_misspelt_keyword_does_not_soften_a_refusal(text: str, line: int, mess
     assert not any(one.fix for one in lint if one.code == "LEG001")
 
 
-@pytest.mark.parametrize("surface", ["ELASTIC SURFACE", "RIGID SURFACE"])
-def test_surfaces_come_before_curves(surface: str) -> None:
-    deck = deck_of(f"{PIPE_WITH_SETS}{CURVE}*{surface}\n 0.3\n")
-    assert [block.keyword for _, block in superseded_blocks(deck)] == [surface, "EMBEDMENT"]
-
-
-def test_what_lines_may_define_is_no_obstacle() -> None:
-    """A set that only the lines may make is a warning, and its name stays."""
-    found = migrate(deck_of(f"{LINES_DECK}*ELASTIC SURFACE\n 1e4\n{CURVE}"))
-    assert found.content.endswith(b" SET=West\n STIFFNESS=West\n*SEABED STIFFNESS\n CURVE=West\n 0, 0\n 1, 5\n")
-
-
 VARIED = "$PREPROCESSOR\n*VARIATION\n NAME=Soil\n ACTION={}, KEYWORD={}\n"
 
 
@@ -142,12 +129,6 @@ def test_what_has_no_effect_is_no_obstacle(bed: str) -> None:
 def test_decks_that_continue_this_one() -> None:
     with pytest.raises(DeckError, match=r"dynamic.keyxm continues this deck"):
         migrate(deck_of(PIPE_WITH_SETS + SURFACE + "\n"), ["dynamic.keyxm"])
-
-
-def test_a_deck_with_errors_is_left_alone() -> None:
-    with pytest.raises(DeckError) as caught:
-        migrate(deck_of(PIPE_WITH_SETS + SURFACE.replace("1e4", "-1e4") + "\n"))
-    assert [found.code for found in caught.value.diagnostics] == ["SBD010"]
 
 
 def test_default_lengths_of_the_unit_system_are_no_obstacle() -> None:
@@ -196,15 +177,6 @@ def left_out(*lines: str) -> str:
 
 
 NO_STIFFNESS = "*SEABED PROPERTIES\nC stiffness 1e4 left out, as every element is on a curve\n TYPE=ELASTIC\n"
-
-
-@pytest.mark.parametrize("head", [PIPE_WITH_SETS, OF_LINES], ids=["elements", "lines"])
-@pytest.mark.parametrize("name", ["", " SET=ALL\n", " SET=all\n"])
-def test_a_curve_for_all_makes_one_group(head: str, name: str) -> None:
-    curve = name.strip().removeprefix("SET=") or "ALL"
-    assert seabed_after(head, f"{BED}*EMBEDMENT\n{name}{FIRST}") == (
-        NO_STIFFNESS + group(curve, curve) + f"*SEABED STIFFNESS\n CURVE={curve}\n{FIRST}"
-    )
 
 
 def test_curves_for_all_elements_replace_the_stiffness() -> None:
@@ -261,19 +233,3 @@ def test_a_rigid_seabed_without_friction_is_for_all() -> None:
     )
     found = seabed_after(PIPE_WITH_SETS, f"*ELASTIC SURFACE\n , , , , , , 2.0\n*EMBEDMENT\n SET=West\n{FIRST}")
     assert found.startswith(f"*SEABED PROPERTIES\n{left} TYPE=ELASTIC\n SET=West\n STIFFNESS=West\n*SEABED STIFFNESS")
-
-
-def test_blank_lines_stay_where_they_are() -> None:
-    found = seabed_after(
-        PIPE_WITH_SETS, "*ELASTIC SURFACE\n\n 1e4\n  \n 2.5\n*EMBEDMENT\n\n SET=West\n\n 0, 0\n\n 1, 5\n"
-    )
-    assert found == (
-        "*SEABED PROPERTIES\n\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1e4\n SET=West\n STIFFNESS=West\n"
-        "*SEABED PROFILE\n  \n TYPE=SLOPING\n SLOPE=2.5\n"
-        "*SEABED STIFFNESS\n\n CURVE=West\n\n 0, 0\n\n 1, 5\n"
-    )
-
-
-def test_a_surface_without_stiffness_needs_no_comment() -> None:
-    found = seabed_after(PIPE_WITH_SETS, f"*ELASTIC SURFACE\n , 0.3, 0.6\n*EMBEDMENT\n{FIRST}")
-    assert found == f"*SEABED PROPERTIES\n TYPE=ELASTIC\n{group('ALL', 'ALL')}*SEABED STIFFNESS\n CURVE=ALL\n{FIRST}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from mudline.basics.limits import SHOWN_ROWS
 from mudline.editing.variations.planning import plan
 from tests.helpers.builders.decks import varied_deck
 from tests.helpers.builders.scenes import deck_of, only, planned, refused
@@ -54,11 +53,6 @@ def test_without_a_name_decks_are_counted() -> None:
     four = " NAME=v\n PARA=Depth, GEN=1, 12\n"
     found = planned(four, ' DIRECTORY="d e"\n DESCRIPTION=none\n')
     assert [found.decks[0].path, found.decks[11].path] == ["d e/study 01.keyxm", "d e/study 12.keyxm"]
-
-
-def test_no_variation_is_one_deck() -> None:
-    found = planned("", " DESCRIPTION=the deck alone, FILENAME=same\n")
-    assert [(new.path, new.values) for new in found.decks] == [("same.keyxm", {})]
 
 
 @pytest.mark.parametrize(
@@ -209,27 +203,11 @@ def test_combinations_that_cannot_be(combinations: str, column: int, code: str, 
     assert message in found[0].message
 
 
-def test_clashes_are_reported_as_many_times_as_are_shown() -> None:
-    found = refused(varied_deck(" NAME=v\n PARA=Depth, GEN=1, 1000\n", " DESCRIPTION=d, FILENAME=a\n"))
-    assert len(found) == SHOWN_ROWS
-
-
-@pytest.mark.parametrize("names", ["A, a", "\u00c9, \u00e9", "\u00e9, e\u0301"])
-def test_names_that_some_systems_take_for_one(names: str) -> None:
-    found = only(refused(varied_deck(f" NAME=v\n PARA=Folder, VALUE={names}\n", " DESCRIPTION=d, FILENAME=%Folder%\n")))
-    assert "that of the deck with" in found[3]
-
-
 def test_a_file_where_another_deck_needs_a_folder() -> None:
     combinations = " DESCRIPTION=d, SUBDIRECTORY=a.keyxm, FILENAME=b\n DESCRIPTION=e, FILENAME=a\n"
     assert "its name 'a.keyxm' is that of" in only(refused(varied_deck("", combinations)))[3]
     back = " DESCRIPTION=e, FILENAME=a\n DESCRIPTION=d, SUBDIRECTORY=A.keyxm, FILENAME=b\n"
     assert "its name 'A.keyxm/b.keyxm' is that of" in only(refused(varied_deck("", back)))[3]
-
-
-def test_the_list_of_decks_has_its_name_for_itself() -> None:
-    found = only(refused(varied_deck("", " DESCRIPTION=d, FILENAME=Manifest.json\n")))
-    assert "is that of the manifest" in found[3]
 
 
 def test_a_value_that_a_name_needs_and_that_is_none() -> None:
@@ -253,8 +231,3 @@ def test_nothing_to_expand(more: str) -> None:
     found = only(refused(f"$PREPROCESSOR\n*VARIATION\n NAME=a\n{more}"))
     assert found[:3] == ("EXP001", 1, 1)
     assert ("*EXCEL VARIATIONS is not expanded" in found[3]) == bool(more)
-
-
-def test_a_deck_with_errors_is_not_expanded() -> None:
-    assert {found.code for found in refused("$MODEL\n*NODE\n x\n")} == {"SYN003"}
-    assert only(refused(varied_deck("", " DESCRIPTION=d\n").replace("2*Depth", "2*")))[0] == "SYN017"

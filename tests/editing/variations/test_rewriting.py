@@ -166,12 +166,6 @@ def test_all_blocks_of_a_keyword_are_removed_once() -> None:
     assert contents(plan(deck_of(content))) == [BARE.replace("*TOP TENSION\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
 
 
-def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
-    more = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n 0, 0\n 1, 1\nCURVE=b\nCnote\n*OCEAN\n 1\n"
-    found = plan(deck_of(acting("REMOVE, KEYWORD=SEABED STIFFNESS") + more))
-    assert contents(found) == [BARE + "$MODEL\nCnote\n*OCEAN\n 1\n"]
-
-
 @pytest.mark.parametrize(
     ("data", "added"),
     [
@@ -190,11 +184,6 @@ def test_a_block_is_added_behind_the_last_of_its_section(data: bytes, added: str
     (tmp_path / "my block.txt").write_bytes(data)
     found = plan(deck_of(acting('ADD, KEYWORD=TOP TENSION, FILE="my block.txt"'), folder=tmp_path))
     assert contents(found) == [BARE + added]
-
-
-def test_blocks_without_a_file_and_sections_without_a_block() -> None:
-    content = acting("ADD, KEYWORD=NO FRICTION, SECTION=LOAD CASE", "ADD, KEYWORD=FRICTION, SECTION=MODES")
-    assert contents(plan(deck_of(content + "$MODES\n"))) == [BARE + "*NO FRICTION\n$MODES\n*FRICTION\n"]
 
 
 def test_a_file_without_a_last_line_end_gets_one_before_what_is_added() -> None:
@@ -228,11 +217,6 @@ def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) 
     assert found[:3] == ("EXP001", *((1, 1) if "bad.txt" in action else (12, 2)))
 
 
-def test_a_deck_from_nowhere_has_no_files_beside_it() -> None:
-    found = only(refused(acting("ADD, KEYWORD=TOP TENSION, FILE=a.txt")))
-    assert "which came from standard input" in found[3]
-
-
 # ------------------------------------------------------------------------------------------------- other forms, samples
 
 
@@ -249,14 +233,6 @@ def test_a_deck_in_another_form_gives_decks_in_that_form(form: str) -> None:
         again = load_bytes(by_text.content(other), other.path)
         assert read.sections == again.sections
         assert read.source == new.path
-
-
-def test_the_suffix_of_a_name_tells_the_form() -> None:
-    found = plan(
-        deck_of(varied_deck(WAVES, "".join(f" DESCRIPTION=d, FILENAME=%Period%.{end}\n" for end in ("json", "keyx"))))
-    )
-    ends = {new.path: found.content(new)[:1] for new in found.decks}
-    assert ends == {"09.json": b"{", "201.json": b"{", "09.keyx": b"$", "201.keyx": b"$"}
 
 
 @pytest.mark.parametrize("name", ["variations.keyxm", "parametric.keyxm"])

@@ -31,8 +31,7 @@ FRICTION = (
     *("axial_mobilisation", "lateral_mobilisation", "elliptic", "angle"),
 )
 
-each_backend = pytest.mark.parametrize("backend", ["numpy", pytest.param("fast", marks=pytest.mark.covered)])
-"""Compiling takes seconds, and half as long again when it is traced; test_compiled.py meets the lines of the driver."""
+each_backend = pytest.mark.parametrize("backend", ["numpy", "fast"])
 
 # --------------------------------------------------------------------------------------------------------------- chains
 
@@ -267,10 +266,7 @@ def journey(elements: int, steps: int, seed: int) -> tuple[FloatArray, FloatArra
 
 # ----------------------------------------------------------------------------------------------------------- everything
 
-TABLES = (
-    np.array([[0.01, 100.0], [0.1, 400.0], [0.3, 50.0]]),
-    np.array([[0.0, 250.0], [0.5, 250.0]]),
-)
+TABLES = (np.array([[0.01, 100.0], [0.1, 400.0], [0.3, 50.0]]), np.array([[0.0, 250.0], [0.5, 250.0]]))
 """Tabulated resistances of trenches."""
 
 

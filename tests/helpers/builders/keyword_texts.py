@@ -78,26 +78,8 @@ def mutated(draw: st.DrawFn, originals: st.SearchStrategy[bytes]) -> bytes:
 
 
 SHARDS = [
-    *(
-        b"$",
-        b"*",
-        b"=[",
-        b"]",
-        b"{",
-        b"}",
-        b'"',
-        b"/",
-        b",",
-        b"=",
-        b"\r",
-        b"\n",
-        b"\r\n",
-        b"C",
-        b"C ",
-        b"SET=",
-        b"GEN=1,",
-    ),
-    *(b"nan", b"1e400", b"1,5", b"\n$MODEL\n*NODE\n", b"\n*EMBEDMENT\n", b"\nCURVE=x\n", b"\nCabc\n"),
+    *(b"$", b"*", b"=[", b"]", b"{", b"}", b'"', b"/", b",", b"=", b"\r", b"\n", b"\r\n", b"C", b"C ", b"SET="),
+    *(b"GEN=1,", b"nan", b"1e400", b"1,5", b"\n$MODEL\n*NODE\n", b"\n*EMBEDMENT\n", b"\nCURVE=x\n", b"\nCabc\n"),
     *(b"\xef\xbb\xbf", b"\x00"),
 ]
 """Pieces that mean something in a deck."""

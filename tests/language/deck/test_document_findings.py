@@ -14,7 +14,6 @@ from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.library.ocean import Ocean
 
 Document = dict[str, Any]
 
@@ -65,12 +64,6 @@ def test_the_same_is_told_as_of_a_text(document: Document, code: str, line: str,
     assert [(one.code, one.message) for one in again.diagnose(again.problems)] == [(code, found.message)]
 
 
-def test_known_blocks_without_a_model_are_not_told() -> None:
-    blocks: list[Document] = [{"keyword": name, "lines": []} for name in ("HYDRODYNAMIC SETS", "TITLE")]
-    assert told(made(section(OCEAN, *blocks), section({"keyword": "TITLE", "lines": []}, name="NEW THING"))) != []
-    assert told(made(section(OCEAN, *blocks))) == []
-
-
 @pytest.mark.parametrize(
     "document",
     [
@@ -102,32 +95,6 @@ def test_a_list_of_faults_is_not_looked_at_to_its_end(path: str, block: Document
     found = refused(made(section(block)))
     assert 32 < len(found) < 100
     assert found[-1].message.startswith(f"sections[0].blocks[0].{path}[{64 if 'sets' in path else 32}]: not checked")
-
-
-def test_a_list_of_numbers_longer_than_a_part_is_read() -> None:
-    members = [{"elements": list(range(1, 1001))}]
-    deck = read(made(section({"keyword": "ELEMENT SETS", "sets": [{"name": "a", "members": members}]})))
-    assert json.loads(dump(deck, "json"))["sections"][0]["blocks"][0]["sets"][0]["members"] == members
-
-
-def test_raw_lines_of_a_keyword_with_a_model_are_read() -> None:
-    deck = read(made(section({"keyword": "ocean", "lines": ["C a", " 100, 1025", "C b"]}, OCEAN)))
-    ocean = Ocean(depth=100.0, density=1025.0, comments=[Comment(before=0, text=" a")])
-    assert deck.sections[0].blocks == [ocean, Ocean(depth=100.0)]
-    assert dump(deck, "keyword") == "$MODEL\n*OCEAN\nC a\n 100.0, 1025.0\nC b\n*OCEAN\n 100.0\n"
-    assert deck.problems == []
-
-
-def test_faults_and_doubts_of_raw_lines_are_told_at_their_line() -> None:
-    lines = ["C a", " 1x", " 2"]
-    found = refused(made(section({"keyword": "OCEAN", "lines": lines})))
-    assert [(one.code, one.message.partition(":")[0]) for one in found] == [
-        ("DOC002", "sections[0].blocks[0].lines[1]"),
-        ("DOC002", "sections[0].blocks[0].lines[2]"),
-    ]
-    (doubt,) = told(made(section({"keyword": "NODE", "lines": [" 1, 0, 0", "Cold", " 2, 0, 1"]})))
-    assert doubt.code == "SYN013"
-    assert doubt.line == 11
 
 
 @pytest.mark.parametrize("line", ["$MODEL", " *NODE"])
@@ -168,11 +135,6 @@ def test_comments_find_the_place_that_keyword_text_gives_them() -> None:
 def test_half_a_surrogate_pair_is_refused(path: str, document: Document) -> None:
     (found,) = refused(document)
     assert (found.code, found.message.partition(":")[0]) == ("DOC001", path)
-
-
-def test_a_whole_pair_is_a_letter() -> None:
-    deck = load_bytes(json.dumps(made(section(), source="\U0001f30a")).encode(), "a.json")
-    assert deck.source == "\U0001f30a"
 
 
 def test_a_number_of_too_many_digits_is_found() -> None:
@@ -271,10 +233,7 @@ def test_of_several_shapes_the_one_with_its_mandatory_key_is_meant(entry: Docume
 
 @pytest.mark.parametrize(
     ("data", "place"),
-    [
-        (b'{"name": "M\xfcller"}', (1, 12)),
-        (b'\xef\xbb\xbf{\r\n "\xc3\xa4\xc3\xa4": "M\xfcller"}', (2, 10)),
-    ],
+    [(b'{"name": "M\xfcller"}', (1, 12)), (b'\xef\xbb\xbf{\r\n "\xc3\xa4\xc3\xa4": "M\xfcller"}', (2, 10))],
 )
 def test_a_byte_that_is_not_utf8_is_told_where_it_stands(data: bytes, place: tuple[int, int]) -> None:
     for name, form in (("a.json", "JSON"), ("a.yaml", "YAML")):

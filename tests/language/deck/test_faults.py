@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import cast
 
 import pytest
 
-from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.model import Opaque
-from mudline.language.diagnostics import DeckError, Severity
-from mudline.language.keywords.library.preprocessor import Parameters
-from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
+from mudline.language.diagnostics import Severity
+from mudline.language.keywords.library.seabed_curves import SeabedStiffness
 from tests.helpers.builders.scenes import deck_of
 
 Found = tuple[str, int, int]
@@ -54,18 +50,14 @@ IN_MODEL: Faults = [
     (SEABED + " STIFFNESS=a, b\n", [("SYN003", 5, 12)]),
     (
         "*NODE\n 1.5, 0, 0\n 2, 0\n 3, , 5\n 4, 0, x, y\n",
-        [
-            *(("SYN002", 3, 2), ("SYN003", 4, 2), ("SYN003", 5, 4), ("SYN002", 6, 8), ("SYN002", 6, 11)),
-        ],
+        [*(("SYN002", 3, 2), ("SYN003", 4, 2), ("SYN003", 5, 4), ("SYN002", 6, 8), ("SYN002", 6, 11))],
     ),
     ("*NODE\n 9007199254740994, 0, 0\n GEN=1, b\n GEN=1\n", [("SYN002", 3, 2), ("SYN002", 4, 9), ("SYN003", 5, 6)]),
     ("*NODE\n 1, 0.5, 0, 0, 0\n 1 0.5 0 0 0\n", [("SYN003", 3, 2), ("SYN003", 4, 2)]),
     ("*ELEMENT\n 1, 2\n 1, 2, 3, x\n 1, 2, {a\n", [("SYN003", 3, 2), ("SYN002", 4, 11), ("SYN006", 5, 8)]),
     (
         "*ELEMENT SETS\n 1, 2\n SET=a\n GEN=1\n GEN=1,,x\n",
-        [
-            *(("SYN001", 3, 2), ("SYN003", 5, 6), ("SYN003", 6, 8), ("SYN002", 6, 9)),
-        ],
+        [*(("SYN001", 3, 2), ("SYN003", 5, 6), ("SYN003", 6, 8), ("SYN002", 6, 9))],
     ),
     ("*GEOMETRIC SETS\n SET=a\n SET=b\n 1,2,3,4,5,6,7,8,9\n", [("SYN001", 4, 2)]),
     ("*GEOMETRIC SETS\n SET=a, BUOYANCY=D\n 1,2,3,4,5,6,7,8,9\n", [("SYN005", 3, 18)]),
@@ -87,9 +79,7 @@ WHOLE: Faults = [
     ("$LOADCASE\n $WHATEVER\n", [("SYN010", 1, 1), ("SYN010", 2, 2)]),
     (
         "$PREPROCESSOR\n*PARAMETERS\n a, =[1\n b\n c, 1, x\n d, /1, 2\n",
-        [
-            *(("SYN006", 3, 5), ("SYN003", 4, 2), ("SYN003", 5, 2), ("SYN006", 6, 5)),
-        ],
+        [*(("SYN006", 3, 5), ("SYN003", 4, 2), ("SYN003", 5, 2), ("SYN006", 6, 5))],
     ),
     ("$ANALYSIS\n*UNITS\n UNITS=METRICAL\n", [("SYN005", 3, 8)]),
     ("$PREPROCESSOR\n*NODE\n 1, x\n", [("SYN008", 2, 1)]),
@@ -130,14 +120,6 @@ def test_a_bad_line_hides_no_other(bad: str, place: int) -> None:
     assert len([one for one in found if one[1] == 4 + place]) >= 1
 
 
-def test_good_rows_beside_bad_ones_are_read() -> None:
-    deck = deck_of(MODEL + CURVE + " 1, x\n 2, 20\n")
-    _, block = next(deck.blocks("SEABED STIFFNESS"))
-    points = cast("SeabedStiffness", block).curves[0].points
-    assert points.values[[0, 2]].tolist() == [[0.0, 0.0], [2.0, 20.0]]
-    assert points.values[1, 0] == 1.0
-
-
 @pytest.mark.parametrize(
     "line", ["C", "c", "C text", "c lower", "C\ttab", "C---", "C***", "C  =====", "C-- =[ {", "C.. SET=a", "C x, 1"]
 )
@@ -157,24 +139,6 @@ def test_a_c_before_a_letter_is_a_comment_with_a_warning(line: str) -> None:
     assert [(comment.before, comment.text) for comment in curve.comments] == [(1, line[1:])]
 
 
-def test_curve_in_column_one_is_data_where_the_keyword_knows_it() -> None:
-    deck = deck_of(MODEL + "*SEABED STIFFNESS\nCURVE=a\n 0, 0\nCurve = b\n 1, 1\n")
-    assert deck.problems == []
-    _, block = next(deck.blocks("SEABED STIFFNESS"))
-    assert [curve.name for curve in cast("SeabedStiffness", block).curves] == ["a", "b"]
-    assert problems(MODEL + "*EMBEDMENT\nCURVE=a\n 0, 0\n") == [("SYN013", 3, 1)]
-    check = "*GEOMETRIC SETS\n SET=a\n,,,,1,2,3,4,5\nCompression  Check=b\n"
-    assert problems(MODEL + check) == []
-
-
-def test_an_indented_c_is_data() -> None:
-    assert problems(MODEL + CURVE + " C x\n") == [("SYN003", 5, 2)]
-    deck = deck_of("$PREPROCESSOR\n*PARAMETERS\n C x, 1\n C, 2\n")
-    assert deck.problems == []
-    _, block = next(deck.blocks("PARAMETERS", "PREPROCESSOR"))
-    assert [item.name for item in cast("Parameters", block).parameters] == ["C x", "C"]
-
-
 @pytest.mark.parametrize(
     ("line", "stiffness"),
     [
@@ -187,21 +151,6 @@ def test_settings(line: str, stiffness: object) -> None:
     assert deck.problems == []
     _, block = next(deck.blocks("SEABED PROPERTIES"))
     assert block.sets[0].stiffness == stiffness
-
-
-def test_labels_with_commas_hold_together() -> None:
-    deck = deck_of(MODEL + "*ELEMENT SETS\n SET=a\n {x, y}, 3, {z}\n*ELEMENT\n 1, {a, b}, 2\n")
-    assert deck.problems == []
-    assert next(deck.blocks("ELEMENT SETS"))[1].sets[0].members[0].elements == ["{x, y}", 3, "{z}"]
-
-
-@pytest.mark.parametrize(
-    "head", ["*TIME, DISCONNECT", "*time,disconnect", "* Time ,  Disconnect", "\t*TIME ,DISCONNECT  "]
-)
-def test_a_keyword_with_a_comma(head: str) -> None:
-    deck = deck_of(f"  $ load case \n{head}\n any, {{thing\n")
-    assert deck.problems == []
-    assert deck.sections[0].blocks == [Opaque(keyword="TIME,DISCONNECT", lines=[" any, {thing"])]
 
 
 @pytest.mark.parametrize(
@@ -243,11 +192,6 @@ def test_commas_without_a_blank_among_others(text: str, found: list[Found]) -> N
     assert problems(MODEL + text) == found
 
 
-def test_a_row_whose_format_was_misspelt_is_not_judged() -> None:
-    text = MODEL + "*GEOMETRIC SETS\n OPTION=RIDGID\n SET=a\n 1, 2, 3\n"
-    assert problems(text) == [("SYN005", 3, 9)]
-
-
 def test_severities() -> None:
     text = "x\n$MODEL\n*OCEAN\n 1,0, 2,0\nCx\n*NEW THING\n*HYDRODYNAMIC SET\n$NEW\n$LOADCASE\n"
     deck = deck_of(text)
@@ -270,13 +214,6 @@ def test_messages_say_what_to_do(text: str, word: str) -> None:
     assert any(word in message for message in messages(text))
 
 
-def test_a_set_line_that_is_missing() -> None:
-    deck = deck_of(MODEL + "*EMBEDMENT\n 0, 0\n 1, 1\n SET=a\n 0, 0\n 2, 2\n")
-    assert deck.problems == []
-    curves = cast("Embedment", next(deck.blocks("EMBEDMENT"))[1]).curves
-    assert [curve.set_name for curve in curves] == [None, "a"]
-
-
 LIMIT = "needs a whole number of at most 2^53 (9007199254740992)"
 
 
@@ -292,15 +229,3 @@ LIMIT = "needs a whole number of at most 2^53 (9007199254740992)"
 )
 def test_words(lines: str, message: str) -> None:
     assert messages(f"$MODEL\n{lines}") == [message]
-
-
-def test_the_largest_one_is_read() -> None:
-    assert messages("$MODEL\n*NODE\n 9007199254740992, 0.5, 10.0\n GEN=1, 9007199254740992\n") == []
-
-
-def test_documents_say_the_same() -> None:
-    block = {"keyword": "NODE", "entries": [{"nodes": [[1e20, 0.0, 0.0]]}]}
-    document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": [block]}]}
-    with pytest.raises(DeckError) as caught:
-        load_bytes(json.dumps(document).encode(), "deck.json")
-    assert f"1e+20 is too large: node {LIMIT}" in str(caught.value)

@@ -80,8 +80,3 @@ def test_layout_does_not_count(old: str, new: str) -> None:
 def test_what_counts(old: str, new: str) -> None:
     assert DECK.count(old) == 1
     assert not same_meaning(deck(DECK), deck(DECK.replace(old, new)))
-
-
-def test_units_count() -> None:
-    data = DECK.encode()
-    assert not same_meaning(load_bytes(data, "deck.keyxm"), load_bytes(data, "deck.keyxi"))

@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.language.deck.forms.yaml import CoreDumper
@@ -20,15 +20,8 @@ from tests.language.deck.test_round_trips import values
 blocks = st.sampled_from(KEYWORDS).flatmap(lambda keyword: block(keyword).map(lambda made: alone(keyword, made)))
 
 BEYOND_THE_SCHEMA = (
-    "has no model",
-    "takes no",
-    "needs",
-    "opens a section or a block",
-    "too large for double precision",
-    "fields, expected",
-    "field, expected",
-    "lines are given: expected",
-    "is no ",
+    *("has no model", "takes no", "needs", "opens a section or a block", "too large for double precision"),
+    *("fields, expected", "field, expected", "lines are given: expected", "is no "),
 )
 """What the schema does not say: values that must fit one another, where a keyword belongs, what rows in a text hold."""
 
@@ -95,7 +88,6 @@ def read(text: str, form: str) -> Deck | tuple[Diagnostic, ...]:
 
 
 @given(mutants())
-@settings(max_examples=30)
 def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
     made, _ = mutant
     allowed = validator().is_valid(made)
@@ -113,7 +105,6 @@ def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
 
 
 @given(mutants())
-@settings(max_examples=30)
 def test_a_refusal_names_the_place(mutant: tuple[Values, DocumentPath]) -> None:
     made, path = mutant
     for text, form in ((json.dumps(made, indent=1), "json"), (as_yaml_text(made), "yaml")):
@@ -129,7 +120,6 @@ def test_a_refusal_names_the_place(mutant: tuple[Values, DocumentPath]) -> None:
 
 
 @given(blocks, st.data())
-@settings(max_examples=30)
 def test_what_keyword_text_cannot_say_is_refused(made: Values, data: st.DataObject) -> None:
     """Any text in the place of another one is kept to the letter, or the deck is not written."""
     texts = [path for path in paths(made) if path[0] == "sections" and isinstance(at(made, path), str)]

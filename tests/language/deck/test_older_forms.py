@@ -42,14 +42,3 @@ def test_it_is_an_error_in_a_deck_of_the_manual(lines: str, place: str, suffix: 
     first, *_ = deck.diagnose(deck.problems)
     assert (f"{first.line}:{first.column} {first.code}", first.severity.value) == (place, "error")
     assert len(deck.problems) == 1
-
-
-def test_other_faults_stay_faults_in_such_a_deck() -> None:
-    deck = deck_of(MODEL + "$LOAD CASE\n*OFFSET\n VESSEL=Rig\n OPTIN=DIST\n OFFSET=0.0, 12.0\n", "deck.das")
-    assert [one.code.code for one in deck.problems] == ["SYN004"]
-
-
-def test_a_message_offers_no_form_of_other_decks() -> None:
-    deck = deck_of("$LOAD CASE\n*RAO\n VESSEL=Rig\n FILE=rig.rao\n FILE=rig.rao\n 1, 2\n", "deck.keyxm")
-    assert deck.problems
-    assert not any("FIRSTRAO" in one.message for one in deck.problems)

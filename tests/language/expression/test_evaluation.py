@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import pytest
 
@@ -100,12 +99,6 @@ def test_arithmetic(text: str, expected: float) -> None:
 )
 def test_logic(text: str, expected: float) -> None:
     assert value(text) == expected
-
-
-def test_the_manuals_unit_switch() -> None:
-    text = "if(Gravity<10, 500, 500*LengthFactor) "
-    assert value(text, Gravity=9.81, LengthFactor=3.28084) == 500.0
-    assert value(text, Gravity=32.2, LengthFactor=3.28084) == 500 * 3.28084
 
 
 @pytest.mark.parametrize(
@@ -256,12 +249,3 @@ def test_joined_text_is_limited() -> None:
 )
 def test_long_equations(text: str, expected: float) -> None:
     assert value(text) == expected
-
-
-def test_parameters_defined_through_parameters_cost_little_stack() -> None:
-    deep = parse("(" * DEEPEST + "a" + ")" * DEEPEST)
-
-    def chained(level: int) -> Callable[[str], float | str]:
-        return (lambda _: evaluate(deep, chained(level - 1))) if level else (lambda _: 4.0)
-
-    assert evaluate(deep, chained(100)) == 4.0

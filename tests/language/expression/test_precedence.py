@@ -7,7 +7,7 @@ import math
 import operator
 from collections.abc import Callable
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.language.expression.evaluation import evaluate
@@ -86,13 +86,10 @@ def logical(operand: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
 
 ATOMS = st.sampled_from(["0", "1", "2", "3", "0.5", "10.", "1e2", ".25", *PARAMETERS])
 LEVELLED = st.recursive(
-    ATOMS,
-    lambda inner: st.one_of(arithmetic(inner), logical(inner)).map(lambda text: f"({text})"),
-    max_leaves=25,
+    ATOMS, lambda inner: st.one_of(arithmetic(inner), logical(inner)).map(lambda text: f"({text})"), max_leaves=25
 )
 
 
-@settings(max_examples=25)
 @given(st.one_of(arithmetic(LEVELLED), logical(arithmetic(LEVELLED))))
 def test_parts_belong_together_as_in_python(text: str) -> None:
     tree = ast.parse(text, mode="eval").body

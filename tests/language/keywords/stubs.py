@@ -53,10 +53,7 @@ def stubs() -> Mapping[Path, str]:
         ),
     )
     classes = (_imported(entry) for entry in sorted(read, key=lambda one: one.name))
-    return {
-        KEYWORDS: "\n".join(["# ruff: noqa: I001", _MADE, *classes, ""]),
-        TYPED: typed,
-    }
+    return {KEYWORDS: "\n".join(["# ruff: noqa: I001", _MADE, *classes, ""]), TYPED: typed}
 
 
 def _imported(entry: Entry) -> str:

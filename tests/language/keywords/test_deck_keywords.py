@@ -41,12 +41,6 @@ def test_the_example_is_read_without_a_finding_and_goes_through_every_form(decla
         assert dump(deck_of(dump(deck, "keyword")), "keyword") == dump(deck, "keyword")
 
 
-@pytest.mark.parametrize("page", [block.page for block in BLOCKS.values() if block.page])
-def test_a_page_of_the_manual_is_named_as_it_is_there(page: str) -> None:
-    assert page == page.lower()
-    assert page.partition("_")[0] in ("kwd", "theory", "")
-
-
 FAULTS = [
     ("time_stepping|*TIME STEPPING\n TYPE=HILBER-HUGHES\n 0.2\n", "4:2 SBD010"),
     ("time_stepping|*TIME STEPPING\n TYPE=HILBER-HUGHES, P-INFINITY=0.4\n", "2:1 SYN001"),
@@ -189,18 +183,6 @@ def test_every_keyword_that_is_new_has_a_wrong_value() -> None:
     assert of_manual - tried == opaque | older
 
 
-def test_limits_of_a_variable_step() -> None:
-    lines = "*TIME\n STEP=VARIABLE\n 0, 100, 10\n 0.1, 0.01, 1\n 0.2, 0.01, 1, 0.05, 50\n"
-    assert written("time", lines) == {
-        "step": "VARIABLE",
-        "variable": {"start": 0.0, "end": 100.0, "ramp": 10.0},
-        "limits": [
-            {"suggested": 0.1, "least": 0.01, "largest": 1.0},
-            {"suggested": 0.2, "least": 0.01, "largest": 1.0, "length": 0.05, "since": 50.0},
-        ],
-    }
-
-
 def test_a_wave_of_many_periods() -> None:
     lines = "*WAVE-REGULAR\n OPTION=MANY\n 1, 5, 20, 16\n 1, 90, 5, 20, 16\n OPTION=ONE\n 1, 9, 90\n"
     band = {"amplitude": 1.0, "least": 5.0, "largest": 20.0, "number": 16}
@@ -242,26 +224,6 @@ def test_a_key_that_stands_twice_on_a_line_has_a_field_for_each() -> None:
     assert faults(in_section("pip_connection", "*PIP CONNECTION\n GEN=1, 2, GEN=3, 4, GEN=5, 6\n"))[0].startswith(
         "3:22 SYN001 GEN= is given twice"
     )
-
-
-def test_labels_in_a_range_of_held_nodes() -> None:
-    found = written("boundary", "*BOUNDARY\n TYPE=CONSTANT\n GEN={Anchor}, {Touchdown}, 1\n GEN=1, =[last], 2\n")
-    assert found["types"] == [
-        {
-            "type": "CONSTANT",
-            "entries": [{"generate": ["{Anchor}", "{Touchdown}", 1]}, {"generate": [1, "=[last]", 2]}],
-        }
-    ]
-
-
-def test_other_types_of_hydrodynamic_coefficients_are_kept() -> None:
-    block = only(
-        "hydrodynamic_sets",
-        "*HYDRODYNAMIC SETS\n SET=a, TYPE=REYNOLDS\n 1E4, 1.2\n 1E6, 0.7\n SET=b, TYPE=CONSTANT\n 1.0\n",
-    )
-    first, second = block.sets  # type: ignore[attr-defined]
-    assert [line.text for line in first.unread] == [" 1E4, 1.2", " 1E6, 0.7"]
-    assert second.constant.normal_drag == 1.0
 
 
 @pytest.mark.parametrize("title", ["Anchor, axial = EA e, =[x]", "12", '"a, b"', "Heave", "C 1"])

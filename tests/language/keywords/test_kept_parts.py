@@ -73,22 +73,9 @@ def test_a_part_that_is_not_public_is_kept_and_the_others_are_read() -> None:
     assert is_read(only("$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n"))
 
 
-def test_the_parts_that_are_read_are_checked_beside_others() -> None:
-    lines = "$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n 1, two\n TYPE=CONSTANT\n 1, two\n TYPE=OTHER\n x\n"
-    assert [fault.split(":")[0] for fault in faults(lines)] == ["6"]
-
-
 def test_a_type_that_is_nearly_a_known_one_is_told() -> None:
     (told,) = faults("$LOAD CASE\n*BOUNDARY\n TYPE=VESEL\n 12, Semi\n")
     assert told.startswith("3:7 SYN005 'VESEL' is not known for TYPE= (did you mean VESSEL?)")
-
-
-def test_a_document_is_read_as_its_text_is() -> None:
-    deck = deck_of("$LOAD CASE\n*BOUNDARY\n TYPE=VESEL\n 12, Semi\n")
-    again = load_bytes(dump(deck, "json").encode(), "deck.json")
-    assert [problem.message for problem in again.problems] == [problem.message for problem in deck.problems]
-    known = dump(deck, "json").replace("VESEL", "CONSTANT").replace("Semi", "2")
-    assert list(kept_lines(load_bytes(known.encode(), "deck.json").sections[0].blocks[0])) == []
 
 
 def test_lines_of_an_open_block_that_are_certainly_wrong_are_told() -> None:

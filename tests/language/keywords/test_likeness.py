@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-import mudline
 from mudline.language.diagnostics import Severity
-from mudline.language.keywords.catalogue import meant_in, meant_section, suggest_keyword
+from mudline.language.keywords.catalogue import meant_section, suggest_keyword
 from tests.helpers.builders.scenes import deck_of
 
 TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"
@@ -50,11 +47,6 @@ def test_the_section_that_was_meant(written: str, meant: str) -> None:
     assert meant_section(written) == meant
 
 
-def test_a_keyword_of_another_section_may_be_a_slip() -> None:
-    assert meant_in("ELEMENT SET", "MODEL") == "ELEMENT SETS"
-    assert meant_in("STATISTICS", "MODEL") == ""
-
-
 def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
     deck = deck_of(f"{TABLE}*NODE  (6 nodes)\n 1, 0.0, 0.0\n")
     (found,) = [problem for problem in deck.problems if problem.code.code == "SYN009"]
@@ -87,15 +79,6 @@ def test_a_keyword_is_meant_whose_lines_these_may_be(lines: str, told: str, seve
     assert found.message == f"keyword {keyword} is not known{told}: it is passed through unchanged"
     assert found.weight is severity
     assert (found.repair is not None) == (severity is Severity.WARNING)
-
-
-def test_sets_of_a_misplaced_keyword_are_there(tmp_path: Path) -> None:
-    text = f"{TABLE}*ELEMENT SET\n SET=Clay\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Clay\n STIFFNESS=1.0E4\n"
-    deck = tmp_path / "deck.keyxm"
-    deck.write_text(text, encoding="utf-8")
-    found = {one.code: one.severity for one in mudline.lint(deck)}
-    assert found["SYN008"] is Severity.ERROR
-    assert "REF001" not in found
 
 
 @pytest.mark.parametrize("number", ["85 000.0", "1 250", "-2'500.5", "1_000_000"])

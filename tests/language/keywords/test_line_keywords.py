@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.language.deck.loading import dump
-from mudline.language.deck.model import Opaque
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
-from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names, OpaqueKeyword
 from tests.helpers.builders.scenes import deck_of, faults
 from tests.helpers.builders.spellings import no_head, texts
 from tests.language.deck.test_forms import held
 
 OPAQUE = [kept for kept in catalogue.opaque_keywords() if kept.sections == ("MODEL",)]
-MODELLED = (LineSectionGroups, LinePathSections)
 
 GROUPS = """\
 $MODEL
@@ -53,13 +49,6 @@ def block(text: str) -> dict[str, object]:
 # ------------------------------------------------------------------------------------------------------------- models
 
 
-@pytest.mark.parametrize("declared", MODELLED)
-def test_examples(declared: type[Block]) -> None:
-    text = "$MODEL\n" + declared.example
-    assert dump(deck_of(text), "keyword") == text
-    assert list(block(text)) != []
-
-
 def test_groups() -> None:
     joint: dict[str, object] = {
         "section": {"set": "Pipe Joint", "length": "=[length]"},
@@ -81,17 +70,6 @@ def test_paths() -> None:
     assert block(PATHS) == {"paths": [{"line": "Flowline", "sections": [start, end]}, {"line": "Jumper"}]}
 
 
-@pytest.mark.parametrize("text", [GROUPS, PATHS])
-def test_written_as_read(text: str) -> None:
-    assert dump(deck_of(text), "keyword") == text
-
-
-def test_mesh_before_the_additional_sets() -> None:
-    before = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n 0.5\n ADDITIONAL=c,\n"
-    after = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n ADDITIONAL=c\n 0.5\n"
-    assert dump(deck_of(before), "keyword") == after
-
-
 @pytest.mark.parametrize(
     ("lines", "fault"),
     [
@@ -99,22 +77,13 @@ def test_mesh_before_the_additional_sets() -> None:
             "*LINE SECTION GROUPS\n SECTION=a, 1\n",
             "3:2 SYN001 expected NAME= before this line: write NAME= and its value above it",
         ),
-        (
-            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n",
-            "4:10 SYN003 2 fields expected (`set, length`), found 1",
-        ),
+        ("*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n", "4:10 SYN003 2 fields expected (`set, length`), found 1"),
         (
             "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n 1, 2, 3, 4\n",
             "5:2 SYN003 0 to 3 fields expected (`[start] [, longest] [, end]`), found 4",
         ),
-        (
-            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n ADDITIONAL= ,\n",
-            "5:2 SYN003 ADDITIONAL= has no value",
-        ),
-        (
-            "*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n",
-            "4:10 SYN003 set is missing",
-        ),
+        ("*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n ADDITIONAL= ,\n", "5:2 SYN003 ADDITIONAL= has no value"),
+        ("*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n", "4:10 SYN003 set is missing"),
         (
             "*LINE PATH SECTIONS\n LINE=x\n SECTION=a, 0, 1, REPAT=g\n",
             "4:19 SYN004 REPAT= does not belong on this line (did you mean REPEAT?): expected SECTION=, REPEAT=",
@@ -127,12 +96,6 @@ def test_mesh_before_the_additional_sets() -> None:
 )
 def test_faults(lines: str, fault: str) -> None:
     assert fault in faults("$MODEL\n" + lines)
-
-
-def test_blocks_with_faults_keep_what_could_be_read() -> None:
-    deck = deck_of("$MODEL\n*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n SECTION=b, 2.0\n")
-    (_, found), *_ = deck.blocks("LINE SECTION GROUPS")
-    assert [section.section.set_name for section in found.groups[0].sections] == ["a", "b"]
 
 
 # --------------------------------------------------------------------------------------------------------------- kept
@@ -151,27 +114,8 @@ def test_what_a_kept_keyword_says_of_itself(kept: OpaqueKeyword) -> None:
     assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.name_settings.values())
 
 
-@pytest.mark.parametrize("kept", OPAQUE, ids=lambda kept: kept.keyword)
-def test_examples_of_kept_keywords(kept: OpaqueKeyword) -> None:
-    text = "$MODEL\n" + kept.example
-    deck = deck_of(text)
-    assert deck.problems == []
-    assert deck.sections[0].blocks == [Opaque(keyword=kept.keyword, lines=kept.example.splitlines()[1:])]
-    assert dump(deck, "keyword") == text
-
-
-def test_other_keywords_are_not_kept_with_a_module() -> None:
-    assert catalogue.opaque_keyword("MODEL", "P-X") is None
-    assert catalogue.opaque_keyword("LOAD CASE", "LINES") is None
-    assert [one.keyword for one in catalogue.opaque_keywords() if "LOAD CASE" in one.sections] == [
-        "TITLE",
-        "NO FRICTION",
-    ]
-
-
 @given(st.sampled_from([kept.keyword for kept in OPAQUE]), st.lists(texts, max_size=5))
 @example("LINES", ["\ufeff$"])
-@settings(max_examples=50)
 def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:
     text = f"$MODEL\n*{keyword}\n" + "".join(f"{no_head(line)}\n" for line in lines)
     deck = deck_of(text)

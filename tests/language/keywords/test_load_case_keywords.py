@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import is_read
 from tests.helpers.builders.scenes import deck_of, faults
-from tests.helpers.builders.spellings import cased, equations, idents, names, reals, rows, setting, whole_fields
 from tests.language.deck.test_forms import held
 
 KEYWORDS = ("P-Y", "T-Z", "RESTART", "TIME", "BOUNDARY", "FRICTION")
@@ -28,27 +25,11 @@ def values(section: str, lines: str) -> dict[str, object]:
     return found.model_dump(mode="json", exclude_defaults=True)
 
 
-@pytest.mark.parametrize("keyword", KEYWORDS)
-def test_examples(keyword: str) -> None:
-    declared = catalogue.declarations(keyword)[0]
-    for section in declared.sections:
-        assert values(section, declared.example) != {}
-        assert catalogue.block_class(section, declared.model_fields["keyword"].default) is declared
-
-
 def test_friction_belongs_in_two_sections() -> None:
     assert catalogue.sections_of("FRICTION") == ("LOAD CASE", "MODES")
     assert len(catalogue.declarations("FRICTION")) == 1
     assert faults("$MODEL\n*FRICTION\n 1.0, 2.0\n")[0].startswith("2:1 SYN008 *FRICTION does not belong in $MODEL")
     assert values("MODES", "*FRICTION\n ,250\n") == {"transverse": 250.0}
-
-
-def test_no_friction_is_kept_wherever_it_stands() -> None:
-    assert catalogue.sections_of("NO FRICTION") == ()
-    for section in ("LOAD CASE", "MODEL", "MODES"):
-        deck = deck_of(f"${section}\n*NO FRICTION\n")
-        assert deck.problems == []
-        assert isinstance(deck.sections[0].blocks[0], Opaque)
 
 
 def test_soil_springs() -> None:
@@ -90,30 +71,6 @@ def test_boundary() -> None:
     assert found == {"types": [{"type": "CONSTANT", "entries": entries, "comments": [{"before": 4, "text": " below"}]}]}
 
 
-def test_a_degree_of_freedom_is_written_as_a_whole_number() -> None:
-    text = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n GEN=1, 9, 2, 3\n GEN=1, 9, 2, 6, 0.0\n"
-    assert dump(deck_of(text), "keyword") == text
-
-
-def test_a_wrong_number_of_values_in_a_known_form_is_told() -> None:
-    head = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
-    assert faults(head + " 1\n")[0].startswith("4:2 SYN003 2 to 3 fields expected (`node, dof [, value]`)")
-    assert faults(head + " 1, two\n")[0].startswith("4:5 SYN002 'two' is not a number")
-
-
-def test_time() -> None:
-    assert values("LOAD CASE", "*TIME\n STEP=FIXED\n 0, 100, , 10\n") == {
-        "step": "FIXED",
-        "fixed": {"start": 0.0, "end": 100.0, "ramp": 10.0},
-    }
-
-
-def test_restart() -> None:
-    lines = '*RESTART\n TYPE=CONTINUATION, LAST="a, b", OPTION=APPEND\n'
-    assert values("LOAD CASE", lines) == {"last": '"a, b"', "type": "CONTINUATION", "option": "APPEND"}
-    assert faults("$LOAD CASE\n*RESTART\n LAST=\n") == ["3:2 SYN003 LAST= has no value"]
-
-
 FAULTS = [
     ("*BOUNDARY\n 1, 2\nC between\n", ["3:2 SYN001 expected TYPE= before this line"]),
     ("*BOUNDARY\n TYP=CONSTANT\n", ["3:2 SYN004 *BOUNDARY has no setting TYP= (did you mean TYPE?)"]),
@@ -142,12 +99,9 @@ def test_faults_of_a_known_form_are_told(lines: str, expected: Lines) -> None:
 
 KEPT = [
     "LOAD CASE|*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n TYPE=VESSEL\n VESSEL=Semi\n 201, 1\n",
-    "LOAD CASE|*BOUNDARY\n TYPE=SINUSOIDAL, AMPLITUDE=2\n 1\n",
-    "LOAD CASE|*RESTART\n FROM=static\n",
-    "MODES|*FRICTION\n MODE=1\n",
-    "MODEL|*P-Y\n TYPE=SAND\n SET=Pile\n 35.0, 10.0\n",
-    "MODEL|*P-Y\n Clay above the pile\n",
-    "MODEL|*T-Z\n TYPE=USER\n SET=Pile\n",
+    *("LOAD CASE|*BOUNDARY\n TYPE=SINUSOIDAL, AMPLITUDE=2\n 1\n", "LOAD CASE|*RESTART\n FROM=static\n"),
+    *("MODES|*FRICTION\n MODE=1\n", "MODEL|*P-Y\n TYPE=SAND\n SET=Pile\n 35.0, 10.0\n"),
+    *("MODEL|*P-Y\n Clay above the pile\n", "MODEL|*T-Z\n TYPE=USER\n SET=Pile\n"),
 ]
 
 
@@ -160,71 +114,4 @@ def test_a_form_that_is_not_public_is_kept_without_a_finding(case: str) -> None:
     (block,) = deck.sections[0].blocks
     assert isinstance(block, Opaque) or not is_read(block)
     assert dump(deck, "keyword") == text
-    held(deck)
-
-
-# ---------------------------------------------------------------------------------------------------------- generated
-
-
-@st.composite
-def boundary(draw: st.DrawFn) -> Lines:
-    relative = st.sampled_from(["", ", FIXATION=RELATIVE", " ,Fixation = Relative"])
-    lines = [draw(setting("TYPE", draw(cased("CONSTANT"))))]
-    for _ in range(draw(st.integers(0, 4))):
-        if draw(st.booleans()):
-            fields = [draw(idents), draw(whole_fields), *draw(st.lists(st.one_of(reals, st.just("")), max_size=1))]
-            lines.append(" " + draw(rows(fields)).strip() + draw(relative))
-        else:
-            wholes = draw(st.lists(whole_fields, min_size=3, max_size=4))
-            value = [draw(reals)] if len(wholes) == 4 and draw(st.booleans()) else []
-            lines.append(draw(setting("GEN", ", ".join([*wholes, *value]))) + draw(relative))
-    return lines
-
-
-@st.composite
-def springs(draw: st.DrawFn) -> Lines:
-    lines: Lines = []
-    for name in draw(st.lists(names, max_size=2)):
-        lines += [draw(setting("SET", name))]
-        for _ in range(draw(st.integers(0, 2))):
-            key, value = draw(st.sampled_from([("DEPTH", draw(reals)), ("NODE", draw(idents))]))
-            lines += [draw(setting(key, value))]
-            lines += [draw(rows([draw(reals), draw(reals)])) for _ in range(draw(st.integers(0, 3)))]
-    return lines
-
-
-@st.composite
-def restart(draw: st.DrawFn) -> Lines:
-    extra = draw(st.sampled_from(["", ", TYPE=DYNAMIC", ", type=CONTINUATION, Option=APPEND"]))
-    return [draw(setting("LAST", draw(names))) + extra]
-
-
-@st.composite
-def friction(draw: st.DrawFn) -> Lines:
-    return [draw(rows([draw(st.one_of(reals, equations)), draw(reals)]))]
-
-
-@st.composite
-def time(draw: st.DrawFn) -> Lines:
-    return [draw(setting("STEP", "FIXED")), draw(rows([draw(reals) for _ in range(draw(st.integers(2, 4)))]))]
-
-
-BLOCKS = {
-    "LOAD CASE|BOUNDARY": boundary(),
-    "LOAD CASE|RESTART": restart(),
-    "LOAD CASE|TIME": time(),
-    "MODES|FRICTION": friction(),
-    "MODEL|P-Y": springs(),
-    "MODEL|T-Z": springs(),
-}
-
-
-@settings(max_examples=30)
-@given(st.sampled_from(sorted(BLOCKS)).flatmap(lambda name: st.tuples(st.just(name), BLOCKS[name])))
-def test_round_trips(drawn: tuple[str, Lines]) -> None:
-    name, lines = drawn
-    section, keyword = name.split("|")
-    deck = deck_of("\n".join([f"${section}", f"*{keyword}", *lines, ""]))
-    assert [str(found) for found in deck.diagnose(deck.problems)] == []
-    assert not isinstance(deck.sections[0].blocks[0], Opaque)
     held(deck)

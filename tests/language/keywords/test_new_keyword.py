@@ -12,15 +12,12 @@ from lark.load_grammar import load_grammar
 from mudline.checks.engine import lint_bytes
 from mudline.checks.recovery import lines
 from mudline.checks.registry import rules
-from mudline.editing.comparison.comparing import compare
-from mudline.language.deck.document import json_schema
 from mudline.language.deck.forms.json import read, to_json
 from mudline.language.deck.forms.keyword import to_keyword
 from mudline.language.deck.loading import load_bytes
 from mudline.language.keywords import catalogue, index, library
 from mudline.language.keywords.catalogue import suggest_keyword
 from mudline.language.syntax import grammars
-from mudline.model.scene.model import resolve
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_page
 from tests.helpers.builders.decks import CLAY, PIPE, STEEL
@@ -121,10 +118,6 @@ def test_values_are_checked() -> None:
     assert found(" SET=ALL\n SPACING=far\n") == [("SYN002", 2)]
 
 
-def test_an_extension_is_none_of_flexcom() -> None:
-    assert found(" SET=ALL\n", dialect="flexcom") == [("SBD018", 0)]
-
-
 def test_an_extension_needs_an_elastic_seabed() -> None:
     told = lint_bytes(f"{PIPE}*{NAME}\n SET=ALL\n".encode(), "deck.keyxm", rules())
     assert "EXT001" in [each.code for each in told]
@@ -142,12 +135,6 @@ def test_every_form() -> None:
     assert to_keyword(deck).endswith(f"*{NAME}\n SET=ALL\n SPACING=12.0\n")
 
 
-def test_schema() -> None:
-    definition = json_schema()["$defs"]["SeabedAnchor"]
-    assert definition["description"] == "Anchors by element set (extension)."
-    assert set(json_schema()["$defs"]["AnchorSet"]["properties"]) >= {"set", "curve", "file", "spacing"}
-
-
 def test_page() -> None:
     page = keyword_page(catalogue.declarations(NAME)[0])
     assert f"# `*{NAME}`" in page
@@ -155,13 +142,3 @@ def test_page() -> None:
     assert all(f"[{code}](../rules/{code}.md)" in page for code in ("EXT001", "REF001", "SBD010"))
     assert "along the line" in page
     assert f"`*{NAME}`" in keyword_index()
-
-
-def test_diff() -> None:
-    before, after = (
-        resolve(load_bytes((DECK + f" SET=all\n SPACING=9.0\n SET=ALL\n SPACING={spacing}\n").encode(), "deck.keyxm"))
-        for spacing in (12.0, 13.0)
-    )
-    assert [(each.where, each.before, each.after) for each in compare(before, after)] == [
-        (f"*{NAME}/ALL/spacing", 12.0, 13.0),
-    ]

@@ -96,11 +96,6 @@ def test_a_missing_comma_is_one_finding(row: str, meant: str) -> None:
     assert (report.changed or b"").decode().splitlines()[4].startswith(" 1, -0.02, 0.0")
 
 
-def test_a_missing_comma_in_a_line_of_one_row() -> None:
-    deck = DECK.format("500.0", "-0.02", "").replace("500.0, 1025.0", "500.0 1025.0")
-    assert told_by_every_command(deck) == ["a comma is missing between 500.0 and 1025.0: write 500.0, 1025.0"]
-
-
 def test_blanks_that_are_no_missing_comma() -> None:
     grouped = DECK.format("500.0", "1 000", "")
     assert messages(grouped) == ["5:5 '1 000' is not a number because its digits are grouped: write 1000 for x"]

@@ -18,7 +18,6 @@ import pytest
 import mudline
 from mudline.language.keywords import catalogue, index
 from mudline.language.keywords.names_only import NAMES
-from mudline.language.keywords.naming import set_slots
 from tests.language.keywords.index import INDEX, index_text
 from tests.language.keywords.stubs import stubs
 
@@ -126,17 +125,6 @@ def test_a_keyword_of_which_only_the_name_is_known_imports_nothing() -> None:
     )
     ran = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
     assert ran.stdout == "[]\n"
-
-
-def test_facts_fit_each_other() -> None:
-    blocks = catalogue.block_classes()
-    newer = {successor.keyword for block in blocks for successor in block.facts.superseded_by}
-    assert newer == {block.model_fields["keyword"].default for block in blocks if block.facts.supersedes}
-    for block in blocks:
-        assert ("(extension)" in block.summary) == block.facts.extension
-        assert ("superseded by" in block.summary) == bool(block.facts.superseded_by)
-        assert {*block.facts.carried} <= set(block.model_fields)
-        assert not block.facts.later_wins or set_slots(block)
 
 
 def test_a_keyword_may_mean_other_things_in_other_sections() -> None:

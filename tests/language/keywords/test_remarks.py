@@ -10,7 +10,6 @@ from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import Severity
 from mudline.language.keywords.text import advice_on, remark_of
 from tests.helpers.growth import FOURFOLD, TWOFOLD, call_growth, growth
 
@@ -66,20 +65,6 @@ def test_names_with_remarks_are_told_so() -> None:
     assert ("REF001", 15, 6, f"set 'ALL  ! everything' is not defined: {ADVICE}") in found
     found = told(DECK.replace("85000.0", "Clay ! soft"))
     assert ("REF002", 16, 12, f"curve 'Clay ! soft' is not defined: {ADVICE}") in found
-
-
-def test_a_fault_before_the_remark_alone_is_told_as_it_is() -> None:
-    deck = load_bytes(DECK.replace(" 2, 0.0, 25.0", " 2, zero, 25.0 {a ! b}").encode(), "a.keyxm")
-    assert [problem.code.code for problem in deck.problems] == ["SYN002", "SYN002"]
-    deck = load_bytes(DECK.replace(" 2, 0.0, 25.0", " 2, zero, 25.0 ! b").encode(), "a.keyxm")
-    assert [problem.code.code for problem in deck.problems] == ["SYN002"]
-
-
-def test_a_doubt_about_a_label_does_not_hide_an_error() -> None:
-    deck = load_bytes(b"$MODEL\n*ELEMENT SETS\n SET=A\n x ! a, 1.5\n", "a.keyxm")
-    assert [(one.code.code, one.weight) for one in deck.problems] == [("SYN002", Severity.ERROR)]
-    deck = load_bytes(b"$MODEL\n*ELEMENT SETS\n SET=A\n x ! a\n", "a.keyxm")
-    assert [(one.code.code, ADVICE in one.message) for one in deck.problems] == [("SYN016", True)]
 
 
 @pytest.mark.parametrize("line", ["! all", "Pipe #2", "a!b", '"a ! b"', "{a ! b}", "=[a ! b]", "Pipe ! 2", "Pipe"])

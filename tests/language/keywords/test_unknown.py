@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import copy
 import math
-import pickle
 from typing import cast
 
 import pytest
@@ -13,7 +11,7 @@ from mudline.language.deck.loading import load_bytes
 from mudline.language.keywords.library.seabed_curves import SeabedStiffness
 from mudline.language.keywords.library.seabed_properties import SeabedProperties
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, is_partly_unknown, is_unknown, known_name
+from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME
 from tests.checks.findings import found
 
 HEAD = "$MODEL\n"
@@ -36,18 +34,6 @@ def test_it_is_neither_absent_nor_a_number() -> None:
     assert (list(UNKNOWN), len(UNKNOWN)) == ([], 0)
     assert (repr(UNKNOWN), repr(UNKNOWN_NAME), UNKNOWN_NAME) == ("UNKNOWN", "UNKNOWN_NAME", "")
     assert not hasattr(UNKNOWN, "__wrapped__")
-
-
-@pytest.mark.parametrize("value", [UNKNOWN, UNKNOWN_NAME])
-def test_there_is_one(value: object) -> None:
-    assert copy.deepcopy(value) is value
-    assert pickle.loads(pickle.dumps(value)) is value  # noqa: S301 - our own
-    assert is_unknown(value)
-    assert is_partly_unknown(value)
-
-
-def test_a_name_is_known_unless_it_could_not_be_read() -> None:
-    assert (known_name("A"), known_name(None), known_name(UNKNOWN_NAME)) == ("A", None, None)
 
 
 @pytest.mark.parametrize(
@@ -84,19 +70,9 @@ def test_a_field_of_a_table_is_unknown_where_it_has_no_word() -> None:
     assert table(" 0, 0\n#\n").unknown
 
 
-def test_a_trench_with_a_row_that_cannot_be_read_is_checked() -> None:
-    lines = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.4, 0.8, 2.0\n PEAK=950.0\n#\n"
-    assert {code for code, _, _ in found(HEAD + lines)} >= {"SYN003"}
-
-
 def test_what_can_be_said_is_said_beside_a_row_that_cannot_be_read() -> None:
     text = HEAD + "*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.2, 100.0\n 0.2, 300.0\n 0.3, 4x0.0\n 0.5, 900.0\n"
     assert found(text, "CRV003", "SYN002") == [("CRV003", 6, 2), ("SYN002", 7, 7)]
-
-
-def test_a_force_at_ratio_zero_is_told_beside_a_point_that_cannot_be_read() -> None:
-    text = HEAD + "*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 10.0\n 0.2, 100.0\n 0.3, 4x0.0\n 0.5, 900.0\n"
-    assert found(text, "CRV007", "SYN002") == [("CRV007", 4, 2), ("SYN002", 6, 7)]
 
 
 @pytest.mark.filterwarnings("ignore:Pydantic serializer warnings")

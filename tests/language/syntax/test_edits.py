@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.language.diagnostics import Span
@@ -98,7 +98,6 @@ _texts = st.text("ab\r\n\xe9", max_size=12)
 
 
 @given(st.lists(st.tuples(_texts, _texts, _texts), max_size=6), _texts, st.randoms(use_true_random=False))
-@settings(max_examples=100)
 def test_a_text_is_its_kept_pieces_and_the_new_ones(
     pieces: list[tuple[str, str, str]], last: str, shuffled: Random
 ) -> None:
@@ -138,6 +137,8 @@ def one_by_one(span: Span, edits: list[TextEdit]) -> Span:
 
 
 @given(some_edits(), st.integers(0, 60), st.integers(0, 20))
+@example([edit(10, 10, "x")], 9, 1)  # it ends where the new text begins
+@example([edit(10, 10, "x\n")], 10, 0)
 def test_places_of_an_edited_text_are_led_back(edits: list[TextEdit], start: int, length: int) -> None:
     place, undoing = Span(start, start + length), Undoing(reversed(edits))
     assert undoing.before(place) == one_by_one(place, edits)

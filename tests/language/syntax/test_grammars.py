@@ -78,10 +78,3 @@ def test_tables_of_another_lark_class_or_grammar_are_not_read(folder: Path, at: 
     saved[-1] = dict.fromkeys(saved[-1], b"")
     (folder / "blocks.tables").write_bytes(pickle.dumps(tuple(saved)))
     assert by_ours() == by_plain_lark()
-
-
-def test_tables_without_the_class_that_they_name_are_not_read(folder: Path) -> None:
-    """As an older version wrote them: what they hold may name a class that has moved since."""
-    version, _, text, tables = pickle.loads(grammars.save_tables("blocks").read_bytes())  # noqa: S301 - as above
-    (folder / "blocks.tables").write_bytes(pickle.dumps((version, text, dict.fromkeys(tables, b""))))
-    assert by_ours() == by_plain_lark()

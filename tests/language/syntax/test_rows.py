@@ -8,50 +8,18 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.language.diagnostics import Span
 from mudline.language.syntax import rows as reader
-from mudline.language.syntax.rows import Rows, read_number, read_numbers, read_rows, read_rows_slow
+from mudline.language.syntax.rows import Rows, read_number, read_rows, read_rows_slow
 from tests.helpers.builders.spellings import ODD_NUMBERS, numbers
 
 NO_NUMBERS = [
-    *(
-        "",
-        " ",
-        "1 ",
-        " 1",
-        "e5",
-        "1e",
-        "1e+",
-        ".",
-        "+",
-        "-",
-        "--1",
-        "+-1",
-        "1.2.3",
-        "1,5",
-        "0x10",
-        "1_000",
-        "1f",
-        "1\n",
-    ),
-    *(
-        "1e400",
-        "-1e400",
-        "1D400",
-        "9" * 309,
-        "1" * 401,
-        "nan",
-        "NaN",
-        "inf",
-        "-Infinity",
-        "true",
-        "\u0661\u0662",
-        "1\xa0",
-        "\uff11",
-    ),
+    *("", " ", "1 ", " 1", "e5", "1e", "1e+", ".", "+", "-", "--1", "+-1", "1.2.3", "1,5", "0x10", "1_000", "1f"),
+    *("1\n", "1e400", "-1e400", "1D400", "9" * 309, "1" * 401, "nan", "NaN", "inf", "-Infinity", "true"),
+    *("\u0661\u0662", "1\xa0", "\uff11"),
 ]
 """What looks like a number."""
 STRANGE = [
@@ -122,7 +90,6 @@ def tables(draw: st.DrawFn, fields: st.SearchStrategy[str], *, blanks: bool = Tr
 @example(" \n", 1)
 @example("0,0,0,\n0,0 0", 4)
 @example("2.2250738585072011e-308", 1)
-@settings(max_examples=100)
 def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
     compared(text, columns)
 
@@ -133,16 +100,8 @@ def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
 @example("1 - 2\n", 3)
 @example("1..2\n", 2)
 @example(f"0.{'1' * 500}\n", 1)
-@settings(max_examples=150)
 def test_any_text_of_the_fast_alphabet(text: str, columns: int) -> None:
     compared(text, columns)
-
-
-@pytest.mark.parametrize("row", [" 1., .5, +2.\n", "1 -.5 2D3\n", "1.E-3\t+.25  7.\n", "1.0D+02, 2., -3.d0\n"])
-def test_the_fast_reader_takes_the_spellings_of_old_tools(row: str) -> None:
-    text = row * 3
-    assert read_numbers(text.rstrip(), 4) is not None
-    compared(text, 4)
 
 
 @given(
@@ -164,14 +123,6 @@ def test_odd_lines_between_plain_ones(lines: list[str], end: str, columns: int) 
         compared(given_text, columns)
 
 
-def test_only_the_span_is_read() -> None:
-    text = "*NODE\n 1, 2\n 3, 4\nSET=x\n"
-    span = Span(6, 18)
-    rows = read_rows(text, span, 2)
-    assert rows.values.tolist() == [[1.0, 2.0], [3.0, 4.0]]
-    assert is_same(rows, read_rows_slow(text, span, 2))
-
-
 def test_words_lengths_and_columns() -> None:
     rows = compared(" 1, =[a, b],, {x, y}\n 2\n 3, 4, 5, 6, 7\n 1.5 2.5\n 1, 2, 3, 4,,\n", 4)
     assert rows.words == {(0, 1): "=[a, b]", (0, 2): "", (0, 3): "{x, y}"}
@@ -185,25 +136,10 @@ def test_words_lengths_and_columns() -> None:
 @pytest.mark.parametrize(
     ("text", "value"),
     [
-        *(
-            ("1", 1.0),
-            ("1.", 1.0),
-            (".5", 0.5),
-            ("+1", 1.0),
-            ("01", 1.0),
-            ("-0", -0.0),
-            ("-0.0", -0.0),
-            ("1e3", 1000.0),
-        ),
-        *(
-            ("1D3", 1000.0),
-            ("1d-3", 0.001),
-            ("1.5D+02", 150.0),
-            ("4.9e-324", 5e-324),
-            ("1e-400", 0.0),
-            ("-1e-400", -0.0),
-        ),
-        *(("9007199254740993", 9007199254740992.0), ("1.7976931348623157E308", 1.7976931348623157e308)),
+        *(("1", 1.0), ("1.", 1.0), (".5", 0.5), ("+1", 1.0), ("01", 1.0), ("-0", -0.0), ("-0.0", -0.0)),
+        *(("1e3", 1000.0), ("1D3", 1000.0), ("1d-3", 0.001), ("1.5D+02", 150.0), ("4.9e-324", 5e-324)),
+        *(("1e-400", 0.0), ("-1e-400", -0.0), ("9007199254740993", 9007199254740992.0)),
+        ("1.7976931348623157E308", 1.7976931348623157e308),
     ],
 )
 def test_numbers(text: str, value: float) -> None:
@@ -218,7 +154,6 @@ def test_no_numbers(text: str) -> None:
 
 
 @given(st.text("0123456789+-.eEdD_ naif", max_size=12))
-@settings(max_examples=200)
 def test_a_number_is_finite_and_what_python_reads(text: str) -> None:
     value = read_number(text)
     if value is not None:

@@ -16,10 +16,7 @@ from typing import Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mudline.model.contact import (
-    ContactInput,
-    LawAssignment,
-)
+from mudline.model.contact import ContactInput, LawAssignment
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.laws.trench import diagram, rounded
 from mudline.model.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed

@@ -5,9 +5,6 @@ The suction is that of a pipe of 0.3 m in soil of 5 kPa, with corners 0.2 and 0.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -20,15 +17,7 @@ from mudline.model.contact.laws.friction import (
     FrictionState,
     slide,
 )
-from mudline.model.contact.laws.suction import (
-    SuctionHistory,
-    SuctionLaw,
-    SuctionState,
-    breakout_uplift,
-    maximum_force,
-)
-from tests.helpers.builders.contact import floats
-from tests.helpers.suction import Suction, remembered, step
+from mudline.model.contact.laws.suction import SuctionLaw, SuctionState, breakout_uplift, maximum_force
 
 FREE, COMPRESSION, SUCTION, HOLD, BROKEN = SuctionState
 OPEN, STICK, SLIP = FrictionState.OPEN, FrictionState.STICK, FrictionState.SLIP
@@ -70,41 +59,6 @@ def breakout(law: SuctionLaw, v: ArrayLike) -> FloatArray:
     """The uplift at breakout."""
     found = breakout_uplift(np.asarray(v, np.float64), law.depth_factor, law.depth_exponent, law.regularisation)
     return np.asarray(found)
-
-
-def lifted(law: SuctionLaw, v_max: ArrayLike = 0.0) -> SuctionHistory:
-    """Elements in the middle of an uplift episode."""
-    count = len(law.cyclic)
-    state = np.full(count, SUCTION, np.int8)
-    return remembered(law, np.ones(count, np.bool_), floats(v_max, count), state, law.initial_factor)
-
-
-class SuctionWalk(NamedTuple):
-    """What one element did, by step."""
-
-    forces: list[float]
-    states: list[int]
-    depths: list[float]
-    last: SuctionHistory
-
-
-def lift(law: SuctionLaw, moves: Sequence[tuple[float, float]], history: SuctionHistory | None = None) -> SuctionWalk:
-    """Take one element through (uplift, velocity); it is compressed where the uplift is negative."""
-    history = SuctionHistory.initial(law) if history is None else history
-    forces, states, depths = [], [], []
-    for uplift, velocity in moves:
-        suction, history = step(law, history, floats(uplift), floats(velocity), np.array([uplift < 0.0]))
-        forces.append(suction.force.item())
-        states.append(history.state.item())
-        depths.append(suction.depth.item())
-    return SuctionWalk(forces, states, depths, history)
-
-
-def pull(law: SuctionLaw, uplift: ArrayLike, velocity: ArrayLike, v_max: ArrayLike = 0.0) -> Suction:
-    """The suction of elements in the middle of an uplift episode."""
-    count = len(law.cyclic)
-    above = np.zeros(count, np.bool_)
-    return step(law, lifted(law, v_max), floats(uplift, count), floats(velocity, count), above)[0]
 
 
 # ------------------------------------------------------------------------------------------------------------- friction

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from typing import Any
 
-import numba
-import numpy as np
 import pytest
 
 from mudline.model.contact import ContactModel, LawAssignment
 from mudline.model.contact import plan as choices
-from mudline.model.contact.compiled.driver import _loop
 from mudline.model.contact.plan import Backend, BackendChoice
-from tests.helpers.builders.contact import LINEAR, at_depths, chain, everything, friction, on
+from tests.helpers.builders.contact import LINEAR, at_depths, chain, friction, on
 from tests.helpers.processes import TIMEOUT
 
 pytestmark = pytest.mark.slow
@@ -37,21 +33,6 @@ def test_the_backend_that_a_series_gets() -> None:
     assert sliding.compiles(LONG // 100)
     assert not plain.compiles(LONGER // 100 - 1)
     assert plain.compiles(LONGER // 100)
-
-
-def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
-    options: list[bool] = []
-
-    def njit(*, cache: bool = False, **_others: object) -> Callable[[object], object]:
-        options.append(cache)
-        if cache:
-            raise RuntimeError("cannot cache function: no locator available")
-        return lambda function: (function, "made")
-
-    monkeypatch.setattr(numba, "njit", njit)
-    made: object = _loop(lambda: abs)
-    assert made == (abs, "made")
-    assert options == [True, False]
 
 
 def test_without_numba_there_are_no_loops(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -86,6 +67,7 @@ def test_numpy_alone_does_not_load_numba() -> None:
     assert run.stdout.strip() == "False"
 
 
+@pytest.mark.compiled
 @pytest.mark.covered
 def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> None:
     """The arrays of a single row have the same layout as those of several."""
@@ -96,10 +78,3 @@ def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> Non
         assert driver is not None
         loop: Any = driver._loop
         assert len(loop.signatures) == 1
-
-
-def test_series_of_no_steps_and_lines_of_no_elements() -> None:
-    empty = ContactModel(everything(50, 1), backend="fast").evaluate(np.zeros((0, 51, 3)), times=np.zeros(0))
-    assert empty.force.shape == (0, 50)
-    alone = ContactModel(chain([]), backend="fast").evaluate(np.zeros((3, 1, 3)))
-    assert alone.reaction.tolist() == [[[0.0, 0.0, 0.0]]] * 3

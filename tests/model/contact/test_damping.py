@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from mudline.model.contact import ContactModel
 from mudline.model.contact.plan import Backend
-from tests.helpers.builders.contact import LINEAR, NONE, chain, each_backend, friction, heave, on
+from tests.helpers.builders.contact import LINEAR, chain, each_backend, friction, heave, on
 from tests.helpers.builders.scenes import legal_scene
 
 DEPTHS, PULL_OUT = [0.02, 0.02, 0.02, -0.01, 0.0], [-0.1, 0.1, 0.0, -0.1, -0.1]
@@ -25,16 +25,6 @@ def test_per_unit_length(backend: Backend) -> None:
     assert_allclose(result.force[:, 0], elastic + ADDED, rtol=1e-12)
     assert_allclose(result.normal_force, np.repeat((elastic + ADDED)[:, None], 2, axis=1), rtol=1e-12)
     assert_allclose(result.stiffness[:, 0], np.where(np.array(DEPTHS) > 0.0, 5e4, 0.0), rtol=1e-12)
-
-
-@each_backend
-def test_of_nodes(backend: Backend) -> None:
-    laws = on("nodal", 2, stiffness=1e4, half_width=0.005), on("nodal damping", 2, damping=[500.0, 0.0])
-    contact = ContactModel(chain([NONE], *laws), backend=backend)
-    positions, velocities = heave([-0.001, 0.02], [-0.1, -0.1])
-    result = contact.evaluate(positions, velocities=velocities)
-    damped = result.normal_force[:, 0] - result.normal_force[:, 1]
-    assert damped == pytest.approx([0.0, 50.0])  # in the zone above the mudline there is none
 
 
 def test_steps_without_velocities_take_differences() -> None:

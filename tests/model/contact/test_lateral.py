@@ -7,7 +7,7 @@ import pytest
 
 from mudline.model.contact import ContactModel
 from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed
-from tests.helpers.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, stepped, walk
+from tests.helpers.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, stepped
 
 K = 3000.0
 """With an element of 2 m a node gets 3000 N per m of displacement."""
@@ -15,14 +15,6 @@ K = 3000.0
 
 def springs(*beside: object) -> ContactModel:
     return ContactModel(chain([LINEAR], on("lateral", 1, stiffness=K), *beside))  # type: ignore[arg-type]
-
-
-def test_the_force_grows_with_the_way_across_from_the_touchdown_point() -> None:
-    path = drawn([(0.0, 0.0), (0.0, 0.1), (5.0, 0.1), (5.0, -0.2)])
-    result = springs().evaluate(path)
-    assert result.reaction[:, :, 2] == pytest.approx(np.array([[0.0] * 2, [-300.0] * 2, [-300.0] * 2, [600.0] * 2]))
-    assert not result.reaction[:, :, 1].any()
-    assert result.reaction[:, :, 0] == pytest.approx(np.full((4, 2), 1000.0))
 
 
 def test_a_new_touchdown_begins_anew() -> None:
@@ -87,25 +79,3 @@ def test_results_hold_its_components_along_both_directions_of_the_node() -> None
     added = turned.friction[1] - rubbing.friction[1]
     assert added == pytest.approx(np.array([[-150.0, -300.0 * np.cos(np.pi / 6)]] * 2), rel=1e-12)
     assert turned.reaction[1] - rubbing.reaction[1] == pytest.approx(np.array([[0.0, 0.0, -300.0]] * 2), abs=1e-9)
-
-
-def test_at_a_bend_its_force_has_a_component_along_the_line() -> None:
-    """Two elements at right angles; the middle node's u1 is at 45 degrees to both."""
-    contact = ContactModel(chain([LINEAR] * 2, on("lateral", [0], stiffness=K)))
-    path = at_depths([[0.02] * 3] * 2)
-    path[:, :, 1], path[:, 2, 2] = [0.0, 2.0, 2.0], 2.0
-    path[1, :, 2] += 0.1
-    result = contact.evaluate(path)
-    assert result.friction is not None
-    half = 300.0 * np.sqrt(0.5)
-    assert result.friction[1] == pytest.approx(np.array([[0.0, -300.0], [-half, -half], [0.0, 0.0]]), abs=1e-9)
-    assert result.reaction[1, :, 1:] == pytest.approx(np.array([[0.0, -300.0]] * 2 + [[0.0, 0.0]]), abs=1e-9)
-
-
-def test_no_force_without_a_stiffness_or_a_length() -> None:
-    for inputs in (
-        chain([LINEAR], on("lateral", 1, stiffness=0.0)),
-        chain([LINEAR], on("lateral", 1, stiffness=K), length=0.0),
-    ):
-        results = walk(ContactModel(inputs), drawn([(0.0, 0.0), (0.0, 0.1)]))
-        assert not results[1].reaction[:, 1:].any()

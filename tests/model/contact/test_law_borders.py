@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mudline.model.contact.laws import Value, breakout, linear, soil
-from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw, in_ellipse, on_ellipse
+from mudline.model.contact.laws import breakout, linear, soil
+from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw, on_ellipse
 from tests.model.contact.single import anchored, coulomb, move
 from tests.model.contact.soil_program import Clay
 
@@ -30,24 +30,10 @@ def test_a_node_that_touches_down_has_no_force_and_no_stiffness() -> None:
     assert step.by_compression[0].tolist() == [0.0, 0.0]
 
 
-def test_what_is_at_the_ellipse_does_not_slip() -> None:
-    assert on_ellipse(3.0, 0.0, 3.0, 4.0) == (3.0, 0.0, False)
-    assert on_ellipse(0.0, -4.0, 3.0, 4.0) == (0.0, -4.0, False)
-    assert on_ellipse(np.nextafter(3.0, 4.0), 0.0, 3.0, 4.0)[2]
-
-
 def test_a_trial_far_beyond_the_ellipse_is_drawn_back_along_its_direction() -> None:
     force_1, force_2, slips = on_ellipse(3e300, -4e300, 1e-5, 1e-5)
     assert (float(force_1), float(force_2)) == pytest.approx((0.6e-5, -0.8e-5), rel=1e-14)
     assert slips
-
-
-@pytest.mark.parametrize("trial", [1.0, -1.0, 5e-324])
-def test_a_direction_without_a_limit_slips_whenever_it_is_moved(trial: float) -> None:
-    assert in_ellipse(0.0, 1.0, 0.0, 2.0) == (0.0, 1.0, False, False)
-    assert in_ellipse(trial, 1.0, 0.0, 2.0) == (0.0, 1.0, True, False)
-    assert in_ellipse(1.0, trial, 2.0, 0.0) == (1.0, 0.0, False, True)
-    assert in_ellipse(1.0, 0.0, 2.0, 0.0) == (1.0, 0.0, False, False)
 
 
 def test_a_spring_beyond_numbers_is_infinite_without_a_warning() -> None:
@@ -90,28 +76,6 @@ CLAY = (5000.0, 1500.0, 6.0, 0.25, 200.0, 0.6, 1.0, 0.3, 0.0)
 PACE = 200.0 / 0.3
 
 
-@pytest.mark.parametrize(
-    ("ratio", "force", "slope"),
-    [
-        (0.01, 1067.9279169, 296966.73388),
-        (0.05, 3268.0204652, 129716.21422),
-        (0.2, 5977.5596821, 29097.960813),
-        (0.5, 7830.3275104, 15815.340064),
-        (1.0, 9761.1940299, 10982.772704),
-    ],
-)
-def test_the_initial_path_of_the_soil(ratio: float, force: float, slope: float) -> None:
-    assert soil.virgin(0.3 * ratio, 0.3, *CLAY) == pytest.approx((force, slope), rel=1e-9)
-    heavy = soil.virgin(0.3 * ratio, 0.3, *CLAY[:-1], 9000.0)
-    angle = np.arccos(1.0 - 2.0 * ratio)
-    area, width = 0.3**2 / 4.0 * (angle - 0.5 * np.sin(2.0 * angle)), 0.3 * np.sin(angle)
-    assert heavy == pytest.approx((force + 9000.0 * area, slope + 9000.0 * width), rel=1e-9)
-
-
-def test_above_the_mudline_there_is_no_soil() -> None:
-    assert soil.virgin(-0.1, 0.3, *CLAY[:-1], 9000.0)[0] == 0.0
-
-
 def test_the_steepest_stiffness_of_the_soil() -> None:
     """K_max P_u/D; just below the mudline, where P_u grows as a root, the initial path has half as much again."""
     assert soil.steepest(0.06, 0.3, *CLAY) == pytest.approx(4084665.7828, rel=1e-9)
@@ -125,19 +89,6 @@ def test_the_steepest_stiffness_of_the_soil() -> None:
         assert added == pytest.approx(9000.0 * width, rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("strength", "gradient"), [(5000.0, 0.0), (5000.0, 1500.0), (5000.0, 8e4), (0.5, 0.0), (0.5, 0.1)]
-)
-@pytest.mark.parametrize("top", [0.01, 0.4, 3.0])
-@pytest.mark.parametrize("exponent", [0.25, 0.5])
-def test_the_peak_of_an_uplift_solves_its_equation(
-    exponent: float, strength: float, gradient: float, top: float
-) -> None:
-    z = float(soil._peak(exponent, strength, gradient, top))
-    assert 0.0 < z < top
-    assert (exponent / z + gradient / (strength + gradient * z)) * (top - z) == pytest.approx(1.0, rel=1e-10)
-
-
 @pytest.mark.parametrize("half_width", [0.0, 0.02])
 @pytest.mark.parametrize("one_sided", [0.0, 1.0])
 @pytest.mark.parametrize("force", [1.0, 99.0, 400.0, 401.0, 5e4])
@@ -147,73 +98,6 @@ def test_the_penetration_under_a_force_has_that_force(force: float, half_width: 
     assert z > linear.zone_onset(1e4, half_width, one_sided)
 
 
-def remembered(way: float, *, z0: float = 0.1, p0: float = 50.0, event: float = -1.0) -> tuple[float, ...]:
-    """An element that was 0.1 deep, and is at 0.06 with a force of 30."""
-    return 0.06, 30.0, way, 0.1, -1.0, z0, p0, event
-
-
-@pytest.mark.parametrize(
-    ("z", "memory", "event"),
-    [
-        (0.05, remembered(soil.UP), 1),
-        (0.1, remembered(soil.UP), 0),
-        (0.05, remembered(soil.UP, p0=0.0), 0),
-        (0.05, remembered(soil.UP, event=0.02), 0),
-        (0.05, remembered(soil.UP, event=0.0), 0),
-        (0.05, remembered(soil.DOWN), 0),
-        (0.2, remembered(soil.DOWN), 0),
-        (0.2, remembered(soil.AGAIN), 2),
-        (0.1, remembered(soil.AGAIN), 0),
-        (0.05, remembered(soil.AGAIN), 0),
-        (0.2, remembered(soil.AGAIN, event=0.3), 0),
-        (0.2, remembered(soil.UP), 0),
-    ],
-)
-def test_the_event_of_a_way_is_sought_where_a_step_may_come_to_it(
-    z: float, memory: tuple[float, ...], event: int
-) -> None:
-    assert int(soil.pending(z, memory)) == event
-
-
-@pytest.mark.parametrize(
-    ("z", "way", "after"),
-    [
-        (0.05, soil.DOWN, soil.UP),
-        (0.05, soil.AGAIN, soil.UP),
-        (0.07, soil.UP, soil.AGAIN),
-        (0.07, soil.DOWN, soil.DOWN),
-        (0.07, soil.AGAIN, soil.AGAIN),
-        (0.05, soil.UP, soil.UP),
-        (0.06, soil.DOWN, soil.DOWN),
-        (0.06, soil.UP, soil.UP),
-    ],
-)
-def test_a_reversal_is_remembered_and_its_event_is_unknown(z: float, way: float, after: float) -> None:
-    memory = remembered(way, event=0.02)
-    found = tuple(map(float, soil.begin(z, memory)))
-    turned = (0.06, 30.0, -1.0) if way != after else (0.1, 50.0, 0.02)
-    assert found == (0.06, 30.0, after, 0.1, -1.0, *turned)
-
-
-@pytest.mark.parametrize("z", [0.01, 0.05, 0.2])
-def test_slopes_of_the_soil_against_differences(z: float) -> None:
-    """Also that of what a re-penetration lacks, which only says how soon its end is found."""
-    step = 1e-6
-
-    def slope(values: Callable[[float], Value]) -> float:
-        return float((values(z + step) - values(z - step)) / (2.0 * step))
-
-    assert soil.ultimate(z, 0.3, CLAY)[1] == pytest.approx(slope(lambda z: soil.ultimate(z, 0.3, CLAY)[0]), rel=1e-6)
-    assert soil.initial(z, 0.3, CLAY)[1] == pytest.approx(slope(lambda z: soil.initial(z, 0.3, CLAY)[0]), rel=1e-6)
-    assert soil.lift(z, 0.3, 9e3)[1] == pytest.approx(slope(lambda z: soil.lift(z, 0.3, 9e3)[0]), rel=1e-6)
-    memory, least = remembered(soil.AGAIN, z0=0.004), soil.ultimate(0.004, 0.3, CLAY)[0]
-    lacks, by_depth = soil._short(z, 0.3, memory, least, CLAY)
-    assert by_depth == pytest.approx(slope(lambda z: soil._short(z, 0.3, memory, least, CLAY)[0]), rel=1e-5)
-    most, initial = soil.ultimate(z, 0.3, CLAY)[0], soil.initial(z, 0.3, CLAY)[0]
-    gone, softness = PACE * (z - 0.004), (most - 50.0) / least
-    assert (lacks < 0.0) == (50.0 + gone / (softness + gone) * (most - 50.0) > initial)
-
-
 def crossing(values: Callable[[float], float], low: float, high: float) -> float:
     """Where values of different signs at low and high have their zero, by halving."""
     begins = values(low) > 0.0
@@ -221,28 +105,6 @@ def crossing(values: Callable[[float], float], low: float, high: float) -> float
         middle = 0.5 * (low + high)
         low, high = (middle, high) if (values(middle) > 0.0) == begins else (low, middle)
     return high
-
-
-@pytest.mark.parametrize("gradient", [0.0, 1500.0, 8e4])
-@pytest.mark.parametrize(("z0", "share"), [(0.1, 0.95), (0.1, 0.2), (0.02, 0.9), (0.01, 0.5), (0.4, 0.9)])
-def test_an_uplift_falls_through_zero_where_its_formula_does(z0: float, share: float, gradient: float) -> None:
-    law, clay = (CLAY[0], gradient, *CLAY[2:]), Clay(gradient=gradient)
-    p0 = share * clay.initial(z0)
-
-    def force(z: float) -> float:
-        below = -0.6 * clay.ultimate(z)
-        gone = PACE * (z0 - z)
-        return p0 - gone / ((p0 - below) / clay.ultimate(z0) + gone) * (p0 - below)
-
-    found = float(soil.fall(0.3, remembered(soil.UP, z0=z0, p0=p0), law))
-    first = next((z for z in np.linspace(z0, 0.0, 4001) if force(z) <= 0.0), None)
-    assert first is not None
-    assert found == pytest.approx(crossing(force, z0, first), rel=1e-9)
-
-
-def test_an_uplift_without_suction_falls_through_zero_nowhere() -> None:
-    weak = (*CLAY[:5], 0.0, *CLAY[6:])
-    assert soil.fall(0.3, remembered(soil.UP, z0=0.1, p0=500.0), weak) == 0.0
 
 
 def reloaded(fallen: float, z0: float, p0: float) -> tuple[float, ...]:
@@ -273,10 +135,6 @@ def test_a_repenetration_meets_the_initial_path_where_its_formula_does(
     assert float(soil.meeting(0.3, reloaded(0.01, z0, p0), CLAY)) == pytest.approx(meets, rel=1e-9)
 
 
-def test_a_repenetration_from_far_below_the_initial_path_meets_it_nowhere() -> None:
-    assert soil.meeting(0.3, reloaded(-1.0, 0.055, 0.3 * Clay().initial(0.055)), CLAY) == np.inf
-
-
 def test_a_repenetration_that_begins_without_force_meets_nothing_and_one_from_the_mudline_all() -> None:
     for p0 in (0.0, -200.0):
         assert soil.meeting(0.3, reloaded(0.03, 0.02, p0), CLAY) == np.inf
@@ -286,12 +144,6 @@ def test_a_repenetration_that_begins_without_force_meets_nothing_and_one_from_th
     force = 0.9 * Clay().initial(0.04)
     assert soil.meeting(0.3, reloaded(0.03, 0.04, force), slow) == np.inf
     assert soil.meeting(0.3, reloaded(-1.0, 0.04, force), slow) == 0.06
-
-
-def test_an_element_at_the_mudline_has_no_force() -> None:
-    force, _, memory = soil.advance(0.0, 0.3, soil.SOIL.start, CLAY)
-    assert float(force) == 0.0
-    assert tuple(map(float, memory)) == soil.SOIL.start
 
 
 def test_an_uplift_from_a_small_force_keeps_it_at_first() -> None:
@@ -330,30 +182,3 @@ def test_a_repenetration_is_no_weaker_than_where_it_began() -> None:
     assert np.exp(-0.3 + (z - 0.055) / 0.06) * Clay().initial(z) < p0
     force, stiffness, _ = soil.advance(z, 0.3, (z0, p0, soil.AGAIN, 0.06, 0.055, z0, p0, -1.0), CLAY)
     assert (float(force), float(stiffness)) == (p0, 0.0)
-
-
-def test_the_hyperbola_where_it_begins() -> None:
-    assert tuple(map(float, soil._form(0.0, 0.0, 700.0, 1e3, PACE))) == (0.0, 0.0)
-    assert tuple(map(float, soil._form(0.0, 500.0, 700.0, 1e3, PACE))) == pytest.approx((0.0, PACE * 1e3))
-
-
-@pytest.mark.parametrize(
-    ("z", "value", "slope", "expected"),
-    [
-        (1.0, -0.5, -1.0, (0.5, 0.0, 1.0, False)),  # a step of Newton's, to the left
-        (1.0, 0.5, -1.0, (1.5, 1.0, 2.0, False)),  # and to the right
-        (1.0, 5.0, -1.0, (1.5, 1.0, 2.0, False)),  # beyond an end: a halving
-        (1.0, -5.0, -1.0, (0.5, 0.0, 1.0, False)),
-        (1.0, -0.5, 2.0, (0.5, 0.0, 1.0, False)),  # where it does not fall the slope is no guide
-        (1.0, 0.0, -1.0, (1.0, 1.0, 2.0, True)),
-    ],
-)
-def test_a_step_to_where_a_value_falls_through_zero(
-    z: float, value: float, slope: float, expected: tuple[float, float, float, bool]
-) -> None:
-    assert tuple(each.item() for each in map(np.asarray, soil._narrowed(z, 0.0, 2.0, value, slope))) == expected
-
-
-def test_a_place_that_is_known_to_its_last_bits_stays() -> None:
-    near = np.nextafter(1.0, 2.0)
-    assert [float(each) for each in soil._narrowed(near, 1.0, near, -0.3, -1.0)] == [near, 1.0, near, 1.0]

@@ -16,8 +16,7 @@ from mudline.model.contact import ContactModel
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.laws.linear import automatic_half_width, smoothed_reaction, zone_onset
 from mudline.model.contact.seabed import SlopingSeabed
-from mudline.model.curves import ForceCurve
-from tests.helpers.builders.contact import CURVE, LINEAR, NONE, PULLING, RIGID, SAND, at_depths, chain, depth_at, on
+from tests.helpers.builders.contact import CURVE, LINEAR, NONE, PULLING, at_depths, chain, depth_at, on
 
 
 @pytest.mark.parametrize(
@@ -54,21 +53,6 @@ def test_out_of_contact_there_is_a_ratio_and_nothing_else(depth: float) -> None:
         assert not np.signbit(floats).any()
 
 
-def test_a_curve_that_does_not_start_at_zero_gives_nothing_above_the_seabed() -> None:
-    curve = ForceCurve([(-0.5, 100.0), (0.5, 300.0)])
-    result = ContactModel(chain([CURVE], curves=(curve,), diameter=1.0)).evaluate(at_depths([[0.0] * 2, [0.25] * 2]))
-    assert result.force.tolist() == [[0.0], [250.0]]
-
-
-def test_linear_law() -> None:
-    result = ContactModel(chain([LINEAR])).evaluate(at_depths([[0.01, 0.03], [0.1, 0.1]]))
-    assert result.depth.ravel() == pytest.approx([0.02, 0.1])
-    assert result.force.ravel() == pytest.approx([1000.0, 5000.0])
-    assert result.stiffness.ravel().tolist() == [50000.0, 50000.0]
-    assert result.slope.ravel() == pytest.approx([15000.0, 15000.0])
-    assert result.ratio.ravel() == pytest.approx([0.02 / 0.3, 0.1 / 0.3])
-
-
 def test_a_linear_law_needs_no_diameter() -> None:
     inputs = chain([LINEAR, NONE, LINEAR], diameter=[np.nan, np.nan, 0.5])
     result = ContactModel(inputs).evaluate(at_depths([0.02, 0.02, 0.02, 0.02]))
@@ -86,23 +70,6 @@ def test_depth_is_the_mean_of_both_nodes_and_a_node_above_the_seabed_takes_its_h
     assert result.force == pytest.approx([1000.0])
     assert result.normal_force == pytest.approx([1000.0, 1000.0])
     assert result.reaction == pytest.approx(np.array([[1000.0, 0.0, 0.0]] * 2))
-
-
-def test_every_element_has_its_own_law() -> None:
-    inputs = chain([CURVE, LINEAR, NONE, RIGID, CURVE], curves=(SAND, PULLING), curve_index=[0, 0, 0, 0, 1])
-    result = ContactModel(inputs).evaluate(at_depths(np.full(6, 0.09)))
-    assert result.contact.all()
-    assert result.force == pytest.approx([12000.0, 4500.0, 0.0, 0.0, 500.0])
-    assert result.stiffness == pytest.approx([40000.0 / 0.3, 50000.0, 0.0, 0.0, 4000.0 / 0.3])
-    assert result.slope == pytest.approx([40000.0, 15000.0, 0.0, 0.0, 4000.0])
-    assert result.normal_force == pytest.approx([12000.0, 16500.0, 4500.0, 0.0, 500.0, 500.0])
-
-
-def test_one_curve_under_two_diameters() -> None:
-    result = ContactModel(chain([CURVE, CURVE], diameter=[0.3, 0.6])).evaluate(at_depths(np.full(3, 0.06)))
-    assert result.ratio == pytest.approx([0.2, 0.1])
-    assert result.force == pytest.approx([3250.0, 2000.0])
-    assert result.stiffness[0] == pytest.approx(12500.0 / 0.3)
 
 
 def test_a_pull_is_kept_unless_it_is_cut() -> None:
@@ -245,15 +212,6 @@ def exact_force(z: float, stiffness: float, h: float, one_sided: bool) -> Fracti
     if depth <= -half:
         return Fraction(0)
     return k * (depth + half) ** 2 / (4 * half) if depth < half else k * depth
-
-
-@pytest.mark.parametrize("one_sided", [False, True])
-def test_without_a_zone_the_law_is_kinked(one_sided: bool) -> None:
-    z = [-1.0, -TINY, -0.0, 0.0, TINY, 0.5]
-    force, slope = law(z, one_sided, h=0.0)
-    assert force.tolist() == [0.0, 0.0, 0.0, 0.0, K * TINY, 25000.0]
-    assert slope.tolist() == [0.0, 0.0, 0.0, 0.0, K, K]
-    assert not np.signbit(force).any()
 
 
 sizes = st.one_of(st.sampled_from([TINY, 1e-320, 1e-308, 1.0, 1e300, HUGE]), st.floats(1e-300, HUGE))

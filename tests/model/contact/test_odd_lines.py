@@ -51,16 +51,6 @@ def bounded(elements: int) -> ContactInput:
     return chain([LINEAR] * elements, friction(elements + 1), seabed=seabed)
 
 
-def test_the_direction_at_the_edge_of_the_seabed_is_that_of_the_line() -> None:
-    contact = ContactModel(bounded(3))
-    points = along_z(4)
-    assert axes(contact, points).tolist() == [[0.0, 0.0, 1.0]] * 4
-    results = walk(contact, [points, drifted(points, 0.0, 0.002)])
-    assert np.isnan(results[1].gap).tolist() == [False, False, False, True]
-    assert results[1].contact.tolist() == [True, True, False]
-    assert results[1].friction == pytest.approx(np.array([[-200.0, 0.0]] * 3 + [[0.0, 0.0]]), rel=1e-9, abs=1e-9)
-
-
 def test_a_line_that_slides_off_the_seabed_forgets_and_comes_back_without_a_force() -> None:
     contact = ContactModel(bounded(1))
     points = along_z(2)
@@ -69,17 +59,6 @@ def test_a_line_that_slides_off_the_seabed_forgets_and_comes_back_without_a_forc
     assert axial[1] == pytest.approx([-300.0, -300.0])
     assert axial[2] == axial[3] == [0.0, 0.0]
     assert axial[4] == pytest.approx([-200.0, -200.0])
-
-
-def test_elements_with_an_absent_node_do_not_turn_the_friction_of_their_neighbours() -> None:
-    present = np.array([True, True, True, False])
-    path = np.array([along_z(4), drifted(along_z(4), 0.0, 0.002)])
-    path[:, 3] = np.nan
-    inputs = chain([LINEAR] * 3, friction(4), trench(3, 0.02, 0.4, 50.0, {}))
-    result = ContactModel(inputs).evaluate(path, present=present)
-    assert result.friction is not None
-    assert result.friction[1, :3] == pytest.approx(np.array([[-200.0, 0.0]] * 3), rel=1e-9, abs=1e-9)
-    assert np.isnan(result.friction[1, 3]).all()
 
 
 def test_a_trench_holds_a_node_beside_an_absent_one() -> None:
@@ -128,15 +107,6 @@ def test_a_node_of_three_elements_rubs_once_under_all_their_weight() -> None:
     assert results[1].normal_force == pytest.approx([3000.0, 1000.0, 1000.0, 1000.0])
     sideways = results[1].reaction[:, 1:]
     assert sideways == pytest.approx(np.array([[-1500.0, 0.0]] + [[-500.0, 0.0]] * 3), abs=1e-6)
-
-
-def test_an_element_between_a_node_and_itself() -> None:
-    loop = chain([LINEAR] * 2, friction(3), trench(2, 0.02, 0.4, 0.0, {}))
-    loop = replace(loop, element_nodes=np.array([[0, 0], [1, 2]], np.intp))
-    results = walk(ContactModel(loop), drawn([(0.0, 0.0), (0.01, 0.0)], nodes=3))
-    assert results[1].normal_force == pytest.approx([2000.0, 1000.0, 1000.0])
-    assert results[1].friction is not None
-    assert results[1].friction[:, 0] == pytest.approx([-1000.0, -500.0, -500.0])
 
 
 def test_a_node_without_elements_has_only_its_own_spring() -> None:

@@ -12,20 +12,16 @@ from mudline.basics.short_repr import UnknownNameError
 from mudline.model.contact import ContactModel, LawKind
 from mudline.model.contact.laws import known_laws
 from tests.helpers.builders.contact import (
-    CLAY,
     CURVE,
     LINEAR,
     NONE,
     RIGID,
-    SAND,
     at_depths,
-    bridge_law,
     chain,
     drawn,
     everything,
     friction,
     on,
-    suction,
     trench,
 )
 
@@ -73,22 +69,6 @@ def test_a_rigid_seabed_is_a_constraint_without_a_reaction_here() -> None:
     assert not result.reaction.any()
 
 
-def test_nodes_of_a_rigid_seabed_are_restrained_at_it_and_below() -> None:
-    result = ContactModel(chain([RIGID, LINEAR])).evaluate(at_depths([[0.1, 0.0, 0.1], [0.1, -0.1, 0.1]]))
-    assert result.rigid is not None
-    assert result.restrained is not None
-    assert result.rigid.tolist() == [True, True, False]
-    assert result.restrained.tolist() == [[True, True, False], [True, False, False]]
-    assert ContactModel(chain([LINEAR])).evaluate().restrained is None
-
-
-def test_two_curves_and_a_cut() -> None:
-    inputs = chain([CURVE, CURVE], curves=(CLAY, SAND), curve_index=[0, 1], tension="cut")
-    assert ContactModel(inputs).plan["normal law"].why == (
-        "2 elements on 2 force-embedment curves, pulling forces cut to 0"
-    )
-
-
 def test_the_kinds_of_law_of_the_elements() -> None:
     inputs = chain([CURVE, LINEAR, RIGID, NONE, NONE], on("nodal", [3, 4], stiffness=1.0))
     expected = [LawKind.CURVE, LawKind.LINEAR, LawKind.RIGID, LawKind.NODAL, LawKind.NONE]
@@ -99,14 +79,6 @@ def test_the_kinds_of_law_of_the_elements() -> None:
     assert smooth.curve_index.tolist() == [-1, 0]
 
 
-def test_the_scene_may_say_why_something_is_left_out() -> None:
-    reasons = {"friction": "FRICTION= is not evaluated by this version", "floor": "SLOPE= is not"}
-    plan = ContactModel(replace(chain([CURVE]), left_out=reasons)).plan
-    assert plan["friction"].why == "FRICTION= is not evaluated by this version"
-    assert not plan["friction"].active
-    assert plan["floor"].why == "one flat seabed at X = 0; SLOPE= is not"
-
-
 def test_a_stage_that_is_not_there() -> None:
     plan = ContactModel(chain([CURVE])).plan
     with pytest.raises(KeyError, match="waves") as caught:
@@ -114,21 +86,6 @@ def test_a_stage_that_is_not_there() -> None:
     assert isinstance(caught.value, UnknownNameError)
     first = "'floor', 'normal law', 'smoothing', 'unloading', 'suction'"
     assert str(caught.value) == f"no stage 'waves': there are {first}, 'friction', 'lateral', 'trench', 'assembly'"
-
-
-def test_the_plan_as_text() -> None:
-    lines = str(ContactModel(chain([LINEAR])).plan).splitlines()
-    assert lines[0] == "floor      yes one flat seabed at X = 0"
-    assert lines[4] == "suction    no  no element has a suction law"
-    assert lines[-1] == "history    no  all steps at once"
-
-
-def test_the_plan_says_below_which_velocity_suction_is_capped() -> None:
-    one = ContactModel(chain([LINEAR], suction(bridge_law()))).plan["suction"].why
-    assert one == "1 element after Bridge et al., with a state each, less force than alpha v^n below v = 0.001"
-    two = ContactModel(chain([LINEAR] * 2, suction(bridge_law(2, regularisation=[0.0, 0.02])))).plan["suction"].why
-    assert two.endswith("less force than alpha v^n below v = 0 to 0.02")
-    assert "below v" not in ContactModel(chain([LINEAR], suction(bridge_law(regularisation=0.0)))).plan["suction"].why
 
 
 def test_the_plan_says_of_which_trenches_the_depth_counts() -> None:
@@ -174,6 +131,3 @@ def test_a_trench_without_friction_does_nothing_and_the_plan_says_so() -> None:
     assert not contact.plan["trench"].active
     assert contact.plan["trench"].why == "a trench adds to the limits of friction, and no node has a friction law"
     assert not contact.evaluate(drawn([(0.0, 0.0), (0.0, 0.2)])).reaction[..., 1:].any()
-
-
-# -------------------------------------------------------------------------------------------- modules that are imported

@@ -41,7 +41,6 @@ def without_suction(elements: int, seed: int) -> ContactInput:
     return without(everything(elements, seed), "suction", "suction spring")
 
 
-@settings(max_examples=25)
 @given(lines, seeds)
 def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
     inputs = without(without_suction(elements, seed), "nodal")
@@ -61,7 +60,6 @@ def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
     assert not np.signbit(result.force[above]).any()
 
 
-@settings(max_examples=25)
 @given(lines, seeds)
 def test_the_seabed_never_pulls_without_suction_where_tension_is_cut(elements: int, seed: int) -> None:
     inputs = replace(without(without_suction(elements, seed), "soil"), curves=(PULLING, SAND), tension="cut")
@@ -95,7 +93,6 @@ def largest_added(inputs: ContactInput, pressed: FloatArray) -> FloatArray:
     return np.where(pressed > 0.0, found, 0.0)
 
 
-@settings(max_examples=25)
 @given(lines, seeds)
 def test_friction_never_exceeds_its_limit(elements: int, seed: int) -> None:
     inputs = without(everything(elements, seed), "lateral")
@@ -132,7 +129,6 @@ def work(reaction: FloatArray, positions: FloatArray) -> float:
     return float(-(reaction[1:] * np.diff(positions, axis=0)).sum())
 
 
-@settings(max_examples=25)
 @given(lines, seeds, st.booleans())
 def test_closed_cycles_never_give_work(elements: int, seed: int, trenches: bool) -> None:
     inputs = without(on_fixed_axes(everything(elements, seed)), "lateral", "suction spring")
@@ -147,7 +143,6 @@ def test_closed_cycles_never_give_work(elements: int, seed: int, trenches: bool)
     assert work(result.normal_force[..., None] * result.normal, closed) >= -1e-9
 
 
-@settings(max_examples=25)
 @given(lines, seeds, seeds)
 def test_the_order_and_sense_of_the_elements_do_not_matter(elements: int, seed: int, other: int) -> None:
     rng = np.random.default_rng(other)
@@ -162,7 +157,6 @@ def test_the_order_and_sense_of_the_elements_do_not_matter(elements: int, seed: 
     assert close(two.reaction, one.reaction)
 
 
-@settings(max_examples=25)
 @given(lines, seeds, seeds)
 def test_the_order_of_the_nodes_does_not_matter(elements: int, seed: int, other: int) -> None:
     inputs, order = everything(elements, seed), np.random.default_rng(other).permutation(elements + 1)
@@ -209,7 +203,6 @@ def carried(inputs: ContactInput, seabed: Seabed, degrees: float, shift: FloatAr
     return replace(inputs, seabed=seabed)
 
 
-@settings(max_examples=25)
 @given(lines, seeds, st.floats(-180.0, 180.0), st.floats(-50.0, 50.0), st.floats(-50.0, 50.0), st.booleans())
 def test_a_scene_may_be_turned_and_shifted(
     elements: int, seed: int, degrees: float, y: float, z: float, slopes: bool
@@ -261,7 +254,6 @@ def in_units(inputs: ContactInput, length: float, force: float) -> ContactInput:
     )
 
 
-@settings(max_examples=30)
 @given(
     st.integers(1, 9),
     st.integers(0, 2**32 - 1),

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import ContactInput, ContactModel, LawKind, laws
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.laws import NormalLaw, Parameter, Value, known_laws, register, where
+from mudline.model.contact.laws import NormalLaw, Parameter, Value, known_laws, register
 from mudline.model.contact.laws.linear import RIGID
 from mudline.model.contact.laws.unloading import UNLOADING
 from mudline.model.contact.seabed import SlopingSeabed
@@ -29,17 +29,13 @@ from tests.helpers.builders.contact import (
     at_depths,
     bridge_law,
     chain,
-    drawn,
     friction,
-    heave,
     journey,
     law_of,
     on,
     suction,
-    walk,
 )
 from tests.model.contact.comparison import Scene, Sizes, compare
-from tests.model.contact.single import COMPRESSION, DEPTH, FORCE, SUCTION
 
 pytestmark = pytest.mark.slow
 
@@ -110,16 +106,6 @@ def test_it_unloads_on_a_line() -> None:
     assert steeper.force.ravel() == pytest.approx([1000.0, 500.0, 0.0], abs=1e-9)
 
 
-def test_suction_and_friction_act_beside_it() -> None:
-    beside = suction(bridge_law()), friction(2, (0.5, 0.5), 1e5)
-    contact = ContactModel(chain([NONE], on("hyperbolic", 1, **HELD), *beside))
-    results = walk(contact, *heave([0.04, 0.0, -0.5 * DEPTH], [0.0, 0.1, 0.1]))
-    assert [result.force.item() for result in results] == pytest.approx([1000.0, 0.0, -FORCE])
-    assert [result.state for result in results] == [COMPRESSION, SUCTION, SUCTION]
-    slid = walk(contact, drawn([(0.0, 0.0), (0.1, 0.002)], 0.04))
-    assert slid[1].reaction == pytest.approx(np.array([[1000.0, -500.0, -200.0]] * 2))
-
-
 def everything_beside(elements: int, seabed: SlopingSeabed | None = None) -> ContactInput:
     """The law on every other element, and unloading, suction and friction beside it."""
     rows, every = np.arange(0, elements, 2), range(elements)
@@ -143,19 +129,11 @@ def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool)
     assert compare(scene, plain=True) == []
 
 
+@pytest.mark.compiled
 def test_its_loops_are_compiled() -> None:
     """Alone: with more laws that takes seconds."""
     inputs = chain([NONE, LINEAR, NONE], on("hyperbolic", [0, 2], stiffness=[K, 2e4], reference=Z0))
     assert compare(Scene(inputs, journey(3, 12, 1)[0], None, None, None, Sizes(8, 3, 5, 2))) == []
-
-
-def test_what_a_time_step_has_to_resolve() -> None:
-    contact = ContactModel(chain([NONE, NONE, LINEAR], on("hyperbolic", 2, stiffness=[K, 2e4], reference=Z0)))
-    assert law_of(contact.stiffest(), "hyperbolic").stiffness.tolist()[:2] == [K, 2e4]
-    assert np.isnan(law_of(contact.stiffest(), "hyperbolic").stiffness[2])
-    there = law_of(contact.stiffest(at_depths([[0.04] * 4, [0.01] * 4])), "hyperbolic")
-    assert there.stiffness[:2] == pytest.approx([32000.0, 12800.0])
-    assert there.per == "length"
 
 
 # ----------------------------------------------------------------------------------------------------- laws that differ
@@ -205,17 +183,6 @@ def test_a_law_of_nodes() -> None:
     assert compare(scene, plain=True) == []
 
 
-def test_contact_begins_where_the_law_says() -> None:
-    def above(z: Value, _diameter: Value, stiffness: Value) -> tuple[Value, Value]:
-        return stiffness * (z + 0.5 * _diameter), where(z > 0.0, stiffness, stiffness)
-
-    register(plain_law("raised", above, onset=lambda stiffness: -0.15 + 0.0 * stiffness))
-    contact = ContactModel(chain([NONE], on("raised", 1, stiffness=1e4), suction(bridge_law())))
-    results = walk(contact, *heave([-0.2, -0.1, -0.15 - 0.1 * DEPTH], [0.0, 0.0, 0.1]))
-    assert [result.contact.item() for result in results] == [False, True, False]
-    assert [result.force.item() for result in results] == pytest.approx([0.0, 500.0, -FORCE / 2])
-
-
 def test_a_law_with_many_parameters_runs_with_numpy_and_the_plan_says_so() -> None:
     names = [f"k{number}" for number in range(10)]
 
@@ -235,35 +202,12 @@ def test_a_law_with_many_parameters_runs_with_numpy_and_the_plan_says_so() -> No
     assert contact.evaluate(at_depths([0.01, 0.01])).force.tolist() == [100.0]
 
 
-def test_laws_of_six_parameters_have_loops() -> None:
-    count = 6
-    names = [f"k{number}" for number in range(count)]
-
-    def sum_of(z: Value, _diameter: Value, *springs: Value) -> tuple[Value, Value]:
-        total = 0.0
-        for spring in springs:
-            total = total + spring
-        return total * z, total
-
-    def steepest(_z: Value, _diameter: Value, *springs: Value) -> Value:
-        return sum_of(1.0, _diameter, *springs)[0]
-
-    parameters = tuple(Parameter(name, "F/L2", "a spring") for name in names)
-    register(plain_law("springs", sum_of, parameters=parameters, steepest=steepest))
-    given_law = on("springs", 2, **{name: [float(10**number), 3.0] for number, name in enumerate(names)})
-    inputs = chain([NONE] * 2, given_law, on("unloading", 2, stiffness=1.0))
-    positions, velocities, _ = journey(2, 8, count)
-    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 3, 5, 1))
-    assert compare(scene, plain=True) == []
-    result = ContactModel(inputs).evaluate(at_depths([0.01] * 3))
-    assert result.force == pytest.approx([0.01 * (10**count - 1) / 9, 0.03 * count])
-
-
 def with_an_object(_z: Value, _diameter: Value, stiffness: Value) -> tuple[Value, Value]:
     factor = SimpleNamespace(factor=1.0).factor  # numba knows no such objects
     return factor * stiffness * _z, factor * stiffness
 
 
+@pytest.mark.compiled
 def test_a_law_that_cannot_be_compiled_warns_once_and_is_evaluated_with_numpy() -> None:
     register(plain_law("of Python", with_an_object))
     contact = ContactModel(chain([NONE], on("of Python", 1, stiffness=1e4)), backend="fast")
@@ -299,10 +243,3 @@ def test_only_normal_laws_without_history_can_be_added(law: NormalLaw) -> None:
     with pytest.raises(TypeError, match="only normal laws without history can be added"):
         register(law)
     assert law.name not in set(known_laws()) - {"rigid", "unloading"}
-
-
-def test_a_name_is_given_once() -> None:
-    with pytest.raises(ValueError, match="contact law 'hyperbolic' is already registered"):
-        register(plain_law("hyperbolic"))
-    with pytest.raises(ValueError, match="contact law 'linear' is already registered"):
-        register(plain_law("linear"))

@@ -23,11 +23,7 @@ STEPS = 400
 
 SECOND_OPINIONS = {
     "exact": {
-        "linear",
-        "smoothed",
-        "nodal",
-        "curve",
-        "rigid",
+        *("linear", "smoothed", "nodal", "curve", "rigid")
     },  # tests/model/contact/exact.py, in rationals; rigid has no force
     "soil_program": {"soil"},
     "friction/test_breakout": {"breakout"},

@@ -11,16 +11,7 @@ import pytest
 
 from mudline.model.contact import ContactModel, ContactResult, ContactState
 from mudline.model.contact.plan import Backend
-from tests.helpers.builders.contact import (
-    CURVE,
-    LINEAR,
-    at_depths,
-    chain,
-    everything,
-    friction,
-    journey,
-    mixed,
-)
+from tests.helpers.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, journey, mixed
 from tests.model.contact.comparison import same_bits
 
 
@@ -78,13 +69,6 @@ def test_elements_without_all_their_nodes_are_left_out() -> None:
     assert partial.normal_force[:, 2] == pytest.approx(half, rel=1e-15)
 
 
-def test_what_stands_at_an_absent_node_is_not_looked_at() -> None:
-    contact, present = ContactModel(chain([CURVE, CURVE])), [True, True, False]
-    blank, wild = at_depths([0.03, 0.03, 0.0]), at_depths([0.03, 0.03, 0.0])
-    blank[2], wild[2] = np.inf, 1.7e308
-    assert same_bits(contact.evaluate(blank, present=present), contact.evaluate(wild, present=present))
-
-
 SLACK = 2**16
 NODES = 10_001
 
@@ -134,17 +118,6 @@ def test_steps_into_arrays_of_earlier_steps_give_the_same_bits(backend: Backend)
         pairs, state = [*pairs, found], found[1]
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
-def test_positions_may_be_those_of_the_arrays_that_are_written(backend: Backend) -> None:
-    contact = ContactModel(chain([CURVE, LINEAR], friction(3)), backend=backend)
-    place = at_depths([0.1, 0.2, 0.1])
-    first = contact.step(place, None, contact.initial_state())
-    assert first[0].positions is not None
-    expected, after = contact.step(first[0].positions, None, first[1])
-    again, _ = contact.step(first[0].positions, None, after, out=first)
-    assert np.array_equal(again.reaction, expected.reaction)
-
-
 def test_what_cannot_be_written_again_is_refused() -> None:
     contact, place = ContactModel(chain([CURVE], friction(2))), at_depths([0.1, 0.1])
     start = contact.initial_state()
@@ -157,11 +130,3 @@ def test_what_cannot_be_written_again_is_refused() -> None:
         contact.step(place, None, one[1], out=one)
     with pytest.raises(TypeError, match="out must be"):
         contact.step(place, None, start, out=[*one])  # type: ignore[arg-type]  # on purpose
-
-
-def test_without_a_history_there_is_one_state_to_step_from() -> None:
-    contact, start = ContactModel(chain([LINEAR])), ContactModel(chain([LINEAR])).initial_state()
-    first = contact.step(at_depths([0.1, 0.1]), None, start)
-    again = contact.step(at_depths([0.2, 0.2]), None, start, out=first)
-    assert again[0] is first[0]
-    assert again[0].depth.tolist() == [0.2]

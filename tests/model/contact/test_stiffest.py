@@ -11,11 +11,8 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.laws.suction import release_stiffness
 from mudline.model.contact.stiffest import rounded_down
-from mudline.model.curves import ForceCurve
 from tests.helpers.builders.contact import (
-    CLAY,
     CURVE,
     LINEAR,
     NONE,
@@ -57,33 +54,11 @@ def test_normal_laws() -> None:
         ContactModel(inputs).stiffest()["suction"]
 
 
-def test_of_a_curve_what_lies_above_the_mudline_does_not_count() -> None:
-    curve = ForceCurve([(-1.0, -900.0), (-0.1, 0.0), (0.1, 10.0), (0.2, 40.0), (0.3, 45.0)])
-    assert figures(chain([CURVE], curves=(curve,), diameter=1.0), "curve")[0] == pytest.approx([300.0])
-    two = chain([CURVE, CURVE, NONE], curves=(curve, CLAY), curve_index=[0, 1, 0], diameter=1.0)
-    np.testing.assert_allclose(figures(two, "curve")[0], [300.0, 20000.0, NAN])
-
-
-def test_springs_of_nodes_are_those_of_the_stiffer_node_of_each_element() -> None:
-    stiffness, damping, per = figures(chain([NONE] * 4, on("nodal", [0, 1, 4], stiffness=[1.0, 5.0, 3.0])), "nodal")
-    np.testing.assert_array_equal(stiffness, [5.0, 5.0, NAN, 3.0])
-    np.testing.assert_array_equal(damping, [0.0, 0.0, NAN, 0.0])
-    assert per == "node"
-
-
 def test_unloading_lines_are_as_stiff_as_the_steepest_slope_of_their_path_at_least() -> None:
     inputs = chain([CURVE, LINEAR, LINEAR, NONE], on("unloading", [0, 1, 3], stiffness=[1e5, 100.0, 100.0]))
     np.testing.assert_allclose(figures(inputs, "unloading")[0], [1e5, 5e4, NAN, 100.0])
     steep = chain([CURVE], on("unloading", 1, stiffness=100.0))
     assert figures(steep, "unloading")[0] == pytest.approx([20000.0 / 0.3])
-
-
-def test_springs_against_uplift_and_lateral_springs() -> None:
-    beside = on("suction spring", [0], stiffness=800.0, extent=0.1), on("lateral", [1], stiffness=900.0)
-    inputs = chain([LINEAR] * 2, *beside)
-    np.testing.assert_array_equal(figures(inputs, "suction spring")[0], [800.0, NAN])
-    np.testing.assert_array_equal(figures(inputs, "lateral")[0], [NAN, 900.0])
-    assert figures(inputs, "lateral")[2] == "length"
 
 
 def test_friction_with_a_constant_spring() -> None:
@@ -123,13 +98,6 @@ def test_suction_is_stiffest_at_the_velocity_of_its_cap_and_dampest_at_rest() ->
     np.testing.assert_allclose(stiffness, [601.76573615 / (0.2 * 0.048791855079), NAN], rtol=1e-10)
     np.testing.assert_allclose(damping, [1.82 * 601.76573615 / 1e-3, NAN], rtol=1e-10)
     assert per == "length"
-
-
-def test_of_cyclic_suction_the_first_cycle_counts() -> None:
-    law = bridge_law(3)._replace(cyclic=np.array([0.9, 0.9, 1.5]), cyclic_floor=np.array([NAN, 0.5, 0.5]))
-    stiffness = figures(chain([LINEAR] * 3, suction(law)), "suction")[0]
-    usual = 601.76573615 / (0.2 * 0.048791855079)
-    assert stiffness == pytest.approx([0.9 * usual, usual, 1.5 * usual], rel=1e-10)
 
 
 SUCTIONS: dict[str, tuple[dict[str, float], float, float]] = {
@@ -188,20 +156,6 @@ def test_normal_laws_at_positions() -> None:
     np.testing.assert_allclose(law_of(one, "curve").stiffness, [7500.0 / 0.3, NAN, NAN])
 
 
-def test_springs_of_nodes_at_positions() -> None:
-    contact = ContactModel(chain([NONE] * 2, on("nodal", 3, stiffness=[1e4, 2e4, 3e4], half_width=[0.0, 0.01, 0.0])))
-    found = law_of(contact.stiffest(at_depths([[0.1, -0.02, -0.1], [-0.1, 0.0, -0.1]])), "nodal")
-    assert found.stiffness.tolist() == [1e4, 1e4]
-
-
-def test_friction_at_positions() -> None:
-    """mu N / length with the largest N that occurs: 1000 N at each end, and 0.8 / 0.02 m."""
-    contact = ContactModel(chain([LINEAR], friction(2, (0.5, 0.8), NAN, mobilisation=0.02)))
-    pressed = contact.stiffest(at_depths([[0.01] * 2, [0.02] * 2, [-0.1] * 2]))
-    assert law_of(pressed, "friction").stiffness == pytest.approx([4e4])
-    assert law_of(contact.stiffest(at_depths([[-0.1] * 2])), "friction").stiffness.tolist() == [0.0]
-
-
 def test_suction_at_positions_and_velocities() -> None:
     """At 0.1 m/s, of both velocities the faster one: F_max / (0.2 Delta_B), and dF/dv at the slower one."""
     contact = ContactModel(chain([LINEAR], suction(bridge_law())))
@@ -222,15 +176,5 @@ def test_the_stiffest_of_all_laws_per_length() -> None:
 
 def test_steps_have_three_digits_that_are_not_above_them() -> None:
     assert [rounded_down(step) for step in (0.0042481, 0.021356, 1.0, 9.999, 1e-300)] == [
-        0.00424,
-        0.0213,
-        1.0,
-        9.99,
-        1e-300,
+        *(0.00424, 0.0213, 1.0, 9.99, 1e-300)
     ]
-
-
-def test_published_release_of_suction() -> None:
-    found = release_stiffness(bridge_law(3), np.array([0.1, 1e-3, 1.0]))
-    assert found == pytest.approx([42662.876092, 61666.617838, 35485.434704], rel=1e-10)
-    assert 2.0 * found[0] == pytest.approx(85325.752184, rel=1e-10)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.basics.quantities import LINES
@@ -62,31 +62,12 @@ def test_a_line_that_comes_down_lies_and_goes_up() -> None:
     assert (found.reaction, found.submerged_weight, found.ratio) == (10_000.0, 1000.0, 10.0)
 
 
-def test_all_on_the_seabed_and_nothing_on_it() -> None:
-    down, up = summary(-0.1, -0.1, -0.1), summary(0.1, 0.1, 0.1)
-    assert (down.touchdown, down.contact_length) == ((), 20.0)
-    assert (up.touchdown, up.contact_length, up.largest_force, up.reaction) == ((), 0.0, None, 0.0)
-    assert (up.submerged_weight, up.ratio) == (0.0, None)
-
-
-def test_a_node_exactly_at_the_seabed_is_the_touchdown_point() -> None:
-    (point,) = summary(0.0, -1.0).touchdown
-    assert (point.arc_length, point.contact) == (0.0, "after")
-    (point,) = summary(-1.0, 0.0, 1.0).touchdown
-    assert (point.arc_length, point.contact) == (10.0, "before")
-
-
 def test_a_rigid_seabed_holds_what_lies_at_it() -> None:
     found = summary(0.0, 0.0, 1.0, law="rigid")
     (point,) = found.touchdown
     assert (point.arc_length, point.contact) == (10.0, "before")
     assert found.contact_length == 10.0
     assert (found.largest_force, found.submerged_weight) == (None, 0.0)
-
-
-def test_weights_that_are_not_known() -> None:
-    found = summary(-1.0, -1.0, weight=None)
-    assert (found.submerged_weight, found.ratio, found.reaction) == (None, None, 10_000.0)
 
 
 def test_uplift_is_the_largest_pull() -> None:
@@ -137,24 +118,6 @@ def test_nodes_without_positions_are_no_touchdown() -> None:
     assert (found.touchdown, found.contact_length, found.reaction) == ((), 10.0, 10_000.0)
 
 
-def test_lines_apart_have_rows_of_their_own() -> None:
-    given = line_input(4)
-    apart = replace(
-        given,
-        element_ids=np.array([7, 8]),
-        element_nodes=np.array([[0, 1], [2, 3]]),
-        length=np.full(2, 10.0),
-        diameter=np.full(2, 0.5),
-        weight=np.full(2, 1.0),
-        laws=(LawAssignment("linear", np.arange(2), {"stiffness": STIFFNESS}),),
-    )
-    rows = line_summaries(ContactModel(apart).evaluate(at_heights(-1.0, -1.0, -2.0, 2.0)))
-    assert [(row.line, row.first_element, len(row.touchdown), row.reaction) for row in rows] == [
-        (1, 7, 0, 10_000.0),
-        (2, 8, 1, 0.0),
-    ]
-
-
 def test_json_has_no_value_for_what_overflowed() -> None:
     found = LineSummary(
         None, 1, 1, 1, np.inf, (TouchdownPoint(np.inf, 0.0, 0.0, 0.0, "after"),), 0.0, None, None, 1.0, None, None, None
@@ -164,59 +127,11 @@ def test_json_has_no_value_for_what_overflowed() -> None:
     assert row["touchdown"] == [{"arc_length": None, "x": 0.0, "y": 0.0, "z": 0.0, "contact": "after"}]
 
 
-@pytest.mark.filterwarnings("error")
-def test_lengths_that_overflow_warn_of_nothing() -> None:
-    given = replace(line_input(4, weight=None), length=np.full(3, 1.5e308))
-    result = ContactModel(replace(given, laws=())).evaluate(at_heights(-1.0, -1.0, -1.0, 1.0))
-    (row,) = line_summaries(result)
-    columns = LineTable(given, np.arange(3)).columns(Part(0, result.as_series()))
-    values = {column.name: column.cut(0, 1)[0, 0] for column in columns}
-    assert row.length == values["length"] == np.inf
-    assert row.row()["contact_length"] is None
-
-
-def test_a_result_without_its_input_is_refused() -> None:
-    result = replace(ContactModel(line_input(2)).evaluate(), given=None)
-    with pytest.raises(ValueError, match="does not know its nodes"):
-        line_summaries(result)
-
-
-def test_positions_of_a_state_are_kept_as_they_were() -> None:
-    places = at_heights(-1.0, -1.0)
-    result = ContactModel(line_input(2)).evaluate(places)
-    places[:] = 9.0
-    assert result.positions is not None
-    assert result.positions[:, 0].tolist() == [-1.0, -1.0]
-
-
 def lines(*ends: tuple[int, int], nodes: int = 0, length: float = 2.0) -> Lines:
     """The lines of elements by their nodes from 0."""
     pairs = np.array(ends, dtype=np.intp).reshape(-1, 2)
     count = nodes or int(pairs.max(initial=-1)) + 1
     return lines_of(pairs, np.full(len(pairs), length), count)
-
-
-def test_elements_in_any_order_and_direction_follow_the_first() -> None:
-    found = lines((2, 1), (3, 2), (0, 1))
-    assert found.elements[0].tolist() == [1, 0, 2]
-    assert found.nodes[0].tolist() == [3, 2, 1, 0]
-    assert found.node_arc.tolist() == [6.0, 4.0, 2.0, 0.0]
-    assert found.element_arc.tolist() == [3.0, 1.0, 5.0]
-
-
-def test_two_lines_and_a_node_of_none() -> None:
-    found = lines((0, 1), (1, 2), (3, 4), nodes=6)
-    assert found.of_element.tolist() == [0, 0, 1]
-    assert found.of_node.tolist() == [0, 0, 0, 1, 1, -1]
-    assert found.node_arc[:5].tolist() == [0.0, 2.0, 4.0, 0.0, 2.0]
-    assert np.isnan(found.node_arc[5])
-
-
-def test_a_junction_ends_lines_and_belongs_to_the_first() -> None:
-    found = lines((0, 1), (1, 2), (1, 3))
-    assert found.of_element.tolist() == [0, 1, 2]
-    assert [each.tolist() for each in found.nodes] == [[0, 1], [1, 2], [1, 3]]
-    assert (found.of_node[1], found.node_arc[1]) == (0, 2.0)
 
 
 @pytest.mark.parametrize("ends", [((0, 1), (1, 2), (2, 0)), ((1, 2), (0, 1), (2, 0))])
@@ -229,13 +144,6 @@ def test_a_closed_line_begins_with_its_first_element(ends: tuple[tuple[int, int]
     assert sorted(found.node_arc.tolist()) == [0.0, 2.0, 4.0]
 
 
-def test_no_elements() -> None:
-    found = lines(nodes=2)
-    assert (found.elements, found.nodes) == ([], [])
-    assert found.of_node.tolist() == [-1, -1]
-
-
-@settings(max_examples=80)
 @given(st.integers(1, 9).flatmap(lambda n: st.lists(st.tuples(st.integers(0, n), st.integers(0, n)), max_size=14)))
 def test_every_element_is_in_one_line_whose_elements_join(ends: list[tuple[int, int]]) -> None:
     pairs = np.array(ends, dtype=np.intp).reshape(-1, 2)

@@ -11,7 +11,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from hypothesis import given, reject, settings
+from hypothesis import given, reject
 from hypothesis import strategies as st
 
 from mudline.model.curves import CurveError, ForceCurve
@@ -148,32 +148,6 @@ def test_points_are_exact_bit_for_bit(curve: ForceCurve) -> None:
     assert force.tobytes() == curve.forces.tobytes()
     assert np.array_equal(slope[:-1], curve.slopes)
     assert slope[-1] == curve.slopes[-1]
-
-
-@given(evaluable(), st.lists(scaled(290), min_size=2, max_size=30))
-def test_within_a_segment_the_force_follows_the_sign_of_the_slope(curve: ForceCurve, ratios: list[float]) -> None:
-    ordered = sorted(ratios)
-    try:
-        force, slope = curve.evaluate(ordered)
-    except ValueError:
-        return
-    anchor = np.searchsorted(curve.ratios, ordered, side="right")
-    together = np.diff(anchor) == 0
-    assert (np.diff(force)[together] * np.sign(slope[:-1][together]) >= 0.0).all()
-
-
-@settings(max_examples=25)
-@given(evaluable(), scaled(25))
-def test_a_root_has_the_force_it_was_asked_for(curve: ForceCurve, force: float) -> None:
-    roots = curve.ratios_at_force(force)
-    assert list(roots) == sorted(set(roots))
-    points = list(zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True))
-    for root in roots:
-        start, product, slope = exact_parts(points, root)
-        # A ratio is rounded to a float64, which costs slope * ulp(ratio) of force.
-        scale = abs(start) + abs(product) + abs(Fraction(force)) + abs(slope * Fraction(root))
-        steepest = max(abs(slope), abs(exact_parts(points, math.nextafter(root, -math.inf))[2]))
-        assert abs(start + product - Fraction(force)) <= 8 * EPS * scale + steepest * Fraction(math.ulp(root))
 
 
 @pytest.mark.parametrize(

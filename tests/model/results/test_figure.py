@@ -21,7 +21,7 @@ from mudline.model.contact.touchdown import line_summaries
 from mudline.model.curves import ForceCurve
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.plots.along_line import Stretch
-from mudline.model.results.plots.figure import evaluation_figure, panels_of, reaction
+from mudline.model.results.plots.figure import evaluation_figure, panels_of
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
 from tests.helpers.samples import SAMPLES
@@ -130,13 +130,6 @@ def test_the_labels_of_a_span_do_not_lie_over_each_other() -> None:
     assert first.y1 <= axes.get_window_extent().y1
 
 
-@pytest.mark.parametrize("touches", [False, True])
-def test_the_legend_has_contact_where_there_is_some(touches: bool) -> None:
-    legend = panel(PlotData.of_result(heave() if touches else raised()), "line").get_legend()
-    assert legend is not None
-    assert ("in contact" in [text.get_text() for text in legend.get_texts()]) is touches
-
-
 def test_the_line_has_its_touchdown_point_and_lies_on_its_nodes() -> None:
     state = heave().step(0)
     axes = panel(PlotData.of_result(state), "line")
@@ -214,16 +207,6 @@ def test_several_lines_differ_without_colours() -> None:
     assert texts[:3] == ["line 1: elements 1 to 4", "line 2: elements 5 to 8", "line 3: elements 9 to 12"]
 
 
-def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
-    data = PlotData.of_result(lines(70, 1))
-    stretch = Stretch(data)
-    assert (len(stretch.lines), stretch.left_out) == (6, 64)
-    axes = panel(data, "line")
-    legend = axes.get_legend()
-    assert legend is not None
-    assert "and 64 more lines" in [text.get_text() for text in legend.get_texts()]
-
-
 def test_four_elements_are_marked_and_a_long_line_is_thinned() -> None:
     short = drawn(panel(PlotData.of_result(lines(1)), "force"))[0]
     assert short.get_marker() == "o"
@@ -251,28 +234,6 @@ def test_panels_along_the_line_show_where_contact_changes() -> None:
     assert stretch.beyond in figure.get_suptitle()
 
 
-def test_springs_of_nodes_have_forces_on_nodes() -> None:
-    scene = lines(1).known
-    law = LawAssignment("nodal", np.arange(5), {"stiffness": 1e4})
-    given = ContactInput(
-        scene.node_ids, scene.coordinates, scene.element_ids, scene.element_nodes, scene.length, scene.diameter, (law,)
-    )
-    found = ContactModel(given).evaluate()
-    axes = panel(PlotData.of_result(found), "force")
-    assert axes.get_ylabel() == "seabed reaction\non a node"
-    assert np.asarray(drawn(axes)[0].get_ydata()).tolist() == found.normal_force.tolist()
-
-
-@pytest.mark.parametrize("name", ["picture.png", "picture.svg", "picture.pdf"])
-def test_a_result_draws_itself_the_same_each_time(tmp_path: Path, name: str) -> None:
-    state = raised().step(0)
-    state.plot(tmp_path / name)
-    first = (tmp_path / name).read_bytes()
-    state.plot(tmp_path / name)
-    assert (tmp_path / name).read_bytes() == first
-    assert b"/Type3" not in first
-
-
 def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:
     state = heave().step(0)
     with pytest.raises(ValueError, match=r"unknown file format: give a name ending in \.png, \.svg or \.pdf"):
@@ -287,12 +248,6 @@ def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------ scales
-
-
-def test_a_total_that_hardly_changes_is_flat() -> None:
-    axes = Figure().add_subplot()
-    reaction(axes, PlotData.of_result(result("slope-friction.keyxm", "slope-friction.csv")))
-    assert axes.get_ylim() == pytest.approx((57_948.0, 58_531.0), rel=2e-3)
 
 
 def test_evaluated_points_with_a_suction_spring_lie_on_the_drawn_lines() -> None:

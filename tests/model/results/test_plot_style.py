@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
 
-from matplotlib.axes import Axes
 
 from mudline.model.results.curve_rows import curve_rows
 from mudline.model.results.evaluation import evaluate_scene
@@ -23,12 +21,6 @@ from tests.helpers.samples import sample
 
 def row(name: str, *points: tuple[float, float], **more: Any) -> dict[str, Any]:  # noqa: ANN401 - as in rows
     return {"name": name, "kind": OF_SEABED, "points": points, **more}
-
-
-def segments(axes: Axes, style: str) -> list[list[list[float]]]:
-    """The points of the lines of a style that are drawn."""
-    lines = [line for line in axes.get_lines() if line.get_linestyle() == style and len(np.asarray(line.get_xdata()))]
-    return [np.asarray(line.get_xydata()).tolist() for line in lines]
 
 
 def test_many_curves_differ_in_colour_and_marker() -> None:
@@ -49,13 +41,6 @@ def test_axes_of_every_kind_have_their_units() -> None:
         ("curvature [1/m]", "moment [N m]"),
         ("twist [1/m]", "torque [N m]"),
     ]
-
-
-def test_a_curve_goes_on_to_zero_to_a_margin_and_to_what_was_asked_for() -> None:
-    at = [{"ratio": 3.0, "force": 5.0}]
-    both = [row("a", (0.5, 1.0), (1.0, 2.0), at=at), row("b", (-2.0, 1.0), (2.0, 3.0))]
-    dashed = segments(curves_figure(both, "user").axes[0], "--")
-    assert dashed == [[[0.5, 1.0], [0.0, 0.0]], [[1.0, 2.0], [3.0, 6.0]], [[2.0, 3.0], [2.3, pytest.approx(3.15)]]]
 
 
 def test_figures_of_a_deck_have_the_colours_of_the_style() -> None:

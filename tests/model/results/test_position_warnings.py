@@ -66,14 +66,3 @@ def test_rounding_that_makes_the_friction(digits: int, mobilisation: float, expe
     told = [one.diagnostic for one in watched(pipe(law), places.round(digits))[0]]
     assert [one.code for one in told] == ["RUN008"] * bool(expected)
     assert all(expected in one.message for one in told)
-
-
-def test_coordinates_written_by_hand_are_not_rounded() -> None:
-    assert watched(pipe(f"{LAW} FRICTION=0.35, 0.6, 0.0027, 0.1\n"), heights(-0.02))[0] == []
-
-
-def test_caption_is_one_short_line() -> None:
-    two = watched(pipe(LAW.replace("50000", "900000") + " SET=East\n FRICTION=0.3, 0.5\n"))[0]
-    assert caption(two) == "2 warnings: reaction / submerged weight 38.4; 5 elements in contact without a seabed law"
-    assert caption([]) == ""
-    assert len(caption(two * 9)) <= 90

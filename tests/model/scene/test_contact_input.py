@@ -90,13 +90,6 @@ def test_a_node_between_two_nodal_laws_has_the_later_one_and_a_bare_block_takes_
     assert (everywhere(given, "nodal", "stiffness")[5:] == 7.0).all()
 
 
-def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
-    rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
-    scene = scene_of(line_deck(METRIC, rigid + NODAL))
-    assert scene.law_names == ["rigid"] * 10
-    assert refusal(rigid + NODAL).startswith("2: EXT001 *SEABED CONTACT needs an elastic seabed, and the seabed is rig")
-
-
 # smoothing
 
 
@@ -123,14 +116,6 @@ def test_a_pipe_on_a_seabed_above_the_water_has_its_weight_in_air(units: Units) 
     np.testing.assert_allclose(deep.submerged_weight, WEIGHT, rtol=1e-14)
 
 
-def test_elements_that_begin_outside_of_the_seabed_are_in_the_water() -> None:
-    """The plane begins at 70 m, where element 8 does; the bed of the water, 500 m deep, is not known."""
-    planes = "*SEABED PLANES\n PLANE=Land\n POINT=600, 0, 0\n SLOPE=0\n BOUNDS=70, 200, -10, 10\n"
-    weight = scene_of(line_deck(METRIC, planes)).submerged_weight
-    assert weight[:7] == pytest.approx(WEIGHT)
-    assert weight[7:] == pytest.approx(7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) * 9.81)
-
-
 def test_widths_of_linear_laws() -> None:
     def width(lines: str) -> list[float]:
         given = made(LINEAR_BED + f"*SEABED CONTACT\n SET=Left\n{lines}")
@@ -147,14 +132,6 @@ def test_widths_of_linear_laws() -> None:
     one_sided = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=Left\n SMOOTHING=0.01\n FORM=ONE-SIDED\n", "smoothed")
     assert one_sided.rows.tolist() == [0, 1, 2, 3, 4]
     assert one_sided["one_sided"].all()
-
-
-def test_widths_of_nodal_laws_count_half_the_elements_of_a_node() -> None:
-    widths = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000000\n", "nodal")["half_width"]
-    np.testing.assert_allclose(widths[[0, 10]], 0.1 * WEIGHT * 5.0 / 1e6)
-    np.testing.assert_allclose(widths[1:10], 0.1 * WEIGHT * 10.0 / 1e6)
-    soft = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000\n", "nodal")
-    np.testing.assert_allclose(soft["half_width"], np.full(11, 0.0025))
 
 
 def test_without_a_weight_nothing_is_smoothed_and_the_plan_says_so() -> None:
@@ -216,12 +193,6 @@ def test_user_units_have_no_defaults_of_suction() -> None:
     assert reported(" FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
 
 
-def test_suction_springs() -> None:
-    springs = made_law(LINEAR_BED + " SUCTION=500, 0.2\n", "suction spring")
-    assert (springs["stiffness"][0], springs["extent"][0]) == (500.0, 0.2)
-    assert "suction spring" not in made(LINEAR_BED + " SUCTION=500\n").assigned
-
-
 # friction, lateral, trench
 
 
@@ -251,14 +222,6 @@ def test_friction_of_the_keyword_replaces_that_of_properties_at_its_nodes() -> N
     assert friction["elliptic"].tolist() == [False] * 5 + [True] * 6
     assert friction["angle"][5] == 30.0
     assert np.isnan(friction["angle"][4])
-
-
-def test_lateral_springs_take_the_transverse_coefficient_away() -> None:
-    seabed = LINEAR_BED + " FRICTION=0.3, 0.5\n SET=Left\n STIFFNESS=1\n FRICTION=0.3, 0.5\n LATERAL=70\n"
-    laws = made(seabed).assigned
-    assert laws["lateral"].rows.tolist() == [0, 1, 2, 3, 4]
-    assert laws["lateral"]["stiffness"].tolist() == [70.0] * 5
-    assert laws["friction"]["lateral_coefficient"].tolist() == [0.0] * 6 + [0.5] * 5
 
 
 def test_a_trench_counts_its_own_elements() -> None:
@@ -317,15 +280,6 @@ def test_beds_of_points(tmp_path: Path, keyword: str, content: str, why: str) ->
     assert np.isfinite(contact.evaluate().gap).any()
 
 
-def test_a_surface_without_scipy_names_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.model.scene.contact_input.find_spec", lambda _: None)
-    (tmp_path / "bed.txt").write_text("-1, -9, -9\n-1, 200, -9\n-1, 0, 99\n")
-    path = tmp_path / "deck.keyxm"
-    path.write_text(line_deck(METRIC, LINEAR_BED + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"))
-    with pytest.raises(DeckError, match=r"mudline\[bathymetry\]"):
-        resolve(load_path(path)).contact()
-
-
 def model(units: Units) -> ContactModel:
     return scene_of(line_deck(units, full_bed(units), span=5.0), f"deck.{units.suffix}").contact()
 
@@ -382,20 +336,3 @@ def test_linear_laws_and_curves() -> None:
     lifting = rows(CURVED_BED.replace("0.5, 4000", "0.5, -4000"))
     assert lifting[0]["ratio"] is None
     assert rows(LINEAR_BED.replace("50000", "0"))[0]["penetration"] is None
-
-
-def test_nodal_laws_have_the_ends_and_the_inside_of_a_line() -> None:
-    end, inside = rows(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n")
-    assert end["penetration"] == pytest.approx(WEIGHT * 10.0 / (2 * 90000.0))
-    assert inside["penetration"] == pytest.approx(WEIGHT * 10.0 / 90000.0)
-    assert (end["law"], end["stiffness"], end["set"]) == ("nodal", 90000.0, "ALL")
-
-
-def test_without_a_weight_there_are_no_rows() -> None:
-    nodal = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n"
-    assert rows(nodal.replace("ALL", "Left"))
-    light = line_deck(METRIC, LINEAR_BED + nodal).replace("7850.0", "10.0")
-    assert static_embedment(scene_of(light)) == []
-    assert static_embedment(scene_of("$MODEL\n*OCEAN\n 5, 1025\n")) == []
-    lost = line_deck(METRIC, nodal).replace(" 11, -0.05, 100.0\n", "")
-    assert static_embedment(scene_of(lost)) == []

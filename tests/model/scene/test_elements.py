@@ -35,20 +35,6 @@ def test_axes_of_an_element_are_no_nodes() -> None:
     assert ends_of(scene_of(ELEMENT + " 1, 1, 2, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0\n")) == {1: [1, 2]}
 
 
-def test_nodes_may_stand_behind_the_elements() -> None:
-    scene = scene_of("$MODEL\n*ELEMENT\n 1, 1, 2\n*NODE\n 1, 0, 0\n 2, 0, 5\n")
-    assert scene.length.tolist() == [5.0]
-    assert scene.problems == []
-
-
-def test_an_undefined_node_is_told_at_its_field() -> None:
-    text = ELEMENT + " 1, 1, 2\n 2, 2, 30\n 3, 31, 32\n"
-    line = NODES_END + 3
-    assert reported(text) == [("E", "REF006", line, 8), ("E", "REF006", line + 1, 5), ("E", "REF006", line + 1, 9)]
-    assert ends_of(scene_of(text)) == {1: [1, 2], 2: [2, 0], 3: [0, 0]}
-    assert messages(text)[0] == "element 2 ends at node 30, which is not defined: define it"
-
-
 def test_a_generator_that_runs_beyond_the_nodes_is_told_once() -> None:
     text = ELEMENT + " 1, 1, 2\n GEN=1, 25\n"
     assert reported(text) == [("E", "REF006", NODES_END + 3, 2)]
@@ -65,13 +51,6 @@ def test_a_master_must_be_defined_before() -> None:
     text = ELEMENT + " GEN=1, 3\n 1, 1, 2\n"
     assert reported(text) == [("E", "REF005", NODES_END + 2, 6)]
     assert ends_of(scene_of(text)) == {2: [0, 0], 3: [0, 0], 1: [1, 2]}
-
-
-@pytest.mark.parametrize("line", ["GEN=1, 0", "GEN=1, -3", "GEN=1, 3, 0", "GEN=1, 3, -1"])
-def test_generators_of_nothing(line: str) -> None:
-    text = ELEMENT + f" 1, 1, 2\n {line}\n"
-    assert reported(text) == [("E", "REF010", NODES_END + 3, 2)]
-    assert ends_of(scene_of(text)) == {1: [1, 2]}
 
 
 @pytest.mark.parametrize("line", [f"GEN=1, {MOST_GENERATED + 2}", "GEN=1, 3, 9007199254740991"])
@@ -92,15 +71,6 @@ def test_labels_name_nothing_without_lines() -> None:
     assert ends_of(scene_of(text)) == {1: [0, 2]}
 
 
-def test_labels_may_name_nodes_of_lines() -> None:
-    text = NODES + "*LINES\n LINE=Riser\n*ELEMENT\n 1, {Seabed End}, 2\n 2, 2, 77\n"
-    assert reported(text) == [("W", "REF006", NODES_END + 5, 8)]
-
-
-def test_a_label_whose_braces_were_forgotten_is_told_once() -> None:
-    assert all_reported(ELEMENT + " 1, Seabed, 2\n") == [("W", "SYN016", NODES_END + 2, 5)]
-
-
 def test_rows_that_could_not_be_read_lead_to_nothing_more() -> None:
     text = ELEMENT + " 1, 1, 2\n x, 2, 3\n 3, 3, 4-\n"
     scene = scene_of(text)
@@ -108,17 +78,6 @@ def test_rows_that_could_not_be_read_lead_to_nothing_more() -> None:
     assert ends_of(scene) == {1: [1, 2], 3: [3, 0]}
     assert np.isnan(scene.length[1])
     assert [scene.table.numbered.where(index).path[-1] for index in (0, 1)] == [0, 2]
-
-
-def test_an_element_that_was_not_read_may_be_the_one_that_a_set_lists() -> None:
-    text = ELEMENT + " 1, 1, 2\n 2x, 2, 3\n*ELEMENT SETS\n SET=a\n 1, 2\n 1, 22, 33\n GEN=1, 3\n"
-    assert reported(text) == [("E", "REF005", NODES_END + 7, 9)]
-
-
-def test_a_pattern_of_which_a_value_is_not_known_makes_nothing() -> None:
-    scene = scene_of(ELEMENT + " 1, 1, 2\n GEN=1, =[nothing]\n")
-    assert scene.element_ids.tolist() == [1]
-    assert [problem.code.code for problem in scene.problems] == ["REF013"]
 
 
 def test_a_deck_without_elements_is_empty_and_fine() -> None:

@@ -37,19 +37,6 @@ def test_all_columns(file: Path) -> None:
     assert {name: ids.tolist() for name, ids in found.sets.items()} == {"Riser": [1, 3], "Upper Part": [1]}
 
 
-def test_needed_columns_only(file: Path) -> None:
-    found = read(file, "\ufeffnode2, Node1,DIAMETER,element\r\n2,1,0.5,7\r\n\r\n")
-    assert found.ids.tolist() == [7]
-    assert found.nodes.tolist() == [[1, 2]]
-    assert np.isnan(found.length).all()
-    assert found.sets == {}
-
-
-def test_names_of_sets(file: Path) -> None:
-    found = read(file, f'{HEADER}\n1,1,2,0.5,1," A ; ;B,C; "\n')
-    assert list(found.sets) == ["A", "B,C"]
-
-
 FAULTS = {
     "empty": ("", 1, "the header lacks element, node1, node2, diameter: expected " + HEADER),
     "header": ("element,node1,node2,Do\n", 1, "the header lacks diameter: expected " + HEADER),
@@ -75,11 +62,6 @@ def test_fault_names_its_line(file: Path, text: str, line: int, message: str) ->
         read(file, text)
     (found,) = caught.value.diagnostics
     assert (found.code, found.message, found.line) == ("DAT001", message, line)
-
-
-def test_field_that_is_too_long_for_csv(file: Path) -> None:
-    with pytest.raises(DeckError, match="not a CSV file: field larger than field limit"):
-        read(file, f'{HEADER}\n1,1,2,0.5,,"{"x" * 200_000}"\n')
 
 
 def test_scene_takes_the_elements(file: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.language.diagnostics import Severity
-from tests.helpers.builders.scenes import all_reported, diagnostics, ends_of, legal_scene, members, scene_of
+from tests.helpers.builders.scenes import diagnostics, ends_of, legal_scene, members, scene_of
 
 GRID = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 10.0\n 3, 0.0, 20.0\n"
 BARS = "*ELEMENT\n 7, {Anchor}, 2\n 8, 2, {HANG-OFF}\n*ELEMENT SETS\n SET=Top\n {Last Joint}\n"
@@ -17,20 +17,10 @@ HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n {Anchor}, 1\n GEN={Anchor}, {Han
 SUMMARY = "$SUMMARY POSTPROCESSING\n*PARA ANGLE ELEMENT\n DATA1={last joint}\n DATA2={Hang-off}\n"
 
 
-def test_a_deck_with_labels_says_nothing_of_them() -> None:
-    text = GRID + BARS + LABELS + "*MASS\n {Hang-off}, 20.0\n" + HELD + SUMMARY
-    assert all_reported(text) == []
-
-
 def test_labels_are_the_numbers_of_nodes_and_elements() -> None:
     scene = legal_scene(GRID + BARS + LABELS)
     assert ends_of(scene) == {7: [1, 2], 8: [2, 3]}
     assert members(scene)["Top"] == [8]
-
-
-def test_the_number_of_a_label_may_be_an_equation() -> None:
-    text = GRID + BARS + LABELS.replace(" 3, LABEL", " =[last], LABEL") + "$PREPROCESSOR\n*PARAMETERS\n last, 3\n"
-    assert ends_of(legal_scene(text)) == {7: [1, 2], 8: [2, 3]}
 
 
 @pytest.mark.parametrize(
@@ -55,11 +45,6 @@ def test_labels_of_lines_that_are_not_read_may_be_there_too() -> None:
     told = diagnostics(scene_of(GRID + BARS + LABELS + lines + "*MASS\n {Elsewhere}, 20.0\n {Ancor}, 1.0\n"))
     labels = [(one.code, one.severity) for one in told if "label" in one.message]
     assert labels == [("REF006", Severity.WARNING)]
-
-
-def test_what_a_broken_line_of_labels_may_have_given_is_not_missed() -> None:
-    broken = (GRID + BARS + LABELS + HELD).replace(" 3, LABEL=Hang-off", " 3")
-    assert {code for _, code, _, _ in all_reported(broken)} == {"SYN001"}
 
 
 def test_a_deck_without_labels_says_where_they_are_made() -> None:

@@ -57,29 +57,10 @@ def test_blocks_of_several_keywords_follow_each_other() -> None:
     assert reported(text) == []
 
 
-def test_names_of_curves_have_no_case() -> None:
-    scene = scene_of(NEW + " SET=a\n STIFFNESS=CLAY\n")
-    assert scene.law_names == ["curve:Clay"] * 5 + ["none"] * 5
-
-
-def test_of_two_curves_of_a_name_the_later_is_taken() -> None:
-    scene = scene_of(NEW + " SET=a\n STIFFNESS=clay\n*SEABED STIFFNESS\n CURVE=clay\n 0, 0\n 1, 7\n")
-    grant = scene.set_law(0)
-    assert grant is not None
-    assert scene.laws.curves[grant.curve].points.tolist() == [[0, 0], [1, 7]]
-
-
 def test_a_stiffness_that_reads_as_a_number_is_one() -> None:
     scene = scene_of(NEW + " SET=a\n STIFFNESS=100\n*SEABED STIFFNESS\n CURVE=100\n 0, 0\n 1, 7\n")
     assert stiffnesses(scene)[:5] == [100] * 5
     assert scene.laws.referenced == set()
-
-
-def test_equations_give_numbers_and_names() -> None:
-    head = '$PREPROCESSOR\n*PARAMETERS\n k, 40.0\n soil, "clay"\n'
-    scene = scene_of(head + NEW + " SET=a\n STIFFNESS==[2*k]\n SET=b\n STIFFNESS==[soil]\n")
-    assert stiffnesses(scene)[:3] == [80] * 3
-    assert scene.law_names[3:8] == ["curve:Clay"] * 5
 
 
 def test_lines_before_any_set_hold_for_all() -> None:
@@ -91,12 +72,6 @@ def test_a_rigid_bed(extra: str) -> None:
     text = BASE + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n FRICTION=0.3\n" + extra
     assert laws(text) == "rrrrr-----"
     assert reported(text) == []
-
-
-@pytest.mark.parametrize(("line", "severity"), [("Clay", "E"), ("100", "W")])
-def test_a_stiffness_on_a_rigid_bed(line: str, severity: str) -> None:
-    text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n STIFFNESS={line}\n"
-    assert reported(text) == [(severity, "SBD001", LINE + 1, 12)]
 
 
 @pytest.mark.parametrize("line", ["LATERAL=100", "SUCTION=100, 0.2"])
@@ -112,13 +87,6 @@ def test_an_undefined_curve_is_told_at_its_field_and_is_no_linear_law() -> None:
     assert messages(text)[0].startswith("curve 'Caly' is not defined (did you mean Clay?)")
     scene = scene_of(text)
     assert scene.law_names[:6] == ["curve"] * 5 + ["none"]
-
-
-def test_an_undefined_set_gives_nothing_to_anything() -> None:
-    text = NEW + " SET=ALL\n STIFFNESS=1\n SET=c\n STIFFNESS=Clay\n"
-    assert laws(text) == "l" * 10
-    assert reported(text) == [("E", "REF001", LINE + 2, 6)]
-    assert scene_of(text).laws.uncertain
 
 
 # ----------------------------------------------------------------------------------------------------------- legacy
@@ -172,13 +140,6 @@ def test_a_new_block_without_stiffness_leaves_the_legacy_law() -> None:
     assert laws(text) == "lllcccccll"
 
 
-def test_without_a_seabed_there_is_no_law() -> None:
-    scene = scene_of(BASE)
-    assert scene.law_names == ["none"] * 10
-    assert scene.law_sets == [None] * 10
-    assert scene.set_law(3) is None
-
-
 # ----------------------------------------------------------------------------------------------------------- checks
 
 
@@ -201,13 +162,6 @@ def test_two_types_in_two_model_sections_are_a_warning_because_that_is_inferred(
     assert reported(text) == [("W", "SBD002", 7, 1)]
 
 
-def test_an_elastic_surface_without_stiffness_needs_embedment() -> None:
-    text = BASE + "*ELASTIC SURFACE\n , 0.3, 0.4\n"
-    assert reported(text) == [("E", "SBD004", BASE.count("\n") + 1, 1)]
-    assert reported(text + embedment("a")) == []
-    assert reported("$LOAD CASE\n*RESTART\n LAST=x\n" + text) == [("W", "SBD004", BASE.count("\n") + 4, 1)]
-
-
 @pytest.mark.parametrize("row", ["5O000, 0.3", "=[nothing], 0.3", "-1, 0.3"])
 def test_a_stiffness_that_could_not_be_read_is_not_missing(row: str) -> None:
     scene = scene_of(BASE + f"*ELASTIC SURFACE\n {row}\n")
@@ -227,13 +181,6 @@ def test_embedment_on_a_rigid_bed_is_told_once_for_a_block() -> None:
     assert reported(text) == [("E", "SBD005", line, 2), ("E", "SBD005", line + 7, 2)]
 
 
-def test_embedment_without_an_elastic_bed() -> None:
-    text = BASE + embedment("a")
-    assert reported(text) == [("E", "SBD005", BASE.count("\n") + 2, 2)]
-    assert reported(text + "*SEABED PROPERTIES\n SET=a\n") == [("E", "SBD003", text.count("\n") + 1, 1)]
-    assert reported(text + "*SEABED PROPERTES\n SET=a\n") == []
-
-
 # -------------------------------------------------------------------------------------------------------- diameters
 
 
@@ -248,31 +195,12 @@ def test_missing_diameters_are_told_once_for_each_place_that_gives_a_curve() -> 
     ]
 
 
-def test_a_linear_law_needs_no_diameter() -> None:
-    assert reported(PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n") == []
-
-
 def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces() -> None:
     text = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n" + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
     nodal = "*SEABED CONTACT\n SET={}\n NODAL STIFFNESS=5000\n"
     assert reported(text + nodal.format("ALL")) == []
     assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
-
-
-def test_a_soil_needs_a_diameter() -> None:
-    text = (
-        PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n*SEABED SOIL\n SET=ALL\n STRENGTH=5000\n"
-    )
-    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
-    assert "have a soil and no external diameter" in messages(text)[0]
-    assert reported(text + STEEL) == []
-
-
-def test_a_drag_diameter_of_0_is_no_diameter() -> None:
-    text = PIPE + "*GEOMETRIC SETS\n SET=ALL\n ,,,, 1, 1, 0, 0.0, 0.3\n" + CLAY
-    text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
-    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
 
 
 def test_a_section_of_a_set_of_lines_may_be_that_of_any_element() -> None:

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
-from mudline.language.deck.loading import load_bytes
-from mudline.model.scene.model import resolve
-from tests.helpers.builders.scenes import all_reported, messages, reported
+from tests.helpers.builders.scenes import messages, reported
 
 LINES = "*LINES\n LINE=SCR\n"
 LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"
@@ -54,18 +50,9 @@ def test_a_label_that_differs_on_purpose_is_another_label(other: str) -> None:
     assert reported(text + nodes("{End 1}", other)) == []
 
 
-def test_a_word_without_braces_is_told_once() -> None:
-    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, Seabed Ende, {Seabed End}\n"
-    assert [code for _, code, _, _ in all_reported(text)] == ["SYN016"]
-
-
 def test_a_label_beside_a_number_that_could_not_be_read() -> None:
     text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, {Seabed Ende}, {Seabed End}, 1.x\n"
     assert reported(text) == [("W", "REF006", 9, 5)]
-
-
-def test_labels_where_nothing_makes_any() -> None:
-    assert reported("$MODEL\n*ELEMENT\n" + nodes("{End}"))[0][:2] == ("E", "REF006")
 
 
 # ----------------------------------------------------------------------------------------------- lines and their groups
@@ -73,11 +60,6 @@ def test_labels_where_nothing_makes_any() -> None:
 SECTIONS = "*LINE PATH SECTIONS\n LINE=Flowline\n SECTION=a, 0, 100, REPEAT=Joint\n"
 GROUPS = "*LINE SECTION GROUPS\n NAME=Joint\n SECTION=b, 12.0\n"
 ROUTE = "*LINE PATHS\n LINE=Flowline\n 0, 0, 0\n"
-
-
-def test_names_that_lines_use_of_each_other() -> None:
-    for text in (SECTIONS + GROUPS + ROUTE, ROUTE + SECTIONS.upper() + GROUPS, SECTIONS + GROUPS):
-        assert reported("$MODEL\n" + text) == []
 
 
 def test_a_group_that_is_not_defined() -> None:
@@ -95,20 +77,3 @@ def test_a_line_that_is_not_defined() -> None:
     assert messages(text) == [
         "LINE= names no line: 'Flowline' is not defined (did you mean Flow Line?); define it in *LINE PATHS"
     ]
-
-
-def test_groups_that_a_document_gives_as_lines() -> None:
-    groups = {"keyword": "LINE SECTION GROUPS", "lines": [" NAME=Joint"]}
-    path = {"line": "a", "sections": [{"section": {"set": "b", "start": 0.0}, "repeat": "Joint"}]}
-    blocks = [groups, {"keyword": "LINE PATH SECTIONS", "paths": [path]}]
-    document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": blocks}]}
-    deck = load_bytes(json.dumps(document).encode(), "deck.json")
-    assert deck.problems == resolve(deck).problems == []
-
-
-def test_sections_that_could_not_be_read() -> None:
-    sections = "*LINE PATH SECTIONS\n LINE=\n SECTION=, 1\n LINE=a\n SECTION=b, 1, REPEAT=\n"
-    assert reported(f"$MODEL\n{sections}*LINE SECTION GROUPS\n NAME=\n") == []
-
-
-# ------------------------------------------------------------------------------------------------------------ any lines

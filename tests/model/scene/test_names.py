@@ -7,9 +7,6 @@ from pathlib import Path
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
 from mudline.language.deck.loading import dump, load_bytes
-from mudline.language.keywords import catalogue
-from mudline.language.keywords.values import Names
-from mudline.model.scene.names import CURVES, THINGS
 from tests.helpers.builders.decks import CLEAN
 
 VESSEL = "*VESSEL,INTEGRATED\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0\n"
@@ -29,13 +26,6 @@ def test_a_vessel_is_looked_up() -> None:
     assert found(CLEAN + VESSEL + OFFSET.format("fpso")) == []
     assert found(CLEAN + VESSEL + OFFSET.format("FSPO")) == [("REF019", "error", lines + 6)]
     assert found(OFFSET.format("FSPO")) == []  # a part of a job: the model is somewhere else
-
-
-def test_a_line_that_was_not_read_may_define_it() -> None:
-    more = VESSEL + " WORKING=yes\n"
-    assert found(CLEAN + more + OFFSET.format("FSPO")) == [("REF019", "warning", CLEAN.count("\n") + 7)]
-    restart = "*RESTART\n LAST=static\n"
-    assert [one[:2] for one in found(CLEAN + VESSEL + OFFSET.format("FSPO") + restart)] == [("REF019", "warning")]
 
 
 def test_curves_of_other_kinds() -> None:
@@ -67,12 +57,6 @@ def test_sets_of_postprocessing() -> None:
     )
     assert found(CLEAN + post.format("hot")) == []
     assert found(CLEAN + post.format("Cold")) == [("REF001", "error", CLEAN.count("\n") + 7)]
-
-
-def test_kinds_are_said_in_words() -> None:
-    assert all(kind.value.startswith(("a ", "an ")) for kind in CURVES | THINGS)
-    assert catalogue.definers(Names.VESSEL) == ["VESSEL", "VESSEL,INTEGRATED"]
-    assert catalogue.users(Names.MOMENT_CURVATURE) == ["GEOMETRIC SETS"]
 
 
 UNREAD = """\

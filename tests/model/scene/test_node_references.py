@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
@@ -12,7 +11,6 @@ from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import Finding, all_reported, messages, reported
-from tests.helpers.growth import call_growth
 
 GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n last, 11\n far, 13\n odd, 6.5\n"
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
@@ -81,20 +79,6 @@ def test_a_fault_is_told_once(line: str, finding: Finding) -> None:
     assert len(held("1, 1", line, "1, 2")) == 1
 
 
-def test_words() -> None:
-    assert messages(PIPE + HELD + " 99, 8\n GEN=8, 12, 1, 2, 0.0\n 1, 2, FIXATION=RELATIVE\n GEN=2, 3\n") == [
-        "node 99 is not defined: define it in *NODE, or correct the number",
-        "8 is not a degree of freedom: expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)",
-        "GEN= holds the nodes from 8 to 12 in steps of 1: 1 of these 5 are not defined; correct it, or define them",
-        "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]",
-    ]
-
-
-def test_a_long_range_takes_no_time() -> None:
-    assert held("GEN=1, 9007199254740992, 1") == [("W", "REF006", 0, 2)]
-    assert call_growth(held, "GEN=1, 12, 1", "GEN=1, 9007199254740992, 1") == 1.0
-
-
 def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
     assert held("x1, 1", "1, one", "GEN=1, x, 2", "1") == [
         ("W", "SYN016", 0, 2),
@@ -102,20 +86,6 @@ def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
         ("W", "SYN016", 2, 9),
         ("E", "SYN003", 3, 2),
     ]
-
-
-def test_lines_make_nodes_of_their_own() -> None:
-    text = PIPE + "*LINES\n LINE=a\n" + HELD + " 99, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert reported(text) == [("W", "REF006", LINE + 2, 2)]
-    assert "may define it" in messages(text)[0]
-
-
-def test_nodes_on_cables_are_one_info() -> None:
-    cables = "*CABLE\n 1, 1, 2, 50.0\n*NODE,CURVILINEAR\n 99, 1, 5.0\n"
-    text = PIPE + cables + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert reported(text) == [("I", "REF006", LINE - 1, 1), ("E", "REF006", LINE + 5, 2)]
-    expected = "*NODE,CURVILINEAR may define nodes that this deck does not show: 1 use of such nodes (first: node 99)"
-    assert messages(text)[0].startswith(expected)
 
 
 def test_a_node_that_no_cable_holds_is_missing() -> None:
@@ -168,22 +138,6 @@ def test_a_file_of_elements_does_not_tell_of_every_node(tmp_path: Path) -> None:
     assert resolve(deck, read_external(file)).problems == []
 
 
-def test_an_empty_block() -> None:
-    assert all_reported(PIPE + "$LOAD CASE\n*BOUNDARY\n$MODES\n") == [("W", "SYN001", 10, 1)]
-    assert all_reported(PIPE + "$LOAD CASE\n*BOUNDARY\n AMPLITUDE=2\n$MODES\n") == [("E", "SYN004", 11, 2)]
-    assert reported(PIPE + HELD) == []
-
-
-def test_documents_are_told_too() -> None:
-    entries = [{"node": 99, "dof": 1}, {"generate": [1, 11]}, {"node": 1, "dof": 7}]
-    block = {"keyword": "BOUNDARY", "types": [{"type": "CONSTANT", "entries": entries}]}
-    nodes = {"keyword": "NODE", "entries": [{"nodes": [[1, 0, 0]]}]}
-    sections = [{"name": "MODEL", "blocks": [nodes]}, {"name": "LOAD CASE", "blocks": [block]}]
-    document = {"format": "mudline-deck/1", "sections": sections}
-    scene = resolve(load_bytes(json.dumps(document).encode(), "deck.json"))
-    assert sorted(problem.code.code for problem in scene.problems) == ["REF006", "REF006", "SYN003", "SYN005"]
-
-
 SOIL_CURVE = " DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n"
 SOIL_POINTS = " 0.0, 0.0\n 4000.0, 0.01\n"
 SOIL_SETS = "*ELEMENT SETS\n SET=Pile\n 1, 2\n"
@@ -212,9 +166,3 @@ def test_lines_make_sets_and_nodes_of_their_own() -> None:
         ("E", "REF006", SOIL_LINE - 2, 7),
         ("E", "REF006", SOIL_LINE + 1, 7),
     ]
-
-
-def test_what_is_not_given_is_not_told() -> None:
-    assert reported(f"$MODEL\n*P-Y\n SET=ALL\n{SOIL_CURVE}*T-Z\n SET=ALL\n FILE=a.tz\n NODE=1\n{SOIL_POINTS}") == []
-    told = all_reported(PIPE + f"*T-Z\n SET=\n NODE=x,y\n{SOIL_POINTS}")
-    assert [code for _, code, *_ in told] == ["SYN003"]  # NODE= may have another form

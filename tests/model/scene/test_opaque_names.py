@@ -17,7 +17,6 @@ from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax import fields
 from mudline.language.syntax.fields import read_line
 from mudline.model.scene.deck_values import opaque_labels, opaque_set_names
-from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import messages, reported
 from tests.helpers.builders.spellings import names, pads, setting, texts
@@ -140,12 +139,6 @@ def test_no_line_takes_long(unit: str, monkeypatch: pytest.MonkeyPatch) -> None:
 # -------------------------------------------------------------------------------------------------- sets that are named
 
 
-@pytest.mark.parametrize("name", ["scr", '"SCR"', "{scr}", "Riser"])
-def test_a_subset_of_a_line(name: str) -> None:
-    lines = PIPE + "*LINES\n LINE=SCR, ADDITIONAL=Riser\n"
-    assert reported(f"{lines}*ELEMENT SETS\n SET=a\n SUBSET={name}\n") == []
-
-
 def test_names_of_lines_are_suggested() -> None:
     text = (
         PIPE + LINES + " SECTION=Touchdown\n*ELEMENT SETS\n SET=a\n SUBSET=Touchdwn\n*GEOMETRIC SETS\n SET=Touchdow\n"
@@ -156,12 +149,6 @@ def test_names_of_lines_are_suggested() -> None:
         f"SUBSET= names no set: 'Touchdwn' is not defined (did you mean Touchdown?); define it; {suffix}",
         f"set 'Touchdow' is not defined (did you mean Touchdown?): define it in *ELEMENT SETS; {suffix}",
     ]
-
-
-def test_a_set_in_quotes_that_the_deck_defines_itself() -> None:
-    text = PIPE + '*LINES\n LINE=a\n*ELEMENT SETS\n SET="a"\n 1\n SET=b\n SUBSET="a"\n'
-    sets = resolve(load_bytes(text.encode(), "deck.keyxm")).set_table.named
-    assert (sets["b"].elements.tolist(), sets["b"].open, sets["a"].open) == ([0], False, False)
 
 
 # -------------------------------------------------------------------------------------------------- what lines may make

@@ -46,38 +46,6 @@ def test_series_is_sorted_by_time_and_may_lack_nodes(file: Path) -> None:
     assert found.missing == 1
 
 
-def test_one_time_is_a_series_of_one_step(file: Path) -> None:
-    found = read_positions(write(file, "time,node,x,y,z\n3,10,1,2,3\n"), NODES)
-    assert found.time is not None
-    assert found.time.tolist() == [3.0]
-
-
-SPELLINGS = {
-    "plain": ONE,
-    "windows": ONE.replace("\n", "\r\n"),
-    "mark": "\ufeff" + ONE,
-    "no last end": ONE.rstrip("\n"),
-    "blanks": ONE.replace(",", " , "),
-    "columns": "z,Y,x,NODE\n9,8,7,30\n3,2,1,10\n6,5,4,20\n",
-    "quotes": ONE.replace("4", '"4"').replace("node", '"node"'),
-    "exponents": ONE.replace("7,8,9", "+7.,.8E1,9.0e+00"),
-    "empty lines": ONE.replace("10,", "\n\n10,") + "\n\n,,,\n",
-}
-
-
-@pytest.mark.parametrize("text", SPELLINGS.values(), ids=SPELLINGS)
-def test_spelling_does_not_matter(file: Path, text: str) -> None:
-    assert_same(read_positions(write(file, text), NODES), np.array([[[1.0, 2, 3], [4, 5, 6], [7, 8, 9]]]))
-
-
-def test_velocities(file: Path) -> None:
-    text = "time,node,x,y,z,vx,vy,vz\n0,10,1,2,3,0.1,0.2,0.3\n"
-    found = read_positions(write(file, text), NODES)
-    assert found.velocities is not None
-    assert found.velocities[0, 0].tolist() == [0.1, 0.2, 0.3]
-    assert np.isnan(found.velocities[0, 1:]).all()
-
-
 FAULTS = {
     "empty": ("", 1, "the header lacks node, x, y, z: expected time,node,x,y,z,vx,vy,vz"),
     "header": ("node,x,y\n", 1, "the header lacks z: expected time,node,x,y,z,vx,vy,vz"),
@@ -129,11 +97,6 @@ def test_unknown_nodes_are_named_up_to_ten(file: Path) -> None:
     found = refusal(write(file, f"node,x,y,z\n10,0,0,0\n{rows}"))
     named = "nodes 101, 102, 103, 104, 105, 106, 107, 108, 109, 110 and 2 more are not defined in the deck"
     assert (found.message, found.line) == (named, 3)
-
-
-@pytest.mark.parametrize("text", ["node,x,y,z\n" + "1," * 500_000, "x" * 1_000_000, '"' + "x" * 1_000_000])
-def test_one_long_line(file: Path, text: str) -> None:
-    assert len(refusal(write(file, text)).message) < 300
 
 
 def test_sparse_series_does_not_fill_the_memory(file: Path) -> None:

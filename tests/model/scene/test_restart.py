@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules, select
-from mudline.language.deck.loading import dump, load_bytes, load_path
+from mudline.language.deck.loading import load_bytes, load_path
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError
 from mudline.model.scene import restart
@@ -71,11 +71,6 @@ def test_a_dynamic_deck_has_the_model_of_its_static_one(folder: Path) -> None:
     assert np.array_equal(found.contact().evaluate().force, before.force)
 
 
-def test_nothing_is_told_of_a_pair_of_decks(folder: Path) -> None:
-    assert lint(folder, DYNAMIC + USES) == []
-    assert lint_bytes(STATIC.encode(), "static.keyxm", rules()) == []
-
-
 def test_a_name_that_no_deck_defines_is_an_error(folder: Path) -> None:
     assert lint(folder, DYNAMIC + USES.replace("Buried", "Buryed"), "REF008") == [
         "7:9 error REF008 SUBSET= names no set: 'Buryed' is not defined (did you mean Buried?); define it"
@@ -102,10 +97,6 @@ def test_of_two_legacy_surfaces_that_of_the_deck_itself_holds(folder: Path) -> N
     assert found.seabed.slope == 5.0
 
 
-def test_a_repeated_definition_is_no_error(folder: Path) -> None:
-    assert {line.split()[1] for line in lint(folder, DYNAMIC + PIPE)} <= {"warning", "info"}
-
-
 def test_each_deck_has_its_own_parameters(folder: Path) -> None:
     head = "$PREPROCESSOR\n*PARAMETERS\n k, {}\n"
     model = PIPE + "*ELEMENT SETS\n SET=A\n 1, 2\n" + PROPERTIES + " STIFFNESS==[k]\n"
@@ -114,12 +105,6 @@ def test_each_deck_has_its_own_parameters(folder: Path) -> None:
     found = scene(folder, head.format(900.0) + DYNAMIC + own)
     assert found.contact_input().assigned["linear"]["stiffness"].tolist() == [900.0] * 2 + [500.0] * 8
     assert any("parameter k is not defined" in line for line in lint(folder, DYNAMIC + own))
-
-
-def test_units_come_from_the_deck_before(folder: Path) -> None:
-    assert scene(folder, name="dynamic.keyx").units == "metric"
-    assert scene(folder, name="dynamic.keyxi").units == "imperial"
-    assert deck(folder, name="dynamic.keyx").units == "user"
 
 
 def test_a_profile_is_looked_for_beside_the_deck_that_names_it(folder: Path) -> None:
@@ -159,23 +144,6 @@ def test_names(tmp_path: Path, written: str, file: str) -> None:
     assert [base.deck.file for base in found.deck.bases] == [path.as_posix()]
 
 
-def test_the_suffix_of_the_deck_itself_comes_first(folder: Path) -> None:
-    (folder / "static.keyx").write_text("$MODEL\n*NODE\n 1, 2, 3\n")
-    assert len(scene(folder, name="dynamic.keyx").element_ids) == 0
-    assert len(scene(folder, name="dynamic.das").element_ids) == 10
-    (folder / "static").write_text("$MODEL\n*NODE\n 1, 2, 3\n 2, 3, 4\n")
-    assert len(scene(folder).node_ids) == 2
-
-
-@pytest.mark.parametrize("form", ["json", "yaml"])
-def test_other_forms(folder: Path, form: str) -> None:
-    static = load_path(folder / "static.keyxm")
-    (folder / f"base.{form}").write_text(dump(static, form))
-    same_model(scene(folder, RESTART.format(f"base.{form}")), resolve(static))
-    dynamic = deck(folder, RESTART.format(f"base.{form}"))
-    same_model(scene(folder, dump(dynamic, form), f"dynamic.{form}"), resolve(static))
-
-
 def test_text_and_bytes_do_not_touch_the_disk(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     with patch("mudline.model.scene.restart.find_deck", side_effect=AssertionError):
@@ -184,23 +152,7 @@ def test_text_and_bytes_do_not_touch_the_disk(folder: Path, monkeypatch: pytest.
     assert found.problems == []
 
 
-def test_the_last_of_several_holds(folder: Path) -> None:
-    (folder / "other.keyxm").write_text("$MODEL\n*NODE\n 1, 2, 3\n")
-    text = DYNAMIC + RESTART.format("gone") + RESTART.format("other")
-    assert scene(folder, text).node_ids.tolist() == [1]
-    (line,) = lint(folder, text, "REF015")
-    assert line.startswith("6:7 warning REF015 the deck 'gone' was not found")
-
-
 # ------------------------------------------------------------------------------------------------------ chains, faults
-
-
-def test_a_chain_is_followed(folder: Path) -> None:
-    (folder / "second.keyxm").write_text(DYNAMIC + USES)
-    third = RESTART.format("second") + "$MODEL\n*ELEMENT SETS\n SET=Last\n SUBSET=More\n"
-    found = scene(folder, third)
-    assert found.sets["Last"].tolist() == [1, 2, 3, 4, 9]
-    assert found.problems == []
 
 
 def test_a_missing_deck_is_told_with_the_names_that_were_tried(folder: Path) -> None:
@@ -268,21 +220,6 @@ def test_a_file_that_is_no_deck(folder: Path, content: bytes, reason: str) -> No
     assert reason in line
 
 
-def test_a_file_that_may_not_be_read(folder: Path) -> None:
-    (folder / "dynamic.keyxm").write_text(DYNAMIC)
-    with patch.object(restart, "load_path", side_effect=PermissionError(13, "Permission denied")):
-        found = resolve(load_path(folder / "dynamic.keyxm"))
-    (problem,) = found.problems
-    assert problem.message.startswith("the deck that LAST= continues is not read: ")
-    assert "static.keyxm: Permission denied" in problem.message
-
-
-def test_a_folder_is_no_deck(tmp_path: Path) -> None:
-    (tmp_path / "static.keyxm").mkdir()
-    assert len(lint(tmp_path, DYNAMIC, "REF015")) == 1
-    assert len(lint(tmp_path, RESTART.format("a/\x01" + "x" * 5000), "REF015")) == 1
-
-
 # ---------------------------------------------------------------------------------------------- whose finding it is
 
 
@@ -297,13 +234,6 @@ def test_what_is_wrong_in_the_deck_before_is_told_there(folder: Path) -> None:
     stiffness = next(number for number, line in enumerate(lines, 1) if "Cly" in line)
     section = next(number for number, line in enumerate(lines, 1) if "0.25, x" in line)
     assert {("static.keyxm", stiffness, "REF002"), ("static.keyxm", section, "SYN002")} <= places
-
-
-def test_a_fault_of_the_deck_itself_keeps_its_line(folder: Path) -> None:
-    text = "$MODEL\n" + PROPERTIES + " STIFFNESS=None\n" + DYNAMIC
-    assert [line.split()[:3] for line in lint(folder, text, "REF002")] == [["5:12", "error", "REF002"]]
-    with pytest.raises(DeckError, match=r"dynamic\.keyxm:5:12: REF002"):
-        scene(folder, text).require()
 
 
 def test_a_lost_line_of_the_deck_itself_leaves_the_deck_before_alone(folder: Path) -> None:
@@ -329,6 +259,3 @@ def test_whatever_the_decks_hold_findings_lie_in_the_deck_itself(base: list[str]
             assert int(line.partition(":")[0]) <= text.count("\n") + 1
         found = scene(folder, text)
         assert len(found.deck.diagnose(found.problems)) == len(found.problems)
-
-
-# ------------------------------------------------------------------------------------------------------ read once

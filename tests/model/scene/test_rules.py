@@ -32,14 +32,6 @@ def test_a_wall_that_locks_itself_is_refused_though_a_deck_before_may_give_anoth
         scene.contact()
 
 
-def test_many_findings_of_a_check_are_cut_short() -> None:
-    many = "".join(f" SET=s{number}\n STIFFNESS=Lost\n" for number in range(1200))
-    sets = "*ELEMENT SETS\n" + "".join(f" SET=s{number}\n 1\n" for number in range(1200))
-    found = scene_of(PIPE + STEEL + sets + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + many).problems
-    assert len(found) == 1001
-    assert found[-1].message == "and more of the same: the first 1000 are listed"
-
-
 @pytest.mark.parametrize(
     ("lines", "column", "message"),
     [
@@ -101,16 +93,6 @@ def test_values_of_sections_are_named_by_their_symbol() -> None:
     ]
     text = "$MODEL\n*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 1, 1, 0.3, 0.2, 7850, , -1.0\n"
     assert [message.partition(" is ")[0] for message in messages(text)] == ["second moment of area (I)"]
-
-
-def test_the_value_of_an_equation_is_looked_at() -> None:
-    text = "$PREPROCESSOR\n*PARAMETERS\n k, -5\n$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS==[k]\n"
-    assert reported(text) == [("E", "SBD010", 8, 12)]
-
-
-def test_an_equation_without_a_value_is_told_once() -> None:
-    text = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS==[k]\n"
-    assert reported(text) == [("E", "REF013", 5, 12)]
 
 
 def test_the_floor_of_cyclic_loading_is_a_share() -> None:

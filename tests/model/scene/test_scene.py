@@ -7,7 +7,6 @@ import subprocess
 import sys
 from typing import Any, cast
 
-import numpy as np
 import pytest
 
 from mudline.basics.short_repr import UnknownNameError
@@ -59,14 +58,6 @@ def test_what_a_scene_holds() -> None:
     assert list(scene.curves) == ["Clay"]
 
 
-def test_the_contact_of_a_scene() -> None:
-    """Ratio 0.05 / 0.25 = 0.2, force 0.2 * 8000 = 1600 per length, stiffness 8000 / 0.25 = 32000."""
-    result = scene_of(FULL).contact().evaluate()
-    assert np.allclose(result.ratio, 0.2, rtol=1e-15)
-    assert np.allclose(result.force, 1600.0, rtol=1e-15)
-    assert np.allclose(result.stiffness, 32000.0, rtol=1e-15)
-
-
 def test_curves_that_are_not_used_are_handed_over_and_do_not_shift_the_others() -> None:
     deck = FULL.replace(" CURVE=Clay", " CURVE=Unused\n 0, 0\n 1, 1\n CURVE=Clay")
     given = scene_of(deck).contact_input()
@@ -74,32 +65,7 @@ def test_curves_that_are_not_used_are_handed_over_and_do_not_shift_the_others() 
     assert given.curve_index.tolist() == [1] * 10
 
 
-def test_elements_without_a_law_have_no_curve_and_no_stiffness() -> None:
-    deck = FULL.replace(" SET=ALL\n STIFFNESS", " SET=a\n STIFFNESS") + "*ELEMENT SETS\n SET=a\n 1, 2\n"
-    given = scene_of(deck).contact_input("cut")
-    assert given.law.tolist() == [LawKind.CURVE] * 2 + [LawKind.NONE] * 8
-    assert given.curve_index.tolist() == [0] * 2 + [-1] * 8
-    assert set(given.assigned) == {"curve"}
-    assert given.tension == "cut"
-
-
-def test_an_empty_deck_has_an_evaluator_of_nothing() -> None:
-    assert scene_of("").contact().evaluate().force.shape == (0,)
-
-
 # --------------------------------------------------------------------------------------------------------- refusals
-
-
-def test_a_number_defined_twice_refuses_nothing() -> None:
-    scene = scene_of(FULL.replace(" GEN=1, 11", " GEN=1, 11\n 5, -0.05, 40.0"))
-    assert [problem.code.code for problem in scene.problems] == ["REF007"]
-    assert scene.require() is scene
-
-
-def test_warnings_refuse_nothing() -> None:
-    scene = scene_of(FULL + "*ELEMENT SETS\n SET=a\n")
-    assert [problem.code.code for problem in scene.problems] == ["REF010"]
-    assert scene.require() is scene
 
 
 def test_elements_at_nodes_of_lines_are_refused() -> None:
@@ -167,11 +133,6 @@ def left_out(lines: str) -> dict[str, str]:
     return {stage.stage: stage.why for stage in contact.plan if stage.stage in contact.input.left_out}
 
 
-def test_a_plain_deck_leaves_nothing_out() -> None:
-    assert left_out("") == {}
-    assert left_out(" FRICTION=0, 0\n LATERAL=0\n SUCTION=0\n") == {}
-
-
 def test_what_is_not_evaluated_is_said_by_stage() -> None:
     found = left_out(
         " FRICTION=0.3, 0.4, 0.1, 0.1, 5, 2\n LATERAL=5\n SUCTION=5\n SET=ALL\n STIFFNESS=Clay\n"
@@ -186,18 +147,6 @@ def test_what_is_not_evaluated_is_said_by_stage() -> None:
             "friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)"
         ),
     }
-
-
-def test_legacy_surfaces_are_evaluated_the_same_way() -> None:
-    text = PIPE + STEEL + "*ELASTIC SURFACE\n 500, 0.3, 0.4, 0, 7, 1\n 3.0\n"
-    plan = scene_of(text).contact().plan
-    assert plan["floor"].why == "plane through the origin, slope 3 deg, direction 0 deg, without end"
-    assert plan["friction"].why.startswith("11 nodes with a mobilisation length")
-    assert plan["suction"].why == "10 elements with a spring up to an extent, without history (inferred)"
-    profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
-    plan = scene_of(profile).contact().plan
-    assert plan["floor"].why.startswith("straight lines through 2 points")
-    assert plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"
 
 
 DECK = """$MODEL
@@ -217,20 +166,6 @@ DECK = """$MODEL
  0, 0
  1, 9
 """
-
-
-@pytest.mark.parametrize("name", ["Soft Clay", "SOFT CLAY", "soft clay", " soft Clay\t"])
-def test_curve_is_found_without_case(name: str) -> None:
-    curves = scene_of(DECK).curves
-    assert curves[name].name == "Soft Clay"
-    assert curves.get(name) is curves[name]
-    assert name in curves
-
-
-@pytest.mark.parametrize("name", ["Fatigue Hot Spot", "FATIGUE hot spot", "{fatigue hot spot}"])
-def test_set_is_found_without_case(name: str) -> None:
-    assert scene_of(DECK).sets[name].tolist() == [1]
-    assert scene_of(DECK).sets["all"].tolist() == [1]
 
 
 def test_names_are_those_of_the_deck() -> None:
@@ -262,20 +197,6 @@ def test_missing_name_says_which_there_are() -> None:
     assert message_of(scene.curves, 2) == "a curve is found by its name, a str, not by int"
     assert message_of(scene_of("$MODEL\n").curves, "a") == "no curve 'a': there are no curves"
     assert message_of(scene_of("$MODEL\n").sets, "a") == "no set 'a': there is 'ALL'"
-
-
-def test_many_names_are_cut() -> None:
-    many = ByName("curve", [(f"Soil {number:03}", number) for number in range(300)])
-    assert message_of(many, "Soil 2999") == (
-        "no curve 'Soil 2999' (did you mean Soil 299?): there are 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', "
-        "'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', 'Soil 008', 'Soil 009', and 290 more"
-    )
-    assert repr(many) == (
-        "<300 curves: 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', 'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', "
-        "'Soil 008', 'Soil 009', and 290 more>"
-    )
-    long = ByName("set", [("x" * 500, 1)])
-    assert len(message_of(long, "y" * 500)) < 200
 
 
 LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 from mudline.language.deck.loading import dump
@@ -105,15 +103,6 @@ def test_another_line_may_define_it(other: str) -> None:
     assert told(f"*COATINGS\n SET=Riser, CURVE=Damp\n{other}") == []
 
 
-@pytest.mark.parametrize("other", ["*DAMPER\n 1, CURVE=Damp\n", "*DAMPER\nC CURVE=Damp\n", "*DAMPER\n CURVE=Damper\n"])
-def test_uses_comments_and_parts_of_names_define_none(other: str) -> None:
-    assert "REF002 curve 'Damp' is not defined" in told(f"*COATINGS\n SET=Riser, CURVE=Damp\n{other}")[0]
-
-
-def test_curves_of_other_sections_are_not_looked_up() -> None:
-    assert told("$LIFETIME FATIGUE\n*FATIGUE DATA\n SET=Hot, CURVE=F3\n") == []
-
-
 # --------------------------------------------------------------------------------------- sets, vessels, files, values
 
 
@@ -182,18 +171,3 @@ def test_lines_that_a_document_keeps_are_looked_at(form: str) -> None:
     for one in found:
         if one.message.endswith(_NOT_READ):
             assert "Rizer" in lines[one.line - 1] or "Damp" in lines[one.line - 1]
-
-
-def test_lines_of_a_document_that_a_model_reads_are_looked_at() -> None:
-    document = json.loads(dump(deck_of(MODEL), "json"))
-    lines = [" CABLE=a", " TYPE=OTHER, SET=Rizer"]
-    document["sections"][1]["blocks"].append({"keyword": "CABLE", "lines": lines})
-    assert _told(diagnostics(scene_of(json.dumps(document), "deck.json"))) == [
-        "REF001 set 'Rizer' is not defined (did you mean Riser?)"
-    ]
-
-
-def test_nothing_is_looked_for_in_a_title() -> None:
-    text = MODEL + "*TITLE\n Base case, SET=Spool, =[depth], {Top}, 4.5O m: CURVE=Bent\n"
-    assert diagnostics(scene_of(text)) == []
-    assert deck_of(text).problems == []

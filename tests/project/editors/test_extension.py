@@ -109,18 +109,9 @@ def test_the_package_unpacked(tmp_path: Path) -> None:
     assert files == {
         f"extension/{name}"
         for name in (
-            "LICENSE.txt",
-            "dist/LICENSES.txt",
-            "dist/extension.js",
-            "icons/deck-dark.svg",
-            "icons/deck-light.svg",
-            "icons/mudline.png",
-            "images/findings.png",
-            "images/help.png",
-            "language-configuration.json",
-            "package.json",
-            "readme.md",
-            "snippets/mudline.json",
+            *("LICENSE.txt", "dist/LICENSES.txt", "dist/extension.js", "icons/deck-dark.svg"),
+            *("icons/deck-light.svg", "icons/mudline.png", "images/findings.png", "images/help.png"),
+            *("language-configuration.json", "package.json", "readme.md", "snippets/mudline.json"),
             "syntaxes/mudline.tmLanguage.json",
         )
     }

@@ -13,7 +13,7 @@ import yaml
 
 from tests.cli.runner import Json
 from tests.docs.blocks import Page
-from tests.project.integration.recipes import CLEAN, ROOT, checkout, installed, shell
+from tests.project.integration.recipes import ROOT, checkout, installed, shell
 
 PAGE = Page.read(ROOT / "docs" / "ci.md")
 EXAMPLES = [yaml.safe_load(block.text) for block in PAGE.blocks if block.language == "yaml"]
@@ -45,13 +45,6 @@ def test_the_job_of_gitlab_leaves_a_report_and_fails(folder: Path) -> None:
     assert job["artifacts"]["when"] == "always"  # the report of a failed job is the one that is wanted
 
 
-def test_the_job_of_gitlab_passes_for_clean_decks(folder: Path) -> None:
-    (folder / "decks" / "bad.keyxm").write_text(CLEAN)
-    done = shell("\n".join(example("mudline")["script"]), folder)
-    assert (done.returncode, done.stdout) == (0, "No findings in 2 files.\nAll 2 keywords read.\n")
-    assert json.loads((folder / "gl-code-quality.json").read_text(encoding="utf-8")) == []
-
-
 def test_a_note_is_sent_only_where_there_is_a_token_and_a_merge_request(folder: Path) -> None:
     (script,) = example("mudline")["after_script"]
     sent = folder.parent / "programs" / "curl"
@@ -81,12 +74,6 @@ def test_the_workflow_of_github_gives_inputs_that_the_action_has() -> None:
     assert all(inputs.keys() <= action["inputs"].keys() for inputs in given)
 
 
-def test_the_sarif_that_is_uploaded_is_the_one_that_is_written() -> None:
-    *_, lint, upload = example("jobs")["decks"]["steps"]
-    assert f" --output-format sarif={upload['with']['sarif_file']} " in lint["run"]
-    assert upload["if"] == "always()"
-
-
 def test_every_action_has_one_version_everywhere() -> None:
     files = [ROOT / "action.yml", *(ROOT / ".github/workflows").glob("*.yml"), *(ROOT / "docs").rglob("*.md")]
     used: dict[str, set[str]] = {}
@@ -95,10 +82,6 @@ def test_every_action_has_one_version_everywhere() -> None:
             used.setdefault(name, set()).add(version)
     assert {name: versions for name, versions in used.items() if len(versions) > 1} == {}
     assert "actions/checkout" in used
-
-
-def test_the_hooks_that_are_named_are_there() -> None:
-    assert {hook["id"] for repo in example("repos") for hook in repo["hooks"]} == HOOKS
 
 
 def test_the_other_commands_of_the_page_run(folder: Path) -> None:
@@ -151,21 +134,6 @@ def test_findings_are_annotations_and_fail_the_job(folder: Path) -> None:
     assert (install, code) == (0, 1)
     assert printed.startswith("::error file=decks/bad.keyxm,line=3,endLine=3,col=9,endColumn=14,title=SYN002 ")
     assert installed(folder) == f"pip install --quiet --disable-pip-version-check {ROOT}\n"
-
-
-def test_the_inputs_of_the_page_pass(folder: Path) -> None:
-    inputs = {"paths": "decks/good.keyxm\ndecks\n", "args": "--fail-on error --baseline known.json"}
-    assert steps(folder, **inputs, version="1.2.0")[1][0] == 2  # there is no such baseline yet
-    assert installed(folder).endswith(" mudline==1.2.0\n")
-    steps(folder, paths="decks", args="--baseline known.json --write-baseline")
-    assert steps(folder, **inputs)[1] == (0, "")
-
-
-def test_sarif_is_written_besides(folder: Path) -> None:
-    more = "--output-format sarif=mudline.sarif --exit-zero"
-    (_, (code, printed)) = steps(folder, args=more)
-    assert (code, printed.count("::error ")) == (0, 1)
-    assert '"version": "2.1.0"' in (folder / "mudline.sarif").read_text(encoding="utf-8")
 
 
 def test_no_module_of_the_checkout_is_imported(folder: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.helpers.processes import TIMEOUT, end
-from tests.project.integration.recipes import BASH, ROOT, SOURCE, checkout, shell
+from tests.project.integration.recipes import BASH, ROOT, SOURCE, checkout
 
 SOURCED = 'eval "$(_MUDLINE_COMPLETE=bash_source mudline)"'
 
@@ -64,12 +64,6 @@ def test_tab_completes_commands_options_words_and_paths(terminal: Terminal) -> N
     assert terminal.type("--stat\t", "--statistics ").endswith("--statistics ")
     assert terminal.type("decks/b\t", "bad.keyxm ").endswith("decks/bad.keyxm ")
     assert "     1  SYN002  bad-number\r\n" in terminal.type("\n", "ready> ")
-
-
-def test_the_script_offers_every_command_that_begins_so(tmp_path: Path) -> None:
-    ask = "COMP_WORDS=(mudline e); COMP_CWORD=1; _mudline_completion mudline; printf '%s\\n' \"${COMPREPLY[@]}\""
-    done = shell(f"{SOURCED}\n{ask}", checkout(tmp_path))
-    assert (sorted(done.stdout.split()), done.stderr) == (["evaluate", "expand", "export"], "")
 
 
 def test_the_lines_of_the_page_are_those_that_are_tried() -> None:

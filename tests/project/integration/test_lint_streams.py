@@ -60,24 +60,9 @@ def test_standard_output_holds_the_result_only(form: str, more: Sequence[str]) -
 
 
 @pytest.mark.parametrize("form", form_names())
-def test_a_file_holds_what_would_be_printed(decks: Path, form: str) -> None:
-    printed = run("lint", ".", "--output-format", form)
-    outcome = run("lint", ".", "--output-format", f"{form}=report", "--output-format", "concise", "-v")
-    assert (decks / "report").read_bytes() == printed.output
-    assert COUNTED["concise"](outcome.out) == 1
-
-
-@pytest.mark.parametrize("form", form_names())
 @pytest.mark.usefixtures("decks")
 def test_statistics_are_the_result_when_asked_for(form: str) -> None:
     outcome = run("lint", ".", "--statistics", "-v", "--output-format", form, "--output-format", f"{form}=report")
     assert outcome.out == "     1  SYN002  bad-number\n"
     assert all(line.startswith("mudline: ") for line in outcome.err.splitlines())
     assert COUNTED[form](Path("report").read_text(encoding="utf-8")) == 1
-
-
-@pytest.mark.parametrize("form", form_names())
-@pytest.mark.usefixtures("decks")
-def test_nothing_found_is_a_whole_result(form: str) -> None:
-    outcome = run("lint", "clean.keyxm", "--output-format", form)
-    assert (outcome.code, outcome.err, COUNTED[form](outcome.out)) == (0, "", 0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -67,14 +66,6 @@ def deck(project: Path, text: str, name: str = "deck.keyxm") -> str:
     return str(path)
 
 
-@pytest.mark.parametrize("name", ["../shared.txt", "../../theirs/profile.txt"])
-def test_any_regular_file_is_read(project: Path, name: str) -> None:
-    given = deck(project, MODEL + PROFILE.format(name))
-    outcome = run("evaluate", given, "--output-format", "json")
-    assert outcome.code == DONE
-    assert json.loads(outcome.out)["units"] == "metric"
-
-
 @pytest.mark.parametrize(
     ("text", "commands"),
     [
@@ -102,18 +93,6 @@ def test_no_message_shows_the_text_of_a_file_outside(
         assert "root:x" not in outcome.out + outcome.err
 
 
-def test_a_file_inside_is_quoted_as_before(project: Path) -> None:
-    (project / "ours" / "shared.txt").write_text("0, 0\n10, hunter2\n", encoding="utf-8")
-    outcome = run("lint", deck(project, MODEL + PROFILE.format("../shared.txt")))
-    assert "line 2: 'hunter2' is not a number" in outcome.out
-
-
-def test_a_fault_outside_has_its_line(project: Path) -> None:
-    (project / "theirs" / "profile.txt").write_text("0, 0\n10, hunter2\n", encoding="utf-8")
-    outcome = run("lint", deck(project, MODEL + PROFILE.format("../../theirs/profile.txt")))
-    assert "line 2 is not as it should be; its text is not shown" in outcome.out
-
-
 @pytest.mark.parametrize(
     "text", [MODEL + PROFILE.format("../../theirs/profile.txt"), RESTART.format("../../theirs/base")]
 )
@@ -136,13 +115,6 @@ def test_a_configuration_refuses_them_for_every_command(project: Path, command: 
     given = deck(project, RESTART.format("../../theirs/base"))
     outcome = run(command, given)
     assert outcome.code == FOUND
-    assert "outside of the project" in outcome.out + outcome.err
-
-
-def test_a_batch_refuses_them_too(project: Path) -> None:
-    (project / "ours" / "mudline.toml").write_text("no-outside = true\n", encoding="utf-8")
-    deck(project, RESTART.format("../../theirs/base"))
-    outcome = run("batch", str(project / "ours"), "-o", str(project / "out"), "--output-format", "json", "--jobs", "2")
     assert "outside of the project" in outcome.out + outcome.err
 
 

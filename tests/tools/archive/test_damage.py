@@ -125,14 +125,6 @@ def test_a_damaged_table_is_named_and_nothing_is_written(archive: Path, decks: P
     assert left == before
 
 
-def test_files_of_others_are_left_alone(archive: Path, decks: Path) -> None:
-    notes = archive / "notes.txt"
-    notes.write_text("x", encoding="utf-8")
-    write(decks, c=deck("c"))
-    assert summary(index(decks, archive=archive)) == "3 decks: 1 new, 2 unchanged"
-    assert notes.exists()
-
-
 def test_what_is_no_archive(tmp_path: Path, decks: Path) -> None:
     (tmp_path / "file").write_text("x", encoding="utf-8")
     outcome = index(decks, archive=tmp_path / "file")
@@ -152,11 +144,3 @@ def test_the_views_work_anywhere_and_again_when_the_archive_has_moved(
     assert "mudline: 2 decks: 2 unchanged" in index(decks, archive=moved).err
     assert (moved / "decks.parquet").stat().st_mtime < before
     assert ask(moved, "SELECT count(*) AS n, count(DISTINCT file) AS files FROM curves") == [{"n": 2, "files": 2}]
-
-
-def test_pandas_and_arrow_open_the_tables(archive: Path) -> None:
-    pandas = pytest.importorskip("pandas")
-    found = pandas.read_parquet(archive / "decks.parquet").merge(
-        pandas.read_parquet(archive / "curves.parquet"), on="file"
-    )
-    assert sorted(found["depth"]) == [500.0, 600.0]

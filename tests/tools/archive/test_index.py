@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli import index_command
-from mudline.tools.archive.tables import TABLES
 from mudline.tools.running import executors
 from tests.cli.runner import run
 from tests.tools.archive.trial import ask, contents, deck, index, summary, write
@@ -95,16 +93,6 @@ def test_parameters_and_sets(tmp_path: Path, archive: Path) -> None:
     }
 
 
-def test_unchanged_decks_are_not_read(decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    index(decks, archive=archive)
-    before = {path: path.stat().st_mtime_ns for path in archive.glob("*.parquet")}
-    assert len(before) == len(TABLES)
-    monkeypatch.setattr(index_command, "read_deck", None)
-    (decks / "a.keyxm").touch()
-    assert summary(index(decks, decks.parent / "decks" / ".." / "decks", archive=archive)) == "3 decks: 3 unchanged"
-    assert {path: path.stat().st_mtime_ns for path in archive.glob("*.parquet")} == before
-
-
 def test_changed_renamed_copied_and_gone_decks(decks: Path, archive: Path) -> None:
     index(decks, archive=archive)
     write(decks, a=deck("a", depth=700.0))
@@ -147,19 +135,6 @@ def test_only_what_lies_below_the_paths_is_dropped(decks: Path, tmp_path: Path, 
     assert files(archive) == ["decks/b.keyxm", "decks/c.keyxm"]
 
 
-def test_a_deck_that_is_no_longer_found_is_dropped(decks: Path, archive: Path) -> None:
-    index(decks, archive=archive)
-    (decks / ".gitignore").write_text("a.keyxm\n", encoding="utf-8")
-    (decks.parent / ".git").mkdir()
-    assert summary(index(decks, archive=archive)) == "2 decks: 2 unchanged, 1 gone"
-
-
-def test_other_settings_read_the_decks_again(decks: Path, archive: Path) -> None:
-    index(decks, archive=archive)
-    assert summary(index(decks, "--units", "imperial", archive=archive)) == "3 decks: 3 changed"
-    assert ask(archive, "SELECT DISTINCT units FROM decks") == [{"units": "imperial"}]
-
-
 def test_decks_that_cannot_be_read_stay_and_set_the_exit_code(decks: Path, archive: Path) -> None:
     index(decks, archive=archive)
     outcome = index(decks, decks / "nothing.keyxm", archive=archive)
@@ -179,12 +154,6 @@ def test_json_and_what_is_no_deck_at_all(decks: Path, archive: Path) -> None:
         archive, "SELECT count(DISTINCT content) AS n FROM decks WHERE file IN ('decks/a.keyxm', 'decks/d.json')"
     )
     assert same == [{"n": 1}]
-
-
-def test_standard_input_is_refused(archive: Path) -> None:
-    outcome = index("-", archive=archive)
-    assert outcome.code == 2
-    assert "standard input cannot be archived" in outcome.err
 
 
 def test_an_archive_lies_outside_of_the_decks(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -214,10 +183,3 @@ def test_other_processes_give_the_same(
     index(decks, archive=archive)
     assert summary(run("index", decks, "-o", tmp_path / "two", "--isolated", "--jobs", "2")) == "4 decks: 4 new"
     assert contents(tmp_path / "two") == contents(archive)
-
-
-def test_a_missing_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.index_command.find_spec", lambda _: None)
-    outcome = run("index", tmp_path, "-o", tmp_path / "x")
-    assert outcome.code == 2
-    assert 'mudline index needs duckdb and pyarrow: python -m pip install "mudline[archive]"' in outcome.err

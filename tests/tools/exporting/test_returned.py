@@ -10,7 +10,6 @@ import pytest
 from mudline.language.diagnostics import DeckError
 from mudline.model.contact.arrays import Positions
 from mudline.model.scene.numbering import Floats
-from mudline.tools.exporting import moordyn
 from mudline.tools.exporting.line_model import LineModel
 from mudline.tools.exporting.returned import read_returned
 from tests.cli.runner import run
@@ -64,17 +63,6 @@ def test_other_nodes_are_taken_by_arc_length_in_feet(tmp_path: Path) -> None:
     found = read(tmp_path / "a_Line1.out", model).whole[0]
     assert found[np.argsort(model.scene.node_ids), 1] == pytest.approx(np.linspace(0.0, 50.0, 11), abs=1e-5)
     assert found[:, 0] == pytest.approx(np.zeros(11), abs=1e-5)
-
-
-def test_the_files_of_the_other_lines_are_read_too(tmp_path: Path) -> None:
-    model = model_of(TWO)
-    assert [len(part.lengths) for part in moordyn.pieces(model)[0]] == [4, 6]
-    line_file(tmp_path / "run_Line1.out", straight(20.0, 5))
-    assert read(tmp_path / "run_Line1.out", model).missing == 6
-    line_file(tmp_path / "run_Line2.out", straight(30.0, 7, 20.0))
-    found = read(tmp_path / "run_Line2.out", model)
-    assert found.missing == 0
-    assert np.sort(found.whole[0, :, 1]) == pytest.approx(np.linspace(0.0, 50.0, 11), abs=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -145,11 +133,6 @@ def test_tables_that_fit_no_line_are_refused(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("Node,X (m),Y (m),Z (m)\n")
     with pytest.raises(DeckError, match="each time must have a row for each node"):
         read(tmp_path / "a.csv", model_of(text()))
-
-
-def test_a_file_of_our_own_form_is_none_of_these(tmp_path: Path) -> None:
-    (tmp_path / "own.csv").write_text("node,x,y,z\n1,0,0,0\n")
-    assert read_returned(tmp_path / "own.csv", model_of(text()).scene) is None
 
 
 def test_evaluate_takes_such_a_file_and_columns_go_before(tmp_path: Path) -> None:

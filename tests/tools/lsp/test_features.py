@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import pytest
 from lsprotocol import types
-from pygls.exceptions import JsonRpcException
 
 from mudline.editing.formatting.document import formatted
 from mudline.tools.lsp.colours import LEGEND
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
+from tests.helpers.builders.decks import CLEAN
 from tests.tools.lsp.editor import Editor, applied, document
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
@@ -54,22 +53,6 @@ async def test_a_deck_is_formatted(editor: Editor) -> None:
     assert applied(UGLY, list(edits or ())).encode() == formatted(UGLY.encode(), "deck.keyxm")
 
 
-async def test_a_deck_with_an_error_is_not_formatted(editor: Editor) -> None:
-    uri = await editor.open(BAD_NUMBER)
-    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
-    with pytest.raises(JsonRpcException, match=r"correct the error in line 6 first \(SYN002\)"):
-        await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
-
-
-async def test_a_deck_in_json_is_formatted(editor: Editor) -> None:
-    text = '{"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": []}]}'
-    uri = editor.uri("deck.json")
-    await editor.shown(uri, lambda: editor.send_open(uri, text, language="json"))
-    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
-    edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
-    assert applied(text, list(edits or ())).encode() == formatted(text.encode(), "deck.json")
-
-
 async def test_equations_have_hints(editor: Editor) -> None:
     text = PARAMETERS + CURVE
     uri = await editor.open(text)
@@ -85,13 +68,6 @@ async def test_equations_have_hints(editor: Editor) -> None:
 COLOURED = (
     "C über\n$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Röhre \U0001f600\n STIFFNESS==[2*depth]\n *NOTHING\n 1\n"
 )
-
-
-async def test_documents_of_json_have_the_colours_of_the_editor(editor: Editor) -> None:
-    uri = await editor.open('{"format": "mudline-deck"}', "deck.json")
-    found = await editor.client.text_document_semantic_tokens_full_async(types.SemanticTokensParams(document(uri)))
-    assert found is not None
-    assert not found.data
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])

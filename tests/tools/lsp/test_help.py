@@ -92,10 +92,6 @@ async def test_hover_says_what_is_not_there(editor: Editor, mark: str, behind: s
     assert [word for word in words if word not in text] == [], text
 
 
-async def test_hover_on_a_comment_says_nothing(editor: Editor) -> None:
-    assert await hover(editor, "C just", "C j", DECK.replace("*NODE\n", "*NODE\nC just words\n")) == ""
-
-
 async def complete(editor: Editor, text: str, mark: str, behind: str) -> dict[str, types.CompletionItem]:
     uri = await editor.open(text)
     found = await editor.client.text_document_completion_async(
@@ -130,12 +126,6 @@ async def test_whole_blocks_are_snippets(editor: Editor) -> None:
     assert block.text_edit.new_text.startswith("*SEABED STIFFNESS\n CURVE=${1:clay}\n ${2:0.0}, ${3:0.0}\n")
 
 
-async def test_sections_are_completed(editor: Editor) -> None:
-    text = CLEAN + "$LO\n"
-    items = await complete(editor, text, "$LO\n", "$LO")
-    assert accepted(text, items["$LOAD CASE"]) == CLEAN + "$LOAD CASE\n"
-
-
 @pytest.mark.parametrize(
     ("line", "label", "result"),
     [
@@ -157,11 +147,6 @@ async def test_settings_values_and_names_are_completed(
     assert label in items
     if result is not None:
         assert accepted(text, items[label]) == DECK.replace(" STIFFNESS=Clay\n", f"{result}\n")
-
-
-async def test_inline_settings_follow_a_comma(editor: Editor) -> None:
-    items = await complete(editor, DECK, "LAST=base, ", "LAST=base, ")
-    assert {"TYPE=", "OPTION="} == items.keys()
 
 
 async def test_files_beside_the_deck_are_completed(editor: Editor) -> None:

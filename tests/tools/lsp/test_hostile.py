@@ -55,16 +55,6 @@ def test_nothing_is_done_behind_the_shutdown() -> None:
         assert client.process.wait(30) == 0
 
 
-@pytest.mark.parametrize("params", [{"bad": 1}, [1], 7, {**AT, "position": {"line": "x", "character": 0}}])
-def test_wrong_parameters_are_answered(client: RawClient, params: object) -> None:
-    assert client.ask("textDocument/hover", params)["code"] == -32602
-
-
-def test_an_unreadable_length_is_survived(client: RawClient) -> None:
-    client.write(b"Content-Length: many\r\n\r\n")
-    client.write(b"Content-Length: -5\r\n\r\n")
-
-
 def test_a_document_is_opened_and_closed_twice(client: RawClient) -> None:
     client.open(URI, "$MODLE\n")
     client.open(URI, CLEAN, 0)
@@ -143,16 +133,6 @@ def test_a_huge_address(client: RawClient) -> None:
     assert [one["code"] for one in client.findings(uri)] == ["SYN010"]
     client.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
     assert client.findings(uri) == []
-
-
-def test_a_huge_name() -> None:
-    with raw_client() as client:
-        client.begin()
-        client.open(URI, CLEAN)
-        client.findings(URI)
-        at = {"line": 12, "character": 6}
-        assert client.ask("textDocument/rename", {**AT, "position": at, "newName": "x" * 1_000_000})
-        assert client.lives()
 
 
 # --------------------------------------------------------------------------------------------- outside of the workspace

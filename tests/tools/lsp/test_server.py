@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -61,20 +60,6 @@ def client(started: RawClient) -> Iterator[RawClient]:
 )
 def test_bodies_that_are_no_messages_are_passed_over(client: RawClient, body: bytes) -> None:
     client.body(body)
-
-
-@pytest.mark.parametrize("method", REQUESTS)
-def test_every_request_is_answered_for_a_deck_in_json(client: RawClient, method: str) -> None:
-    client.open("untitled:deck.json", '{"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": []}]}')
-    answer = client.ask(method, json.loads(json.dumps(REQUESTS[method]).replace("untitled:deck", "untitled:deck.json")))
-    assert not isinstance(answer, dict) or answer.get("code") is None, answer
-
-
-@pytest.mark.parametrize("method", REQUESTS)
-def test_a_document_that_is_not_open_gives_nothing(client: RawClient, method: str) -> None:
-    params = json.dumps(REQUESTS[method])
-    answer = client.ask(method, json.loads(params.replace("untitled:deck", "file:///nowhere.keyxm")))
-    assert not answer or answer.get("code", answer.get("items", answer.get("data"))) in ([], None)
 
 
 @pytest.mark.parametrize("method", REQUESTS)

@@ -78,25 +78,6 @@ def test_values_are_written_for_people(tmp_path: Path) -> None:
     assert "curve:Clay | Free | 1 | 0 |  | 0" in re.sub('</td><td(?: class="number")?>', " | ", text)
 
 
-def test_the_touchdown_is_said_as_evaluate_says_it(tmp_path: Path) -> None:
-    laid = tmp_path / "deck.keyxm"
-    laid.write_text(ON_SOIL.replace(" 11, 3, 4\n", "").replace(" SET=Free\n 11\n", " SET=Free\n"), encoding="utf-8")
-    assert "all on the seabed" in run("evaluate", str(laid)).out
-    text = made(tmp_path, str(laid))
-    assert row_of(text, "1").split(" | ")[2] == "all on the seabed"
-    assert "touchdown point</" not in text
-    laid.write_text(ON_SOIL, encoding="utf-8")
-    assert "touchdown point</" in made(tmp_path, str(laid))
-
-
-def test_sets_of_lines_that_are_not_read_may_have_more_elements(tmp_path: Path) -> None:
-    text = made(tmp_path, str(SAMPLES / "lines-deck.keyxm"))
-    assert row_of(text, "Static Section").startswith("Static Section | 0+")
-    assert row_of(text, "elements") == "elements | 0+"
-    assert row_of(text, "curve:Clay").startswith("curve:Clay | Static Section | 0+")
-    assert text.count("+ a block that is not read may add elements to this set") == 2
-
-
 def test_a_study_is_on_the_page_only_where_it_is_asked_for(tmp_path: Path) -> None:
     deck = str(SAMPLES / "legacy-flowline.keyxm")
     page = checked(made(tmp_path, deck, sections="verdict,study"))
@@ -114,12 +95,6 @@ def test_a_faulty_deck_gets_a_page_that_says_what_is_missing(tmp_path: Path) -> 
     assert "No contact was computed: line" in page.text
     assert "finding-1" in page.ids
     assert "rule-SYN011" in page.ids
-
-
-def test_a_file_that_holds_no_deck_gets_a_page(tmp_path: Path) -> None:
-    (tmp_path / "deck.json").write_text('{"format": "mudline-deck/1", "sections": 5}', encoding="utf-8")
-    page = checked(made(tmp_path, str(tmp_path / "deck.json"), code=FOUND))
-    assert "the file holds no deck" in page.text
 
 
 def test_suppressed_findings_stand_with_their_reason(tmp_path: Path) -> None:
@@ -231,14 +206,6 @@ def test_several_decks_have_an_index_and_a_page_each(tmp_path: Path) -> None:
         checked(one.read_text(encoding="utf-8"))
 
 
-def test_the_index_may_be_inside_a_folder(tmp_path: Path) -> None:
-    decks = [str(SAMPLES / name) for name in ("legacy-flowline.keyxm", "slope-friction.keyxm")]
-    assert run("report", *decks, "-o", str(tmp_path / "site"), "--sections", "verdict", "-q").code == DONE
-    index = Page((tmp_path / "site" / "index.html").read_text(encoding="utf-8"))
-    assert all((tmp_path / "site" / one).is_file() for one in index.references)
-    assert len(index.references) == 2
-
-
 def test_a_company_has_its_own_template_and_logo(tmp_path: Path) -> None:
     (tmp_path / "ours.html").write_text(
         '{% extends "page.html" %}{% block heading %}Check of {{ report.deck }}{% endblock %}', encoding="utf-8"
@@ -270,24 +237,6 @@ def test_a_template_or_logo_that_cannot_be_used(tmp_path: Path, option: str, fil
     assert outcome.code == WRONG_USAGE
     assert words in outcome.err
     assert not target.exists()
-
-
-def test_missing_files_of_a_company(tmp_path: Path) -> None:
-    deck = str(SAMPLES / "legacy-flowline.keyxm")
-    for option, name in (("--template", "none.html"), ("--logo", "none.png")):
-        outcome = run(
-            "report", deck, "-o", str(tmp_path / "o.html"), option, str(tmp_path / name), "--sections", "verdict"
-        )
-        assert outcome.code == WRONG_USAGE
-        assert name in outcome.err
-
-
-def test_wrong_usage(tmp_path: Path) -> None:
-    deck = str(SAMPLES / "legacy-flowline.keyxm")
-    assert "-o OUT.html" in run("report", deck).err
-    outcome = run("report", deck, "-o", "x.html", "--sections", "verdict,soup")
-    assert (outcome.code, "'soup' is not one of verdict, findings" in outcome.err) == (WRONG_USAGE, True)
-    assert run("report", str(tmp_path / "none.keyxm"), "-o", str(tmp_path / "x.html")).code == WRONG_USAGE
 
 
 def test_the_content_goes_into_a_file_too(tmp_path: Path) -> None:

@@ -37,12 +37,6 @@ def test_the_document_block_and_its_place_in_print(tmp_path: Path) -> None:
     assert "--field 'Client'" in run("report", "x.keyxm", "-o", "x.html", "--field", "Client").err
 
 
-def test_the_title_of_a_deck_is_that_of_its_page(tmp_path: Path) -> None:
-    deck = tmp_path / "deck.keyxm"
-    deck.write_text("$MODEL\n*TITLE\n Deep riser\n" + ON_SOIL.removeprefix("$MODEL\n"), encoding="utf-8")
-    assert "<h1>Deep riser</h1>" in made(tmp_path, str(deck), sections="verdict")
-
-
 def test_folders_of_this_computer_do_not_stand_on_the_page(tmp_path: Path) -> None:
     deck = tmp_path / "decks" / "deck.keyxm"
     deck.parent.mkdir()
@@ -101,12 +95,3 @@ def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
     weights = text[text.index("Sheet: mass and submerged weight") :]
     assert row_of(weights, "41 to 110") == "41 to 110 | 155.1 | 820 | 186.9 |  | 932.7 | 1245"
     assert '<td class="gap">none</td>' in text
-
-
-def test_findings_that_inform_stand_in_the_appendix(tmp_path: Path) -> None:
-    deck = tmp_path / "deck.keyxm"
-    deck.write_text(ON_SOIL.replace("*SEABED STIFFNESS", "*seabed stiffness"), encoding="utf-8")
-    page = checked(made(tmp_path, str(deck), sections="findings"))
-    number = next(one for one in page.ids if one.startswith("finding-"))
-    assert page.ids.index("appendix") < page.ids.index("infos") < page.ids.index(number)
-    assert page.headings.count(4) == 1

@@ -77,11 +77,6 @@ def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.Monkey
     assert multiprocessing.active_children() == []
 
 
-def test_little_work_is_done_here() -> None:
-    found = [made for _, made in many(squared, items(50, []), 50, 2) if made]
-    assert {process for _, process in found} == {os.getpid()}
-
-
 @pytest.mark.usefixtures("eager")
 def test_a_process_that_dies_is_reported() -> None:
     with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"):
@@ -200,8 +195,3 @@ def test_what_goes_wrong_at_a_scheduler_is_named(error: BaseException, why: str)
     future.set_exception(error)
     with pytest.raises(RunError, match=f"tcp://h:1: {why}"):
         Pool(0, "tcp://h:1", ExitStack()).result(future)
-
-
-def test_a_worker_of_another_version_is_named() -> None:
-    with pytest.raises(RunError, match=r"a worker has mudline .*, the command 9\.9: install the same version"):
-        executors._done("9.9", squared, [(1,)])

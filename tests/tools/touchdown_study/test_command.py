@@ -40,14 +40,6 @@ def test_the_screen_of_a_deck_is_one_screen(deck: Path) -> None:
     assert "explicit" not in outcome.out
 
 
-@pytest.mark.parametrize("only", ["accuracy", "stability", "pruning"])
-def test_one_part_alone(deck: Path, only: str) -> None:
-    outcome = run("study", deck, "--only", only)
-    assert ("Errors of the time step" in outcome.out) == (only == "accuracy")
-    assert ("Stiff and extreme" in outcome.out) == (only == "stability")
-    assert ("What the deck needs" in outcome.out) == (only == "pruning")
-
-
 @pytest.mark.parametrize("name", ["flowline-gen.keyxm", "scr-soil.keyxm", ""])
 def test_json_keeps_to_its_schema(deck: Path, name: str) -> None:
     outcome = run("study", SAMPLES / name if name else deck, "--output-format", "json")
@@ -80,18 +72,6 @@ def test_the_motion_of_the_top_may_be_given(deck: Path) -> None:
     assert (model["heave"], model["surge"], model["period"]) == (2.5, 0.0, 9.0)
 
 
-@pytest.mark.parametrize("words", [("--heave", "0"), ("--period", "nan"), ("-o", "out.csv"), ("--only", "precision")])
-def test_wrong_usage(deck: Path, words: tuple[str, str]) -> None:
-    outcome = run("study", deck, *words)
-    assert (outcome.code, outcome.out) == (2, "")
-
-
-def test_a_deck_without_elements_is_refused_as_evaluate_does() -> None:
-    outcome = run("study", SAMPLES / "lines-deck.keyxm")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == run("evaluate", SAMPLES / "lines-deck.keyxm").err
-
-
 def test_a_refused_deck_names_the_cause_as_evaluate_does(deck: Path) -> None:
     text = deck.read_text(encoding="utf-8")
     assert "*SEABED STIFFNESS" in text
@@ -110,12 +90,6 @@ def test_the_function_has_arrays_and_a_plot(deck: Path) -> None:
     _, axes = plt.subplots()
     assert found.plot(axes) is axes
     plt.close("all")
-
-
-@pytest.mark.parametrize(("name", "value"), [("heave", -1.0), ("period", 0.0), ("only", ["accuracies"])])
-def test_wrong_arguments(deck: Path, name: str, value: object) -> None:
-    with pytest.raises(ValueError, match=name):
-        mudline.study(mudline.read(deck), **{name: value})  # type: ignore[arg-type]
 
 
 def test_evaluate_at_rest(deck: Path) -> None:

@@ -112,19 +112,6 @@ def test_a_lazy_wave() -> None:
     assert line_summaries(scene.contact().evaluate(found.positions.whole[0]))[0].ratio == pytest.approx(1.0, abs=0.02)
 
 
-def test_a_line_that_lies_from_end_to_end() -> None:
-    scene = mudline.read(SAMPLES / "flowline-gen.keyxm").scene()
-    positions = scene.rest_shape()
-    assert line_summaries(scene.contact().evaluate(positions.whole[0]))[0].ratio == pytest.approx(1.0)
-
-
-def test_a_line_that_lies_needs_no_held_end() -> None:
-    deck = mudline.read(SAMPLES / "full-cycle.keyxm")
-    scene = deck.scene()
-    result = scene.contact().evaluate(scene.rest_shape().whole[0])
-    assert line_summaries(result)[0].ratio == pytest.approx(1.0, abs=0.01)
-
-
 @pytest.mark.parametrize(
     ("riser", "words"),
     [

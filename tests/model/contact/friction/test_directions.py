@@ -43,14 +43,6 @@ def test_along_a_bent_line() -> None:
     np.testing.assert_allclose(second, np.cross(UP, first), atol=1e-15)
 
 
-@pytest.mark.parametrize(("degrees", "expected"), [(0.0, (0.0, 1.0, 0.0)), (90.0, (0.0, 0.0, 1.0))])
-def test_an_angle_turns_from_y(degrees: float, expected: tuple[float, float, float]) -> None:
-    points = np.array([[0.0, 0.0, 0.0], [0.0, 3.0, 4.0]])
-    first, second = axes(points, np.repeat(UP, 2, axis=0), angle=degrees)
-    assert first == pytest.approx(np.array([expected] * 2), abs=1e-15)
-    np.testing.assert_allclose(second, np.cross(UP, first), atol=1e-15)
-
-
 @pytest.mark.parametrize("size", [5e-324, 1e-320, 1e-200, 1e-150, 1e-100, 1.0, 1e100, 1e150, 1e200, 1e300])
 def test_directions_of_elements_whose_squares_under_or_overflow(size: float) -> None:
     """A line of 3 along Y and 4 along Z, at any size: not the directions of elements without length."""

@@ -89,10 +89,3 @@ def test_far_points_have_a_gap_or_no_seabed_as_near_the_edge(seabed: Seabed, far
     assert np.array_equal(np.isnan(gap), np.isnan(located(seabed, near)[0]))
     assert np.array_equal(normal, located(seabed, near)[1])
     assert np.isfinite(normal).all()
-
-
-@every_seabed
-def test_no_points_are_no_points(seabed: Seabed) -> None:
-    gap, normal = located(seabed, np.zeros((3, 0, 3)))
-    assert gap.shape == (3, 0)
-    assert normal.shape == (3, 0, 3)

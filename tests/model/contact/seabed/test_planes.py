@@ -9,15 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.model.contact.seabed import FlatSeabed, PlanesSeabed, SlopingSeabed
+from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed
 from tests.model.contact.seabed.shapes import cloud, level, located
 
 ANGLES = st.floats(-89.9, 89.9)
 TURNS = st.floats(-720.0, 720.0)
-
-
-def test_a_flat_seabed_is_a_slope_of_nothing() -> None:
-    assert np.array_equal(located(FlatSeabed(), cloud())[0], located(SlopingSeabed(0.0, 33.0), cloud())[0])
 
 
 @pytest.mark.parametrize(("turn", "y", "z"), [(0, 1, 0), (90, 0, 1), (180, -1, 0), (-90, 0, -1), (450, 0, 1)])
@@ -25,14 +21,6 @@ def test_the_direction_turns_y_to_z(turn: float, y: float, z: float) -> None:
     seabed = SlopingSeabed(45.0, turn)
     assert level(seabed, y, z) == pytest.approx(1.0, rel=1e-15)
     assert level(seabed, z, -y) == 0.0
-
-
-@given(ANGLES, TURNS)
-def test_turning_the_seabed_and_the_points_changes_no_gap(angle: float, turn: float) -> None:
-    points = cloud(20)
-    cosine, sine = math.cos(math.radians(turn)), math.sin(math.radians(turn))
-    turned = points @ np.array([[1.0, 0.0, 0.0], [0.0, cosine, sine], [0.0, -sine, cosine]])
-    assert located(SlopingSeabed(angle, turn), turned)[0] == pytest.approx(located(SlopingSeabed(angle), points)[0])
 
 
 @given(ANGLES, TURNS)

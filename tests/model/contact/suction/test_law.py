@@ -6,22 +6,10 @@ import numpy as np
 import pytest
 
 from mudline.model.contact import ElementError
-from mudline.model.contact.laws.linear import spring_suction
 from mudline.model.contact.laws.suction import from_cohesion
 from tests.helpers.builders.contact import LINEAR, bridge_law, chain, floats, suction
-from tests.model.contact.single import DEPTH, FORCE, breakout, largest, pull
-
-# D, cu, v, alpha_f, alpha_D, F_max, Delta_B, dF/dv
-WORKED = [
-    (0.3, 5000.0, 0.1, 2086.5435606, 0.294, 1378.5656595, 0.16156501691, 2481.4181871),
-    (0.3, 5000.0, 0.01, 2086.5435606, 0.294, 910.80929887, 0.08878658058, 16394.56738),
-    (0.3, 5000.0, 0.001, 2086.5435606, 0.294, 601.76573615, 0.048791855079, 108317.83251),
-    (0.3, 5000.0, 1.0, 2086.5435606, 0.294, 2086.5435606, 0.294, 375.57784091),
-    (0.1683, 3500.0, 0.1, 909.23269089, 0.164934, 600.72408159, 0.090637974489, 1081.3033469),
-    (0.1683, 3500.0, 0.01, 909.23269089, 0.164934, 396.89446477, 0.049809271705, 7144.1003658),
-    (0.5, 2000.0, 0.3, 1268.8299515, 0.49, 1021.6102644, 0.35830065844, 612.96615862),
-    (0.27305, 10000.0, 0.05, 3863.1058759, 0.267589, 2252.9482273, 0.12280059122, 8110.6136184),
-]
+from tests.model.contact.single import DEPTH, FORCE, breakout, largest
+from tests.model.contact.suction.test_scenes import TABLE
 
 FOOT, POUND = 0.3048, 4.4482216152605
 
@@ -47,7 +35,7 @@ def test_millimetres_would_be_wrong_without_conversion() -> None:
 
 @pytest.mark.parametrize(("length", "force"), [(FOOT, POUND), (1e-3, 1.0), (1.0, 1000.0), (1.0, 1.0)])
 def test_a_deck_in_other_units_describes_the_same_soil(length: float, force: float) -> None:
-    diameter, cohesion, v = (np.array(column) for column in list(zip(*WORKED, strict=True))[:3])
+    diameter, cohesion, v = (np.array(column) for column in list(zip(*TABLE, strict=True))[:3])
     si = bridge_law(len(v), cohesion, diameter)
     factors = from_cohesion(cohesion / (force / length**2), diameter / length, length, force)
     own = si._replace(**factors._asdict(), regularisation=si.regularisation / length)
@@ -80,23 +68,3 @@ def test_a_value_out_of_range_is_refused_and_the_element_named(field: str, value
     with pytest.raises(ElementError, match=f"element 12 has a suction law.*{what}") as caught:
         chain([LINEAR] * 3, suction(law))
     assert caught.value.element == 12
-
-
-@pytest.mark.parametrize("corner", [0.2, 0.8])
-def test_on_a_corner_the_whole_force_acts_and_the_slope_is_that_of_the_plateau(corner: float) -> None:
-    law = bridge_law(corners=(corner, corner))._replace(depth_exponent=floats(0.0), depth_factor=floats(1.0))
-    suction = pull(law, corner, 0.1)
-    assert suction.force.item() == pytest.approx(-FORCE, rel=1e-10)
-    assert suction.by_uplift.item() == 0.0
-    assert not np.signbit(suction.by_uplift.item())
-
-
-def test_a_spring_against_uplift_has_an_extent_and_no_history() -> None:
-    uplift = np.array([-0.1, 0.0, 1e-3, 0.05, np.nextafter(0.05, 1.0), 1e308])
-    with np.errstate(over="ignore"):  # as the drivers ask
-        force, stiffness = spring_suction(uplift, floats(15000.0, 6), floats(0.05, 6))
-        twice, _ = spring_suction(np.stack([uplift, uplift]), floats(15000.0, 6), floats(0.05, 6))
-    assert force == pytest.approx([0.0, 0.0, -15.0, -750.0, 0.0, 0.0], rel=1e-15)
-    assert stiffness.tolist() == [0.0, 0.0, 15000.0, 15000.0, 0.0, 0.0]
-    assert not np.signbit(force[[0, 1, 4, 5]]).any()
-    assert np.array_equal(twice[1], force)

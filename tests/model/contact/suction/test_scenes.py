@@ -12,7 +12,6 @@ from tests.helpers.builders.contact import (
     LINEAR,
     NONE,
     PULLING,
-    at_depths,
     bridge_law,
     chain,
     each_backend,
@@ -22,7 +21,7 @@ from tests.helpers.builders.contact import (
     walk,
 )
 from tests.model.contact.comparison import plain_loops
-from tests.model.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, SUCTION
+from tests.model.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, SUCTION
 
 pytestmark = pytest.mark.slow
 
@@ -93,16 +92,6 @@ def test_net_force_on_a_slow_pull_out() -> None:
     assert [result.force.item() for result in results] == pytest.approx(expected, rel=1e-9)
 
 
-def test_work_to_breakout() -> None:
-    corners = np.array([0.0, 0.2, 0.8, 1.0])
-    shares = np.unique(np.concatenate([np.linspace(0.0, 1.0, 101), corners]))
-    contact = ContactModel(chain([NONE], suction(bridge_law())))
-    uplifts = shares * DEPTH
-    results = walk(contact, *heave([0.01, *(0.0 - uplifts)], [0.0, *[0.1] * len(uplifts)]))
-    pull = np.array([-result.reaction[:, 0].sum() for result in results[1:]]) / 2.0
-    assert np.sum(0.5 * (pull[1:] + pull[:-1]) * np.diff(uplifts)) == pytest.approx(178.18238727, rel=1e-9)
-
-
 @pytest.mark.parametrize(("v", "force"), [(5e-4, 424.24484398), (0.0, 0.0), (1e-300, 0.0)])
 def test_cap_below_the_regularisation_velocity(v: float, force: float) -> None:
     result = walk(pipe(), *heave([0.01, -0.02], [0.0, v]))[1]
@@ -139,22 +128,6 @@ def test_on_springs_of_nodes_the_uplift_begins_where_the_wider_zone_ends() -> No
     assert [bool(result.contact[0]) for result in above] == [True, False]
 
 
-def test_one_sided_springs_of_nodes_leave_the_uplift_at_the_mudline() -> None:
-    springs = on("nodal", 2, stiffness=5e4, half_width=0.004, one_sided=1.0)
-    moves = heave([0.02, 0.0, -0.1 * DEPTH], [0.0, 0.1, 0.1])
-    results = walk(ContactModel(chain([NONE], springs, suction(bridge_law()))), *moves)
-    assert [result.force.item() for result in results] == pytest.approx([0.0, 0.0, -FORCE / 2], rel=1e-9, abs=1e-9)
-    above = walk(ContactModel(chain([NONE], springs, suction(bridge_law()))), *heave([-0.003, -0.005], [0.0, 0.1]))
-    assert [result.state for result in above] == [FREE, FREE]
-
-
-def test_springs_against_uplift_count_from_the_wider_zone_of_the_nodes_too() -> None:
-    springs = on("nodal", 2, stiffness=5e4, half_width=[0.001, 0.004])
-    contact = ContactModel(chain([NONE], springs, on("suction spring", 1, stiffness=800.0, extent=0.05)))
-    results = contact.evaluate(at_depths([[0.01] * 2, [-0.004] * 2, [-0.024] * 2, [-0.054] * 2, [-0.055] * 2]))
-    assert results.force.ravel() == pytest.approx([0.0, 0.0, -16.0, -40.0, 0.0])
-
-
 PULLS = ForceCurve([(0.0, 0.0), (0.1, 100.0), (0.2, -50.0)], name="pulls")
 
 
@@ -183,10 +156,3 @@ def test_a_curve_that_pulls_is_accepted_where_it_is_cut_or_its_element_has_no_su
     elsewhere = ContactModel(chain([CURVE, CURVE], laws, curves=(PULLS, PULLING), curve_index=[0, 1], diameter=1.0))
     with pytest.raises(ElementError, match="element 12 at step 0: its curve pulls there"):
         elsewhere.evaluate(positions, velocities=velocities)
-
-
-def test_a_curve_that_pulls_only_where_no_position_reaches_is_accepted() -> None:
-    contact = ContactModel(chain([CURVE], suction(bridge_law(1)), curves=(PULLS,)))
-    positions, velocities = heave([0.02, 0.04, -0.08], [0.0, 0.0, 0.1])
-    forces = contact.evaluate(positions, velocities=velocities).force.ravel()
-    assert forces == pytest.approx([200.0 / 3.0, 50.0, -FORCE])

@@ -9,31 +9,14 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import ElementError
 from mudline.model.contact.arrays import FloatArray, IndexArray
-from mudline.model.contact.laws.friction import ExtraLimit
-from mudline.model.contact.laws.trench import on_wall, peak_share, peak_slope, wall_coefficient
+from mudline.model.contact.laws.trench import on_wall, wall_coefficient
 from mudline.model.contact.line import Line
 from mudline.model.contact.tables import Tables
 from mudline.model.contact.trenches import LaidCentreline
 from tests.helpers.builders.contact import ALONG_Y, LINEAR, NONE, chain, friction, on, trench
 
-PEAK = 900.0
 INNER, OUTER = 0.25, 0.85
 """Half widths of a trench of 0.5 at the bottom and 1.7 above: the middle of its walls is at 0.55."""
-
-
-def limit(offset: float) -> ExtraLimit:
-    """What such a trench adds at an offset."""
-    y, side = np.array([abs(offset)]), np.array([np.sign(offset)])
-    slope = PEAK * side * peak_slope(y, INNER, OUTER)
-    return ExtraLimit(
-        PEAK * np.asarray(peak_share(y, INNER, OUTER, 2.0 / (OUTER - INNER))), np.asarray(slope), np.zeros(1), side
-    )
-
-
-@given(st.floats(-1.0, 1.0).filter(lambda y: min(abs(abs(y) - kink) for kink in (0.0, 0.25, 0.55, 0.85)) > 1e-5))
-def test_slope_of_the_limit(offset: float) -> None:
-    ahead, behind = (limit(offset + step).force[0] for step in (1e-6, -1e-6))
-    assert limit(offset).by_offset[0] == pytest.approx((ahead - behind) / 2.0e-6, abs=1e-3)
 
 
 def test_worked_wall() -> None:
@@ -43,11 +26,6 @@ def test_worked_wall() -> None:
     assert found == pytest.approx([0.725], rel=1e-14)
     for offset, there in ((0.0, 0.0), (0.25, 0.0), (0.2500001, 1.0), (0.6, 1.0), (0.8499999, 1.0), (0.85, 0.0)):
         assert on_wall(offset, INNER, OUTER) == there
-
-
-def test_a_wall_without_friction_is_as_steep_as_it_is() -> None:
-    values = (np.array([0.1, 0.3, 1.2]), np.full(3, 0.5), np.full(3, 1.7), np.zeros(3))
-    assert wall_coefficient(*values) == pytest.approx([1.0 / 6.0, 0.5, 2.0])
 
 
 WRONG = {

@@ -10,10 +10,9 @@ import pytest
 
 from mudline.model.contact import ContactInput, ContactModel, LawAssignment
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.laws.trench import diagram, rounded, shortest_side
+from mudline.model.contact.laws.trench import diagram, rounded
 from mudline.model.contact.plan import Backend
-from mudline.model.contact.trenches import tabulated
-from tests.helpers.builders.contact import ALONG_Y, LINEAR, NONE, chain, drawn, each_backend, friction, on, trench
+from tests.helpers.builders.contact import ALONG_Y, LINEAR, chain, drawn, each_backend, friction, on, trench
 
 MU = 0.4
 WIDTHS = {"bottom": 0.5, "upper": 1.7, **ALONG_Y}
@@ -103,15 +102,6 @@ def test_a_residual_and_rounded_corners(
     assert result.reaction[1, :, 2] == pytest.approx([-(400.0 + resistance)] * 2, rel=1e-12)
 
 
-def test_rounded_corners_are_smooth() -> None:
-    places = np.linspace(0.0, 1.3, 2601)
-    force = tabulated(rounded(RESIDUAL, 0.1), places)
-    slope = np.diff(force) / np.diff(places)
-    assert np.abs(np.diff(slope)).max() < 2900.0 / 0.2 * 6e-4  # of corners 2000 and more
-    assert shortest_side(RESIDUAL) == pytest.approx(0.3)
-    assert shortest_side(TABLE) == 0.0
-
-
 @each_backend
 def test_a_lowered_seabed(backend: Backend) -> None:
     """0.3 m at the bottom, half of it at mid-wall, nothing outside; the line was laid along its own middle."""
@@ -178,19 +168,6 @@ def test_between_two_blocks_each_counts_with_half_of_its_own_element(name: str) 
     assert lateral(inputs, 0.55) == pytest.approx(MU * pressing + added, rel=1e-12)
 
 
-def test_blocks_with_centrelines_of_their_own() -> None:
-    """The first along Z = 0, the second along Z = 0.3: at 0.55 the one is at its peak, the other on its floor."""
-    aside = {**ALONG_Y, "start_z": 0.3, "end_z": 0.3}
-    laws = trench([0], 0.5, 1.7, 300.0), trench([1], 0.5, 1.7, 300.0, aside)
-    assert lateral(chain([LINEAR] * 2, friction(3, (0.5, MU), 1e6), *laws), 0.55) == pytest.approx(
-        [400.0 + 300.0, 800.0 + 300.0, 400.0]
-    )
-    # 0.7: the first falls to a half, the second, 0.4 off its line, has risen to a half
-    assert lateral(chain([LINEAR] * 2, friction(3, (0.5, MU), 1e6), *laws), 0.7) == pytest.approx(
-        [400.0 + 150.0, 800.0 + 300.0, 400.0 + 150.0]
-    )
-
-
 def test_a_straight_centreline_may_run_at_any_angle() -> None:
     """Through (0, 0) and (-3, -4): its offset counts along u2 of the node, which stands across the line."""
     slanted = {"start_y": 0.0, "start_z": 0.0, "end_y": -3.0, "end_z": -4.0}
@@ -225,12 +202,6 @@ def test_in_an_ellipse_the_wall_raises_the_limit_across_the_line_only() -> None:
     force = -result.reaction[1, 0, 1:]
     assert np.hypot(force[0] / 500.0, force[1] / 1125.0) == pytest.approx(1.0, rel=1e-12)
     assert force[1] / force[0] == pytest.approx(2.0)
-
-
-def test_without_pressure_a_trench_holds_nothing() -> None:
-    walls = on("trench wall", [0], depth=0.3, **WIDTHS), trench([1], 0.5, 1.7, 600.0)
-    assert not lateral(chain([NONE] * 2, friction(3), *walls), 0.55).any()
-    assert not lateral(chain([LINEAR] * 2, friction(3), *walls), 0.55, depth=-0.02).any()
 
 
 @pytest.mark.parametrize(("depth", "mu"), [(0.6, 1.0), (0.3, 2.0), (1.5, 0.4)])
