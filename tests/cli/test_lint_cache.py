@@ -17,15 +17,17 @@ from mudline.basics.outside import project_of
 from mudline.checks.configuration import Configured, Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
+from mudline.checks.output import form_names
 from mudline.checks.registry import rules
 from mudline.cli import lint_run
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
 from mudline.tools.running import remembered
+from tests.checks.corpus import CORPUS
 from tests.cli.conftest import Place
-from tests.cli.runner import Json, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
+from tests.cli.runner import SAMPLES, Json, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING, UNSORTED
 
 Linted = list[str]
 
@@ -131,25 +133,77 @@ from mudline.__main__ import main
 from mudline.tools.running import remembered
 
 remembered._COARSE = 0.0
-print(main(["lint", *sys.argv[1:]]), sorted({"lark", "numpy", "pydantic"} & sys.modules.keys()))
+print(main(["lint", *sys.argv[1:]]), sorted({"lark", "numpy", "pydantic", "rich"} & sys.modules.keys()))
 """
+
+
+def twice(folder: Path, *words: str) -> list[str]:
+    """What two runs print, each in a process of its own; the last line is the exit code and the libraries."""
+    command = [sys.executable, "-c", LIBRARIES, *words]
+    environment = {**os.environ, remembered.PLACE: str(folder / "cache")}
+    return [
+        subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout for _ in range(2)
+    ]
 
 
 def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Path, place: Place) -> None:
     place("[tool.mudline]\nignore = ['STB']\n", "pyproject.toml")
     place(name="static.keyxm")
-    words = [sys.executable, "-c", LIBRARIES, place(), place(RESTART, "wave.keyxm")]
-    environment = {**os.environ, remembered.PLACE: str(folder / "cache")}
-    done = [subprocess.run(words, env=environment, capture_output=True, text=True, check=True) for _ in range(2)]
-    assert done[0].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 ['lark', 'numpy', 'pydantic']\n"
-    assert done[1].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
+    first, second = twice(folder, place(), place(RESTART, "wave.keyxm"))
+    assert first == "No findings in 2 files.\nAll 9 keywords read.\n0 ['lark', 'numpy', 'pydantic']\n"
+    assert second == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
 
 
-@pytest.mark.parametrize("form", ["json", "concise", "sarif", "junit", "gitlab", "github", "jsonl"])
-def test_every_form_is_the_same_from_the_cache(place: Place, linted: Linted, form: str) -> None:
-    words = ("lint", place(), place(name="b.keyxm"), "-v", "--output-format", form)
-    assert run(*words) == run(*words)
+# ----------------------------------------------------------------------------------------------- remembered findings
+
+
+@pytest.mark.parametrize("form", ["text", "json", "markdown"])
+def test_findings_are_printed_again_without_what_found_them(folder: Path, place: Place, form: str) -> None:
+    first, second = twice(folder, place(BAD_NUMBER), place(name="b.keyxm"), "--output-format", form)
+    assert "SYN002" in first
+    assert first.endswith("1 ['lark', 'numpy', 'pydantic']\n")
+    assert second == first.replace("1 ['lark', 'numpy', 'pydantic']\n", "1 []\n")
+
+
+def test_all_faulty_decks_are_the_same_from_the_cache_in_every_form(folder: Path, linted: Linted) -> None:
+    forms = [word for name in form_names() for word in ("--output-format", f"{name}={folder / name}")]
+    command = ["lint", SAMPLES, CORPUS, "--jobs", "1", *forms]
+    first = run(*command)
+    files = {name: (folder / name).read_bytes() for name in form_names()}
+    assert len(linted) > 100
+    linted.clear()
+    assert run(*command) == first
+    assert {name: (folder / name).read_bytes() for name in form_names()} == files
+    assert not linted
+
+
+@pytest.mark.parametrize("words", [["-v"], ["-q"], ["--statistics"], ["--color", "always"]])
+def test_findings_are_the_same_from_the_cache_in_every_view(linted: Linted, words: list[str]) -> None:
+    command = ["lint", SAMPLES / "broken.keyxm", SAMPLES / "legacy-flowline.keyxm", *words]
+    first = run(*command)
     assert len(linted) == 2
+    assert run(*command) == first
+    assert len(linted) == 2
+
+
+def test_a_run_on_remembered_findings_fails_as_the_first(place: Place, linted: Linted) -> None:
+    del linted
+    name = place(CLEAN_WARNING)
+    words = [[], ["--fail-on", "error"], ["--exit-zero"]]
+    assert [run("lint", name, *each).code for each in (*words, *words)] == [1, 0, 0, 1, 0, 0]
+    place("fail-on = 'error'\n", "mudline.toml")
+    assert [run("lint", name).code for _ in range(2)] == [0, 0]
+    assert run("lint", name, "missing.keyxm").code == 2
+
+
+def test_findings_of_large_decks_are_not_all_held(
+    place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ("lint", place(UNSORTED), place(BAD_NUMBER, "bad.keyxm"), place(UNSORTED, "c.keyxm"))
+    first = run(*words)
+    monkeypatch.setattr("mudline.cli.known_findings.MOST_HELD", 10)
+    assert run(*words) == first
+    assert len(linted) == 3
 
 
 def test_standard_input_asks_nothing(folder: Path, linted: Linted) -> None:

@@ -23,7 +23,7 @@ from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
-from mudline.cli.view import View
+from mudline.cli.view import Part, View
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.matrix import matrix as matrix_of
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
@@ -68,8 +68,6 @@ _OF_DECKS = {
     Status.REMOVED: ("-", "red", "only in the first folder"),
     Status.FAILED: ("!", "red", _NOT_COMPARED),
 }
-Line = str | tuple[str, str]
-"""A line, or a line and its style."""
 
 
 @options.command("diff")
@@ -149,7 +147,8 @@ def command(
         emit(markdown(first.file, second.file, summary, lines, view))
     else:
         names = ("", "") if view.quiet else (first.file, second.file)
-        view.printer().lines([*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])])
+        lines = [*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])]
+        view.lines([line] for line in lines)
     return FOUND if comparison.differences else DONE
 
 
@@ -253,7 +252,7 @@ def _compare_folders(folders: _Folders, output_format: str, view: View, every_fi
         *lines, summary = folder_lines(compared, folders.counts, view)
         emit(markdown(folders.before, folders.after, str(summary), lines, view))
     else:
-        view.printer().lines(folder_lines(compared, folders.counts, view))
+        view.lines([line] for line in folder_lines(compared, folders.counts, view))
     return folders.code
 
 
@@ -291,7 +290,7 @@ def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterat
 # ------------------------------------------------------------------------------------------------------ for people
 
 
-def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Line]:
+def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Part]:
     """The differences of two decks by group, under the names of the decks if they have any."""
     found = comparison.differences
     if found and before:
@@ -313,7 +312,7 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int], view: View) -> Iterator[Line]:
+def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int], view: View) -> Iterator[Part]:
     """The differences of the decks of two folders, then how many decks differ, of which `counts` are whole then."""
     for one in compared:
         if one.status is Status.CHANGED:
@@ -376,7 +375,7 @@ COMMENT_LETTERS = 60_000
 """Characters of all: a comment on GitHub holds 65,536. What is beyond is left out, unless all is asked for."""
 
 
-def markdown(before: str, after: str, summary: str, lines: Iterable[Line], view: View) -> list[str]:
+def markdown(before: str, after: str, summary: str, lines: Iterable[Part], view: View) -> list[str]:
     """What is compared, the result, and the lines of the text, which GitHub and GitLab colour.
 
     All text of a deck stands in code, where neither of them makes links, mentions or HTML of it.

@@ -14,6 +14,7 @@ import click
 from mudline.basics.overwriting import claim
 from mudline.basics.version import __version__
 from mudline.checks.output import TEXT, form, form_names, visible
+from mudline.cli.finding_lines import print_findings, print_summary
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
@@ -83,7 +84,7 @@ class Report:
         as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
         if as_they_come and found:
             shown = found if self.view.verbose else [*_with_style_folded(found)]
-            self.view.printer().findings(shown, Source.from_bytes(data, name), following=self.view.verbose)
+            print_findings(self.view, shown, Source.from_bytes(data, name))
         if self.view.verbose:
             notify(f"{name}: {counted(len(found), 'finding')}")
 
@@ -117,7 +118,7 @@ class Report:
         if self.fixing and (self.fixed or found):
             click.echo(self._fixed_summary(found))
         elif found:
-            self.view.printer().summary(found, self.files)
+            print_summary(self.view, found, self.files)
         else:
             click.echo(f"No findings in {counted(self.files, 'file')}.")
         if hint := fixable(found):

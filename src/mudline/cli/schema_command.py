@@ -90,7 +90,8 @@ def _code() -> dict[str, Any]:
 
 def _rule() -> dict[str, Any]:
     """What names rules: an editor offers the families, codes and slugs of mudline, and takes those of plugins too."""
-    from mudline.checks.registry import origin, rules  # noqa: PLC0415 - it imports all rules
+    from mudline.checks.pages import origin  # noqa: PLC0415 - as below
+    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
 
     own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]
     families = dict.fromkeys(code.code.rstrip("0123456789") for code in own)
