@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import os
 import subprocess
 import sys
@@ -23,7 +24,7 @@ from mudline.cli import lint_run
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
-from mudline.tools.running import remembered
+from mudline.tools.running import executors, remembered
 from tests.checks.corpus import CORPUS
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, run
@@ -44,6 +45,7 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
     monkeypatch.setenv(remembered.PLACE, str(folder / "cache"))
     monkeypatch.setattr(remembered, "_COARSE", 0.0)  # files of a test are as young as its runs
     monkeypatch.setattr(lint_run, "lint_one", lint)
+    monkeypatch.setattr(executors, "TRIED", math.inf)  # never in other processes, however slow this one is
     return names
 
 
@@ -167,7 +169,7 @@ def test_findings_are_printed_again_without_what_found_them(folder: Path, place:
 
 def test_all_faulty_decks_are_the_same_from_the_cache_in_every_form(folder: Path, linted: Linted) -> None:
     forms = [word for name in form_names() for word in ("--output-format", f"{name}={folder / name}")]
-    command = ["lint", SAMPLES, CORPUS, "--jobs", "1", *forms]
+    command: list[str | Path] = ["lint", SAMPLES, CORPUS, *forms]
     first = run(*command)
     files = {name: (folder / name).read_bytes() for name in form_names()}
     assert len(linted) > 100
@@ -179,7 +181,7 @@ def test_all_faulty_decks_are_the_same_from_the_cache_in_every_form(folder: Path
 
 @pytest.mark.parametrize("words", [["-v"], ["-q"], ["--statistics"], ["--color", "always"]])
 def test_findings_are_the_same_from_the_cache_in_every_view(linted: Linted, words: list[str]) -> None:
-    command = ["lint", SAMPLES / "broken.keyxm", SAMPLES / "legacy-flowline.keyxm", *words]
+    command: list[str | Path] = ["lint", SAMPLES / "broken.keyxm", SAMPLES / "legacy-flowline.keyxm", *words]
     first = run(*command)
     assert len(linted) == 2
     assert run(*command) == first

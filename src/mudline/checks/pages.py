@@ -1,13 +1,10 @@
-"""Where a rule comes from, and the address of its page.
-
-No rule is imported for it unless a package brings some: what is remembered is printed without them.
-"""
+"""Where a rule comes from, and the address of its page; no rule is imported for it."""
 
 from __future__ import annotations
 
 from functools import cache
 
-from mudline.basics.installed import may_declare, project_addresses
+from mudline.basics.installed import project_addresses
 from mudline.basics.resources import rule_file
 
 GROUP = "mudline.rules"
@@ -19,17 +16,7 @@ ORIGINS: dict[str, str] = {}
 
 def origin(code: str) -> str:
     """The package that a rule comes from, with its version: "mudline" for mudline's own."""
-    _load_plugins()
     return ORIGINS.get(code, "mudline")
-
-
-@cache
-def _load_plugins() -> None:
-    """Have the rules of plugins loaded, where there may be any."""
-    if may_declare(GROUP):
-        from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
-
-        rules()
 
 
 @cache

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from itertools import accumulate, groupby
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 import numpy as np
@@ -23,7 +23,7 @@ from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
-from mudline.cli.view import Part, View
+from mudline.cli.view import View
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.matrix import matrix as matrix_of
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
@@ -32,6 +32,9 @@ from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import DeckError
+
+if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
+    from mudline.cli.printing import Part
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
@@ -147,8 +150,8 @@ def command(
         emit(markdown(first.file, second.file, summary, lines, view))
     else:
         names = ("", "") if view.quiet else (first.file, second.file)
-        lines = [*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])]
-        view.lines([line] for line in lines)
+        shown = [*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])]
+        view.lines([line] for line in shown)
     return FOUND if comparison.differences else DONE
 
 

@@ -11,9 +11,11 @@ from typing import NamedTuple
 
 import click
 
+from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
 from mudline.basics.version import __version__
 from mudline.checks.output import TEXT, form, form_names, visible
+from mudline.checks.pages import GROUP
 from mudline.cli.finding_lines import print_findings, print_summary
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
@@ -105,6 +107,10 @@ class Report:
             self._summary(found)
 
     def _in_form(self, name: str, found: list[Diagnostic]) -> Iterator[str]:
+        if may_declare(GROUP):  # findings that are remembered may be of plugins, which say where their pages are
+            from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
+
+            rules()
         return form(name, self.names, __version__)(found)
 
     def _print_aside(self, found: list[Diagnostic]) -> None:

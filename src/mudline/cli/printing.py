@@ -15,7 +15,6 @@ from rich.text import Text
 from mudline.basics.display import Cell, DisplayTable
 from mudline.basics.quantities import shown
 from mudline.checks.output import visible
-from mudline.cli.view import Line, Part
 
 WIDTH = 100
 """Columns of a table where no terminal sets a limit."""
@@ -25,6 +24,11 @@ _GAPS = (2, 1)
 """Blanks between columns, the second where a table is too wide for the first."""
 _NARROWEST = 12
 """Columns of text are not folded below this width."""
+
+Part = str | tuple[str, str]
+"""A piece of a line: a text, or a text and its style."""
+Line = Sequence[Part]
+"""The pieces of a line; a text by itself is none."""
 
 
 class _Console(Console):

@@ -10,7 +10,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Bar, Printer
+    from mudline.cli.printing import Bar, Line, Printer
 
 DELAY = 0.5
 """Seconds of a run before a bar is drawn."""
@@ -18,11 +18,6 @@ _PAUSE = 0.1
 """Seconds between two drawings."""
 
 T = TypeVar("T")
-
-Part = str | tuple[str, str]
-"""A piece of a line: a text, or a text and its style."""
-Line = Sequence[Part]
-"""The pieces of a line; a text by itself is none."""
 
 
 class View(NamedTuple):
