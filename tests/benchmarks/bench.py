@@ -49,13 +49,6 @@ class Work(NamedTuple):
     prepare: str = "pass"
 
 
-class Table(NamedTuple):
-    """Figures without a goal: cells as they are printed."""
-
-    head: list[str]
-    rows: list[list[str]]
-
-
 @dataclass
 class Results:
     """All that was found.
@@ -65,7 +58,6 @@ class Results:
 
     figures: dict[str, Figure] = field(default_factory=dict)
     series: dict[str, Series] = field(default_factory=dict)
-    tables: dict[str, Table] = field(default_factory=dict)
     runs: dict[str, str] = field(default_factory=dict)
     failed: list[str] = field(default_factory=list)
 
@@ -86,7 +78,6 @@ class Results:
                 key: {name: [(n, s) for n, s in points] for name, points in of.items()}
                 for key, of in kept["series"].items()
             },
-            {key: Table(*value) for key, value in kept["tables"].items()},
             kept["runs"],
             kept["failed"],
         )
@@ -141,8 +132,8 @@ class Bench:
         place = {"MUDLINE_CACHE_DIR": str(self.folder / cache)}
         return Job([sys.executable, "-m", "mudline", *words], codes=frozenset(codes), environment=place)
 
-    def grow(self, panel: str, sizes: Sequence[int], makers: Mapping[str, Maker], *, clock: bool = False) -> None:
-        """Measure jobs of growing sizes for the picture: least processor time of two runs, or time by the clock.
+    def grow(self, panel: str, sizes: Sequence[int], makers: Mapping[str, Maker]) -> None:
+        """Measure jobs of growing sizes for the picture: least processor time of two runs.
 
         What takes long is run once, and left out at the sizes where it would take minutes.
         """
@@ -157,7 +148,7 @@ class Bench:
                 for name in names:
                     last[name] = min(elapsed(taken[name])) if name in taken else _LONG
                 for name, costs in taken.items():
-                    series.setdefault(name, []).append((size, min(elapsed(costs) if clock else cpu(costs))))
+                    series.setdefault(name, []).append((size, min(cpu(costs))))
         self.results.series[panel] = series
 
 

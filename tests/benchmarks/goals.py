@@ -49,6 +49,7 @@ _SPELLING = "Spellings of numbers, 10^5 rows of 2 columns: np.loadtxt / text to 
 _START = "One deck"
 _DECKS = "Many decks"
 _EDITOR = "The language server"
+_CONTACT = "Contact with every law, compiled, on one thread"
 _COMMANDS = "Commands on a table of 10^6 rows"
 
 GOALS = (
@@ -71,25 +72,49 @@ GOALS = (
         for count in BAD_FIELDS
     ),
     *(Goal(f"spelling {key}", _SPELLING, what, "at least", before) for key, (what, before) in SPELLINGS.items()),
-    Goal("cold", _START, "cold `mudline lint` / `import numpy, pydantic, lark`", "at most", 2.0),
+    Goal("cold", _START, "cold `mudline lint` / `import numpy, pydantic, lark`", "at most", 2.1),
     Goal("again", _START, "second `mudline lint`, unchanged and clean / the same imports", "at most", 0.6),
+    Goal(
+        "remembered",
+        _START,
+        "second `mudline lint`, unchanged: with findings (`samples/broken.keyxm`) / clean",
+        "at most",
+        1.3,
+    ),
     Goal("version", _START, "`mudline --version` / `python -c pass`", "at most", 2.0),
     Goal("evaluate", _START, "`mudline evaluate` / cold `mudline lint`, both of the SCR sample", "at most", 1.0),
-    Goal("apart", _DECKS, "1000 decks that share nothing, by the clock: yamllint / mudline", "at least", 4.0, aim=6.0),
-    Goal("alike", _DECKS, "1000 decks that share blocks, by the clock: yamllint / mudline", "at least", 8.0, aim=12.0),
+    Goal("apart", _DECKS, "1000 decks that share nothing: yamllint / mudline", "at least", 1.8, aim=3.0),
+    Goal("alike", _DECKS, "1000 decks that share blocks: yamllint / mudline", "at least", 4.0, aim=6.0),
     Goal("each", _DECKS, "each further deck that shares nothing", "at most", 1.3, "ms"),
     Goal("linear", _DECKS, "each of 10 000 decks / each of 1000", "at most", 1.1),
     Goal("cached", _DECKS, "10 000 decks: first run / second run, from the cache", "at least", 15.0),
     Goal("flat", _DECKS, "peak memory: 10^5 decks / 10^4 decks", "at most", 1.25),
     Goal("format", _COMMANDS, "`mudline format`, 2 columns", "at most", 1.2, "s"),
     *(
-        Goal(f"{form} {step} {table}", _COMMANDS, f"{form.upper()}, {step} {what}", "at most", 2.0, "s")
-        for form in ("json", "yaml")
-        for step in ("write", "read")
+        Goal(f"{form} {step} {table}", _COMMANDS, f"{peer} / {form}, {step} {what}", "at least", limit)
+        for form, step, peer, limit in (
+            ("json", "write", "json.dumps of lists", 0.8),
+            ("json", "read", "json.loads to an array", 0.6),
+            ("yaml", "write", "yaml.dump in C", 5.0),
+            ("yaml", "read", "yaml.load in C", 10.0),
+            ("keyword", "write", "np.savetxt", 1.5),
+        )
         for table, what in (("curve", "2 columns"), ("nodes", "4 columns"))
     ),
     Goal("typing 240", _EDITOR, "a deck of 240 lines", "at most", 100.0, "ms"),
     Goal("typing faults", _EDITOR, "the same with five faults", "at most", 100.0, "ms"),
     Goal("typing broken", _EDITOR, "`samples/broken.keyxm`", "at most", 100.0, "ms"),
     Goal("typing 20000", _EDITOR, "a deck of 20,000 lines", "at most", 500.0, "ms"),
+    Goal("typing long", _EDITOR, "a deck of 1,000,000 lines", "at most", 2.0, "s"),
+    *(
+        Goal(
+            f"step {nodes}",
+            _CONTACT,
+            f"`step(out=...)` of {nodes} nodes / copy and root of 16 numbers a node",
+            "at most",
+            limit,
+        )
+        for nodes, limit in ((1000, 4.5), (100, 20.0))
+    ),
+    Goal("in the air", _CONTACT, "series of 1000 nodes, 90 % of them in the air / all on the seabed", "at most", 0.5),
 )

@@ -1,4 +1,4 @@
-"""The tables of docs/benchmarks.md: the goals beside what was measured, and everything else that a run found.
+"""The tables of docs/benchmarks.md: the goals beside what was measured, growth, the machine.
 
 The text of the page is written by hand.
 """
@@ -31,7 +31,6 @@ def page(results: Results, environments: Iterable[Environment]) -> str:
     found = {
         "goals": lambda: _goals(results),
         "growth": lambda: _growth(results),
-        "figures": lambda: _tables(results),
         "machine": lambda: _machine(results, environments),
     }
     return inserted(PAGE.read_text(encoding="utf-8"), found)
@@ -83,10 +82,6 @@ def exponent(points: Sequence[tuple[int, float]]) -> float | None:
 def _exponent_cell(points: Sequence[tuple[int, float]]) -> str:
     found = exponent(points)
     return "" if found is None else f"{found:.2f}"
-
-
-def _tables(results: Results) -> str:
-    return "\n".join(f"### {title}\n\n{table(head, rows)}" for title, (head, rows) in results.tables.items())
 
 
 def _machine(results: Results, environments: Iterable[Environment]) -> str:

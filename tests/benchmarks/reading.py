@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from statistics import median
-
-from tests.benchmarks.bench import Bench, Maker, Table, Work
+from tests.benchmarks.bench import Bench, Maker, Work
 from tests.benchmarks.goals import BAD_FIELDS, SPELLINGS
-from tests.benchmarks.runner import Cost, Job, cpu, figure, ratio
+from tests.benchmarks.runner import Job, cpu, figure, ratio
 
 ROWS = 10**6
 SPELLED = 10**5
@@ -62,7 +59,6 @@ def readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
 def _files(bench: Bench) -> None:
     """Whole files, and what memory they take."""
     count, figures = bench.size(ROWS), bench.results.figures
-    cells: dict[str, list[str]] = {}
     for columns, kinds in ((2, CURVE), (4, NODES)):
         jobs = {name: maker(count) for name, maker in readers(bench, kinds).items()}
         found = bench.costs(jobs, 5)
@@ -72,19 +68,6 @@ def _files(bench: Bench) -> None:
             figures[f"meshio {columns}"] = ratio(cpu(found["meshio"]), ours)
         if "opm" in found:
             figures[f"opm {columns}"] = ratio(cpu(found["opm"]), ours)
-        for name in readers(bench, NODES):
-            path = bench.table(kinds[name], count) if name in found else None
-            cells.setdefault(name, []).extend(_cells(found[name], path) if path else ["", "", ""])
-    head = ["program", *(f"{what}, {n} columns" for n in (2, 4) for what in ("s", "MB/s", "peak MB"))]
-    rows = [[name, *row] for name, row in cells.items()]
-    bench.results.tables[f"Files of {count:,} rows"] = Table(head, rows)
-
-
-def _cells(costs: list[Cost], path: Path) -> list[str]:
-    """Seconds, speed and memory of a reader."""
-    seconds = median(cpu(costs))
-    speed = path.stat().st_size / 1e6 / seconds
-    return [f"{seconds:.3g}", f"{speed:.0f}", f"{max(cost.memory for cost in costs):.0f}"]
 
 
 def _arrays(bench: Bench) -> None:
@@ -111,15 +94,11 @@ def _pair(bench: Bench, kind: str, count: int, spelling: str = "") -> dict[str, 
 
 def spellings(bench: Bench) -> None:
     """Measure text in memory to an array, in each spelling."""
-    count, rows = bench.size(SPELLED), []
-    for spelling, (what, _) in SPELLINGS.items():
+    count = bench.size(SPELLED)
+    for spelling in SPELLINGS:
         kind = f"spelling:{spelling}"
         found = bench.costs(_pair(bench, kind, count, spelling), 5)
         bench.results.figures[f"spelling {spelling}"] = ratio(cpu(found["np.loadtxt"]), cpu(found["mudline"]))
-        size = bench.table(kind, count).stat().st_size / 1e6
-        rows.append([what, *(f"{size / median(cpu(found[name])):.0f}" for name in ("mudline", "np.loadtxt"))])
-    head = ["spelling", "text to array, MB/s", "np.loadtxt, MB/s"]
-    bench.results.tables[f"Spellings, {count:,} rows of 2 columns"] = Table(head, rows)
 
 
 def _faults(bench: Bench) -> None:

@@ -15,7 +15,8 @@ import pytest
 
 import mudline
 from mudline.checks import registry
-from mudline.checks.registry import origin, rules
+from mudline.checks.pages import ORIGINS, origin
+from mudline.checks.registry import rules
 from mudline.language.rules import RULES, Rule
 from tests.checks.made_rules import NO_FRICTION
 from tests.cli.runner import Outcome, run
@@ -106,13 +107,14 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
         return run(name, *arguments)
 
     rules()
-    own, modules = dict(RULES), set(sys.modules)
-    monkeypatch.setattr(registry, "_ORIGINS", {})
+    own, origins, modules = dict(RULES), dict(ORIGINS), set(sys.modules)
     monkeypatch.syspath_prepend(str(site.folder))
     monkeypatch.chdir(site.folder)
     yield command
     RULES.clear()
     RULES.update(own)
+    ORIGINS.clear()
+    ORIGINS.update(origins)
     for name in sys.modules.keys() - modules:
         if name.startswith(("corp_", "acme_mudline")):
             del sys.modules[name]

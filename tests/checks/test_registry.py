@@ -9,8 +9,9 @@ from urllib.request import url2pathname
 
 import pytest
 
-from mudline.checks import registry
-from mudline.checks.registry import UnknownRule, page, rules, select
+from mudline.checks import pages
+from mudline.checks.pages import page
+from mudline.checks.registry import UnknownRule, rules, select
 from mudline.language.rules import Rule
 
 
@@ -79,7 +80,7 @@ def _fresh() -> Iterator[None]:
 
 
 def come_from(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(registry._ORIGINS, "ACM001", package)
+    monkeypatch.setitem(pages.ORIGINS, "ACM001", package)
 
 
 def test_a_code_of_mudline_has_a_page_among_the_installed_files() -> None:
@@ -90,7 +91,7 @@ def test_a_code_of_mudline_has_a_page_among_the_installed_files() -> None:
 
 
 def test_a_code_of_mudline_has_the_page_of_the_site_that_its_package_names(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(registry, "_documentation", {"mudline": "https://mudline.example/"}.get)
+    monkeypatch.setattr(pages, "_documentation", {"mudline": "https://mudline.example/"}.get)
     assert page("CRV001") == "https://mudline.example/rules/CRV001.html"
 
 

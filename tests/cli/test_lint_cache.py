@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,14 +18,16 @@ from mudline.basics.outside import project_of
 from mudline.checks.configuration import Configured, Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
+from mudline.checks.output import form_names
 from mudline.checks.registry import rules
 from mudline.cli import lint_run
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
-from mudline.tools.running import remembered
+from mudline.tools.running import executors, remembered
+from tests.checks.corpus import CORPUS
 from tests.cli.conftest import Place
-from tests.cli.runner import Json, run
+from tests.cli.runner import SAMPLES, Json, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 
 Linted = list[str]
@@ -40,6 +45,7 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
     monkeypatch.setenv(remembered.PLACE, str(folder / "cache"))
     monkeypatch.setattr(remembered, "_COARSE", 0.0)  # files of a test are as young as its runs
     monkeypatch.setattr(lint_run, "lint_one", lint)
+    monkeypatch.setattr(executors, "TRIED", math.inf)  # never in other processes, however slow this one is
     return names
 
 
@@ -110,6 +116,99 @@ def test_a_deck_is_linted_again_when_a_file_that_it_names_has_changed_or_gone(
 
 
 # -------------------------------------------------------------------------------------------- decks without findings
+
+
+LIBRARIES = """
+import sys
+from mudline.__main__ import main
+from mudline.tools.running import remembered
+
+remembered._COARSE = 0.0
+print(main(["lint", *sys.argv[1:]]), sorted({"lark", "numpy", "pydantic", "rich"} & sys.modules.keys()))
+"""
+
+
+def twice(folder: Path, *words: str) -> list[str]:
+    """What two runs print, each in a process of its own; the last line is the exit code and the libraries."""
+    command = [sys.executable, "-c", LIBRARIES, *words]
+    environment = {**os.environ, remembered.PLACE: str(folder / "cache")}
+    return [
+        subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout for _ in range(2)
+    ]
+
+
+def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Path, place: Place) -> None:
+    place("[tool.mudline]\nignore = ['STB']\n", "pyproject.toml")
+    place(name="static.keyxm")
+    first, second = twice(folder, place(), place(RESTART, "wave.keyxm"))
+    assert first == "No findings in 2 files.\nAll 9 keywords read.\n0 ['lark', 'numpy', 'pydantic']\n"
+    assert second == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
+
+
+# ----------------------------------------------------------------------------------------------- remembered findings
+
+
+@pytest.mark.parametrize("form", ["text", "json", "markdown"])
+def test_findings_are_printed_again_without_what_found_them(folder: Path, place: Place, form: str) -> None:
+    first, second = twice(folder, place(BAD_NUMBER), place(name="b.keyxm"), "--output-format", form)
+    assert "SYN002" in first
+    assert first.endswith("1 ['lark', 'numpy', 'pydantic']\n")
+    assert second == first.replace("1 ['lark', 'numpy', 'pydantic']\n", "1 []\n")
+
+
+def test_all_faulty_decks_are_the_same_from_the_cache_in_every_form(folder: Path, linted: Linted) -> None:
+    forms = [word for name in form_names() for word in ("--output-format", f"{name}={folder / name}")]
+    command: list[str | Path] = ["lint", SAMPLES, CORPUS, *forms]
+    first = run(*command)
+    files = {name: (folder / name).read_bytes() for name in form_names()}
+    assert len(linted) > 100
+    linted.clear()
+    assert run(*command) == first
+    assert {name: (folder / name).read_bytes() for name in form_names()} == files
+    assert not linted
+
+
+@pytest.mark.parametrize("words", [["-v"], ["-q"], ["--statistics"], ["--color", "always"]])
+def test_findings_are_the_same_from_the_cache_in_every_view(linted: Linted, words: list[str]) -> None:
+    command: list[str | Path] = ["lint", SAMPLES / "broken.keyxm", SAMPLES / "legacy-flowline.keyxm", *words]
+    first = run(*command)
+    assert len(linted) == 2
+    assert run(*command) == first
+    assert len(linted) == 2
+
+
+def test_a_run_on_remembered_findings_fails_as_the_first(place: Place, linted: Linted) -> None:
+    del linted
+    name = place(UNSORTED)  # an info
+    words = [[], ["--fail-on", "info"], ["--fail-on", "info", "--exit-zero"]]
+    assert [run("lint", name, *each).code for each in (*words, *words)] == [0, 1, 0, 0, 1, 0]
+    place("fail-on = 'info'\n", "mudline.toml")
+    assert [run("lint", name).code for _ in range(2)] == [1, 1]
+    assert run("lint", name, "missing.keyxm").code == 2
+
+
+def test_findings_of_large_decks_are_not_all_held(
+    place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ("lint", place(UNSORTED), place(BAD_NUMBER, "bad.keyxm"), place(UNSORTED, "c.keyxm"))
+    first = run(*words)
+    monkeypatch.setattr("mudline.cli.known_findings.MOST_HELD", 10)
+    assert run(*words) == first
+    assert len(linted) == 3
+
+
+def test_standard_input_asks_nothing(folder: Path, linted: Linted) -> None:
+    run("lint", "-", stdin=CLEAN.encode())
+    assert linted
+    assert not (folder / "cache").exists()
+
+
+def test_a_file_that_is_missing_is_reported_beside_known_ones(place: Place, linted: Linted) -> None:
+    words = ("lint", place(), "missing.keyxm")
+    first = run(*words)
+    assert first.code == 2
+    assert run(*words) == first
+    assert len(linted) == 1
 
 
 def test_findings_come_back_whole(linted: Linted) -> None:

@@ -10,7 +10,7 @@ from rich.cells import cell_len
 
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.checks.output import form, visible
-from mudline.cli.printing import excerpt
+from mudline.cli.finding_lines import excerpt
 from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
 from tests.cli.conftest import Place
@@ -192,7 +192,8 @@ def found(line: int = 2, column: int = 2, end_line: int = 2, end_column: int = 8
 
 
 def lines(diagnostic: Diagnostic, source: Source = TEXT) -> list[str]:
-    return [text.plain for text in excerpt(diagnostic, source, WIDTH)]
+    pieces = excerpt(diagnostic, source, WIDTH)
+    return ["".join(part if isinstance(part, str) else part[0] for part in line) for line in pieces]
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import shlex
 from contextlib import redirect_stderr, redirect_stdout
 
 from mudline.__main__ import main
-from mudline.checks.registry import page
+from mudline.checks.pages import page
 
 _INSTALLED = str(page("SYN001")).removesuffix("docs/rules/SYN001.md")
 """Where the pages of rules are installed, which the pages show as a place on another machine."""

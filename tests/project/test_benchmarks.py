@@ -8,7 +8,7 @@ import pytest
 
 import mudline
 from tests.benchmarks import decks
-from tests.benchmarks.bench import Bench, Results, Table, Work
+from tests.benchmarks.bench import Bench, Results, Work
 from tests.benchmarks.goals import GOALS
 from tests.benchmarks.page import write
 from tests.benchmarks.peers import PEERS, Environment
@@ -34,7 +34,6 @@ def test_a_page_says_what_is_met_missed_and_not_measured(tmp_path: Path) -> None
     results = Results(
         figures={"rows 2": Figure([2.0, 1.9, 2.5], 2.1), "memory 2": Figure([150.0], 150.0)},
         series={"rows": {"mudline": [(10**n, 1e-6 * 10**n) for n in range(2, 8)]}},
-        tables={"Some figures": Table(["what", "s"], [["this", "1.5"]])},
     )
     results.save(tmp_path / "results.json")
     write(Results.load(tmp_path / "results.json"), MISSING, tmp_path)

@@ -6,10 +6,12 @@ The folders on Python's path show it without their packages being read.
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from importlib.machinery import PathFinder
+from itertools import takewhile
 
 _METADATA = (".dist-info", ".egg-info")
 
@@ -45,3 +47,26 @@ def _entry_points(folder: str) -> bytes:
             return stream.read()
     except OSError:
         return b""
+
+
+def project_addresses(name: str) -> dict[str, str]:
+    """The addresses that an installed package names, by their labels in lower case; empty where it is not found.
+
+    Its metadata are read as far as the description: the library for all of them takes as long to import as to print
+    what is remembered.
+    """
+    wanted = _normal(name)
+    for folder in metadata_folders():
+        if _normal(os.path.basename(folder).partition("-")[0].removesuffix(".egg")) != wanted:  # noqa: PTH119 - hundreds
+            continue
+        for file in ("METADATA", "PKG-INFO"):
+            with suppress(OSError, UnicodeDecodeError), open(f"{folder}/{file}", encoding="utf-8") as stream:  # noqa: PTH123 - see above
+                lines = takewhile(str.strip, stream)
+                given = [line.partition(":")[2].partition(",") for line in lines if line.startswith("Project-URL:")]
+                return {label.strip().lower(): address.strip() for label, _, address in given}
+    return {}
+
+
+def _normal(name: str) -> str:
+    """The name of a package as those that mean the same one are compared."""
+    return re.sub("[-_.]+", "-", name).lower()

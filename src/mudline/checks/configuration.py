@@ -81,6 +81,11 @@ class Configuration:
         """A table, empty if it is not set."""
         return dict(self.values.get(key, {}))
 
+    @property
+    def fail_on(self) -> str:
+        """The least severity of findings for which a run fails."""
+        return str(self.values.get("fail-on", "warning"))
+
     def relative(self, path: str) -> str:
         """A path as seen from the folder of the configuration, with `/`."""
         return relative_path(path, os.curdir if self.path is None else self.path.parent)

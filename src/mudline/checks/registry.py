@@ -14,17 +14,16 @@ from types import ModuleType
 from typing import TYPE_CHECKING, cast
 
 from mudline.basics.installed import may_declare
-from mudline.basics.resources import modules_of, rule_file
+from mudline.basics.resources import modules_of
 from mudline.basics.spelling import nearest
 from mudline.checks.context import LintContext
+from mudline.checks.pages import GROUP, ORIGINS
 from mudline.language.codes import all_codes
 from mudline.language.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.language.rules import RULES, Check, Rule, add
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
-
-GROUP = "mudline.rules"
 
 RUN002 = Code("RUN002", "rule-failed", Severity.ERROR)
 
@@ -38,7 +37,6 @@ RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
 
 _FEW = 4
 """Rules that are listed where a word is a part of their names."""
-_ORIGINS: dict[str, str] = {}
 
 
 class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
@@ -134,7 +132,7 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
             faults.append(f"the plugin {entry.name} of {package} cannot be used: {fault}, or uninstall the package")
         for code in known.keys() - before.keys():
             known[code] = known[code]._replace(check=Guarded(cast("Check", known[code].check), code, package))
-            _ORIGINS[code] = package
+            ORIGINS[code] = package
     return tuple(faults)
 
 
@@ -234,42 +232,7 @@ def _said(error: BaseException) -> str:
     return f"{type(error).__name__}: {words}" if words else type(error).__name__
 
 
-# ---------------------------------------------------------------------------------------------------- pages of rules
-
-
-def origin(code: str) -> str:
-    """The package that a rule comes from, with its version: "mudline" for mudline's own."""
-    return _ORIGINS.get(code, "mudline")
-
-
-@cache
-def page(code: str) -> str | None:
-    """The address of the page of a code, None where it has none.
-
-    Mudline's own are on the site that its package names as its documentation, else among the installed files; of the
-    code of a plugin, it is the documentation of its package.
-    """
-    package = origin(code)
-    if package != "mudline":
-        return _documentation(package.rpartition(" ")[0])
-    if site := _documentation(package):
-        return f"{site.rstrip('/')}/rules/{code}.html"
-    file = rule_file(code)
-    return file.as_uri() if file.exists() else None
-
-
-@cache
-def _documentation(name: str) -> str | None:
-    """The address of the documentation of an installed package."""
-    from importlib.metadata import PackageNotFoundError, metadata  # noqa: PLC0415 - only plugins need it
-
-    try:
-        given = metadata(name).get_all("Project-URL") or []
-    except (PackageNotFoundError, ValueError):  # a plugin that is not an installed package has no name
-        return None
-    addresses = {label.strip().lower(): url.strip() for label, _, url in (text.partition(",") for text in given)}
-    found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
-    return found if found.startswith(("https://", "http://")) else None
+# --------------------------------------------------------------------------------------------------- what callers ask
 
 
 def code_fault(word: str) -> str:

@@ -47,7 +47,7 @@ def merged_settings(
         given.units,
         given.dialect or found.values.get("dialect", "mudline"),
         severities,
-        Severity(fail_on or found.values.get("fail-on", "warning")),
+        Severity(fail_on or found.fail_on),
         fixing,
         _unfixable(found),
         given.no_outside or bool(found.values.get(NO_OUTSIDE)),

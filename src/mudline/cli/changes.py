@@ -42,7 +42,7 @@ def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: boo
     lines = unified_diff(before, after, visible(name), created=created)
     if view.color == "always" or (view.color == "auto" and sys.stdout.isatty()):
         styles = ((line, next((_STYLES[mark] for mark in _STYLES if line.startswith(mark)), "")) for line in lines)
-        view.printer().lines((visible_lines(line.rstrip("\r\n")), style) for line, style in styles)
+        view.lines([(visible_lines(line.rstrip("\r\n")), style)] for line, style in styles)
     else:
         emit(lines)
 

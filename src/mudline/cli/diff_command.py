@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from itertools import accumulate, groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
@@ -31,6 +31,9 @@ from mudline.editing.comparison.model import Difference, Value, spans_of, text_o
 from mudline.editing.comparison.superseded import ComparedDeck, Comparison, Status
 from mudline.language.deck.loading import load_bytes
 
+if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
+    from mudline.cli.printing import Part
+
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
 
@@ -45,8 +48,6 @@ _OF_DECKS = {
     Status.REMOVED: ("-", "red", "only in the first folder"),
     Status.FAILED: ("!", "red", _NOT_COMPARED),
 }
-Line = str | tuple[str, str]
-"""A line, or a line and its style."""
 
 
 @options.command("diff")
@@ -128,7 +129,8 @@ def command(
         emit(markdown(first.file, second.file, summary, lines, view))
     else:
         names = ("", "") if view.quiet else (first.file, second.file)
-        view.printer().lines([*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])])
+        shown = [*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])]
+        view.lines([line] for line in shown)
     return FOUND if comparison.differences else DONE
 
 
@@ -207,7 +209,7 @@ def _print_folders(folders: _Folders, compared: Iterator[ComparedDeck], output_f
         *lines, summary = folder_lines(compared, folders.counts, view)
         emit(markdown(folders.before, folders.after, str(summary), lines, view))
     else:
-        view.printer().lines(folder_lines(compared, folders.counts, view))
+        view.lines([line] for line in folder_lines(compared, folders.counts, view))
     return folders.code
 
 
@@ -245,7 +247,7 @@ def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterat
 # ------------------------------------------------------------------------------------------------------ for people
 
 
-def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Line]:
+def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Part]:
     """The differences of two decks by group, under the names of the decks if they have any."""
     found = comparison.differences
     if found and before:
@@ -267,7 +269,7 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int], view: View) -> Iterator[Line]:
+def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int], view: View) -> Iterator[Part]:
     """The differences of the decks of two folders, then how many decks differ, of which `counts` are whole then."""
     for one in compared:
         if one.status is Status.CHANGED:
@@ -330,7 +332,7 @@ COMMENT_LETTERS = 60_000
 """Characters of all: a comment on GitHub holds 65,536. What is beyond is left out, unless all is asked for."""
 
 
-def markdown(before: str, after: str, summary: str, lines: Iterable[Line], view: View) -> list[str]:
+def markdown(before: str, after: str, summary: str, lines: Iterable[Part], view: View) -> list[str]:
     """What is compared, the result, and the lines of the text, which GitHub and GitLab colour.
 
     All text of a deck stands in code, where neither of them makes links, mentions or HTML of it.

@@ -1,40 +1,39 @@
-"""Findings that `mudline lint` remembers from earlier runs: decks without any are not read again by its rules."""
+"""Findings that `mudline lint` remembers from earlier runs: unchanged decks are not read again by its rules."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from mudline.basics.outside import project_of
 from mudline.checks.configuration import Configured, Given
 from mudline.cli.inputs import Input, Inputs
-from mudline.language.diagnostics import Coverage, Diagnostic
+from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory, of_working_folder
 
-if TYPE_CHECKING:
-    from pydantic import TypeAdapter
+MOST_HELD = 64_000_000
+"""Bytes of decks with findings that are held until these are printed."""
+
+Known = tuple[tuple[Diagnostic, ...], Coverage]
+"""The findings of a file, and how much of it was read."""
 
 
 @dataclass(eq=False)
 class KnownFindings:
-    """The memory, and what it knows of the decks of a run in which nothing is found.
-
-    `clean` says how much of each of these was read.
-    """
+    """The memory, and the contents of decks of a run with what it knows of them; those without findings are empty."""
 
     memory: Memory
     configured: Configured
     inputs: Inputs
-    clean: dict[Input, Coverage] = field(default_factory=dict)
+    known: dict[Input, tuple[bytes, Known]] = field(default_factory=dict)
     _settings: dict[Path | None, str] = field(default_factory=dict)
 
     @property
-    def all_clean(self) -> bool:
-        """Whether nothing is found in any deck of the run."""
-        return bool(self.clean) and len(self.clean) == len(self.inputs.files)
+    def whole(self) -> bool:
+        """Whether all decks of the run are known."""
+        return bool(self.known) and len(self.known) == len(self.inputs.files)
 
     def key(self, file: Input, data: bytes) -> str:
         """What the findings of a file are kept under; its name gives units and form, and is named in findings.
@@ -48,15 +47,11 @@ class KnownFindings:
         project = str(project_of(file.folder)) if file.folder else ""
         return self.memory.key(self._settings[place], project, file.name, data)
 
-    def get(self, key: str) -> tuple[tuple[Diagnostic, ...], Coverage] | None:
-        """The findings of a file, and how much of it was read.
-
-        None where they are not known or a file that they depend on has changed.
-        """
+    def get(self, key: str) -> Known | None:
+        """What is known of a file; None where nothing is, or where a file that it depends on has changed."""
         held = self.memory.get(key)
         try:
-            found = _reader().validate_python(held[1:]) if held[1:] else ()
-            return found, _coverage(*held[0])
+            return tuple(_finding(**each) for each in held[1:]), _coverage(*held[0])
         except (TypeError, ValueError, LookupError, RecursionError):  # None, or what this program does not write
             return None
 
@@ -66,7 +61,8 @@ class KnownFindings:
         self.memory.put(key, [covered, *map(asdict, found)], looked_at)
 
     def look(self) -> None:
-        """Find the decks in which nothing is found."""
+        """Find the decks that are known, as far as their contents may be held."""
+        held = 0
         for file in self.inputs.files:
             if file.path is None:
                 continue
@@ -74,9 +70,11 @@ class KnownFindings:
                 data = file.read()
             except OSError:  # reported when the others are read
                 continue
-            known = self.get(self.key(file, data))
-            if known and not known[0]:
-                self.clean[file] = known[1]
+            if known := self.get(self.key(file, data)):
+                self.known[file] = (data if known[0] else b"", known)
+                held += len(self.known[file][0])
+                if held > MOST_HELD:
+                    return
 
 
 def known_findings(inputs: Inputs, given: Given, configured: Configured) -> KnownFindings | None:
@@ -90,18 +88,42 @@ def known_findings(inputs: Inputs, given: Given, configured: Configured) -> Know
     return found
 
 
-def _coverage(total: int, read: int, partly: object, unread: object) -> Coverage:
+# ------------------------------------------------------------------------------- what JSON holds, which may be anything
+
+
+def _coverage(total: int, read: int, partly: dict[str, int], unread: dict[str, int]) -> Coverage:
     """How much of a file was read; raises TypeError for anything else."""
-    if not isinstance(partly, dict) or not isinstance(unread, dict):
-        raise TypeError
-    if not all(type(count) is int for count in (total, read, *partly.values(), *unread.values())):
-        raise TypeError
+    _demand(dict, partly, unread)
+    _demand(int, total, read, *partly.values(), *unread.values())
     return Coverage(total, read, partly, unread)
 
 
-@cache
-def _reader() -> TypeAdapter[tuple[Diagnostic, ...]]:
-    """Return what makes findings of what JSON holds of them, and raises ValueError for anything else."""
-    from pydantic import TypeAdapter  # noqa: PLC0415 - decks without findings do without it
+def _finding(*, severity: str, fix: list[Any] | None, following: list[dict[str, Any]], **others: Any) -> Diagnostic:  # noqa: ANN401 - as JSON
+    """A finding; raises TypeError, ValueError or LookupError for anything else."""
+    found = Diagnostic(
+        **others,
+        severity=Severity(severity),
+        fix=None if fix is None else _fix(*fix),
+        following=tuple(_finding(**each) for each in following),
+    )
+    _demand(str, found.file, found.code, found.slug, found.message)
+    _demand(int, found.line, found.column, found.end_line, found.end_column)
+    _demand(bool, found.blocks)
+    return found
 
-    return TypeAdapter(tuple[Diagnostic, ...])
+
+def _fix(applicability: str, message: str, edits: list[Any]) -> Fix:
+    made = []
+    for start, end, text in edits:
+        (line, column), (end_line, end_column) = start, end
+        _demand(str, text)
+        _demand(int, line, column, end_line, end_column)
+        made.append(Edit((line, column), (end_line, end_column), text))
+    _demand(str, applicability, message)
+    return Fix(applicability, message, tuple(made))
+
+
+def _demand(kind: type, *values: object) -> None:
+    """Raise TypeError for a value of another kind."""
+    if not all(type(value) is kind for value in values):
+        raise TypeError

@@ -122,13 +122,15 @@ def command(
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
-        if known is not None and known.all_clean and not (baseline or recording):
+        if known is not None and known.whole and not (baseline or recording):
             for file in inputs.files:
-                report.add(file.name, b"", [], 0, Severity.ERROR)
-                report.coverage.add(known.clean[file])
+                data, (found, coverage) = known.known[file]
+                limit = Severity(fail_on or configured.of(file.path).fail_on)
+                report.add(file.name, data, [*found], 0, limit)
+                report.coverage.add(coverage)
             report.finish()
-            return inputs.code
-        from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not read
+            return max(inputs.code, FOUND if report.failing and not exit_zero else DONE)
+        from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not linted
 
         settings = lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
         words = {"recording": recording, "diff": diff}

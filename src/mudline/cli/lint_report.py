@@ -11,9 +11,12 @@ from typing import NamedTuple
 
 import click
 
+from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
 from mudline.basics.version import __version__
 from mudline.checks.output import TEXT, form, form_names, visible
+from mudline.checks.pages import GROUP
+from mudline.cli.finding_lines import print_findings, print_summary
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
@@ -83,7 +86,7 @@ class Report:
         as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
         if as_they_come and found:
             shown = found if self.view.verbose else [*_with_style_folded(found)]
-            self.view.printer().findings(shown, Source.from_bytes(data, name), following=self.view.verbose)
+            print_findings(self.view, shown, Source.from_bytes(data, name))
         if self.view.verbose:
             notify(f"{name}: {counted(len(found), 'finding')}")
 
@@ -104,6 +107,10 @@ class Report:
             self._summary(found)
 
     def _in_form(self, name: str, found: list[Diagnostic]) -> Iterator[str]:
+        if may_declare(GROUP):  # findings that are remembered may be of plugins, which say where their pages are
+            from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
+
+            rules()
         return form(name, self.names, __version__)(found)
 
     def _print_aside(self, found: list[Diagnostic]) -> None:
@@ -117,7 +124,7 @@ class Report:
         if self.fixing and (self.fixed or found):
             click.echo(self._fixed_summary(found))
         elif found:
-            self.view.printer().summary(found, self.files)
+            print_summary(self.view, found, self.files)
         else:
             click.echo(f"No findings in {counted(self.files, 'file')}.")
         if hint := fixable(found):

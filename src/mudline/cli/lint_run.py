@@ -131,19 +131,20 @@ def _lint_all(
 ) -> Generator[tuple[Input, bytes, FileReport], None, None]:
     """Each file that can be read with its content and its report, in the order of the files.
 
-    Reports that are remembered are not made again, but for that of standard input. Files without a finding that are
-    known as such are not read either: their content is given as empty.
+    Reports that are remembered are not made again, but for that of standard input. Files that are known are not read
+    either, and the content of those without a finding is given as empty.
     """
     plugins = plugin_files() if known is not None else ()
 
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
         own = settings.of(file.path or file.name)
-        if known is not None and file in known.clean:
-            return _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[file])), None
+        if known is not None and file in known.known:
+            data, (found, coverage) = known.known[file]
+            return _Read(file, data, known=FileReport(file.name, found, coverage=coverage)), None
         data = file.read()
         key = "" if known is None or file.path is None else known.key(file, data)
-        if known is not None and key and (found := known.get(key)) is not None:
-            return _Read(file, data, key, FileReport(file.name, found[0], coverage=found[1])), None
+        if known is not None and key and (one := known.get(key)) is not None:
+            return _Read(file, data, key, FileReport(file.name, one[0], coverage=one[1])), None
         return _Read(file, data, key), (file.name, data, own, file.folder)
 
     progress = Progress(len(inputs.files), view, shown=False)

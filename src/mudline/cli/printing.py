@@ -1,12 +1,12 @@
-"""Texts for people, in colours: findings, tables, the bar of a long run. Only this module imports rich."""
+"""Texts for people, in colours: lines, tables, the bar of a long run; with rich."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import zip_longest
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 from rich.cells import cell_len
 from rich.console import Console
@@ -14,17 +14,11 @@ from rich.text import Text
 
 from mudline.basics.display import Cell, DisplayTable
 from mudline.basics.quantities import shown
-from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
-from mudline.language.diagnostics import Diagnostic, Severity, Span
-from mudline.language.syntax.source import Source
 
 WIDTH = 100
 """Columns of a table where no terminal sets a limit."""
-EXCERPT_WIDTH = 120
-"""Columns of a source line that are shown where no terminal sets a limit."""
 
-_STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold blue"}
 _WIDE = 10_000
 _GAPS = (2, 1)
 """Blanks between columns, the second where a table is too wide for the first."""
@@ -33,6 +27,8 @@ _NARROWEST = 12
 
 Part = str | tuple[str, str]
 """A piece of a line: a text, or a text and its style."""
+Line = Sequence[Part]
+"""The pieces of a line; a text by itself is none."""
 
 
 class _Console(Console):
@@ -43,8 +39,6 @@ class _Console(Console):
 
 class Printer:
     """Prints on standard output. Text of a deck stays plain text, and only tables are folded where no terminal is."""
-
-    severity_styles: ClassVar[Mapping[Severity, str]] = _STYLES
 
     def __init__(self, color: str) -> None:
         """`color` is "auto", "always" or "never"."""
@@ -74,35 +68,10 @@ class Printer:
         """Print a line; on a terminal a long one is folded between words."""
         self._console.print(Text.assemble(*parts), soft_wrap=not fold)
 
-    def lines(self, texts: Iterable[Part | Text]) -> None:
-        """Print lines; where there is no terminal and no colour, in the quick way."""
-        lines = (text if isinstance(text, Text) else Text.assemble(text) for text in texts)
-        if self._console.is_terminal or self._console.color_system is not None:
-            for line in lines:
-                self._console.print(line, soft_wrap=False)
-        else:
-            self._console.file.writelines(f"{line.plain}\n" for line in lines)
-
-    def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
-        """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""
-        self.lines(self._findings(found, source, following))
-
-    def _findings(self, found: list[Diagnostic], source: Source, following: bool) -> Iterator[Text]:
-        width = min(self._console.width, EXCERPT_WIDTH)
-        for one in found:
-            yield _headline(one, self.encoding)
-            yield from excerpt(one, source, width, self.encoding)
-            for each in one.following if following else ():
-                yield Text(_FOLLOWS).append_text(_headline(each, self.encoding))
-
-    def summary(self, found: list[Diagnostic], files: int) -> None:
-        """Print how many findings of each severity there are in so many files."""
-        parts: list[Part] = []
-        for severity, style in _STYLES.items():
-            if count := sum(one.severity is severity for one in found):
-                word = f"{count} {severity.value}" if severity is Severity.INFO else counted(count, severity.value)
-                parts += [", ", (word, style)]
-        self._console.print(Text.assemble("Found ", *parts[1:], f" in {counted(files, 'file')}."))
+    def lines(self, lines: Iterable[Line]) -> None:
+        """Print lines; on a terminal long ones are folded between words."""
+        for line in lines:
+            self._console.print(Text.assemble(*line), soft_wrap=False)
 
     def table(self, table: DisplayTable) -> None:
         """Print cells under their headings, with a blank line behind.
@@ -227,68 +196,3 @@ class Bar:
     def erase(self) -> None:
         """Leave an empty line where the bar was."""
         self._progress.stop()
-
-
-# ------------------------------------------------------------------------------------------------------------- findings
-
-_CUT = "..."
-_NARROWEST_LINE = 20
-_FOLLOWS = "    follows: "
-
-
-def _headline(found: Diagnostic, encoding: str) -> Text:
-    style = _STYLES[found.severity]
-    return Text.assemble(
-        (visible(f"{found.file}:{found.line}:{found.column}", encoding), "bold"),
-        ": ",
-        (found.severity.value, style),
-        " ",
-        (found.code, style),
-        f" {visible(found.message, encoding)} ",
-        (f"[{found.slug}]", "dim"),
-    )
-
-
-def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Text]:
-    """The source line with a mark under the fault; a long line is cut around it."""
-    line = _line_span(source, found.line)
-    number = str(found.line)
-    width = max(_NARROWEST_LINE, width - len(f" {number} | "))
-    start = min(line.start + found.column - 1, line.end)
-    end = min(line.start + found.end_column - 1, line.end) if found.end_line == found.line else line.end
-    piece = _window(source.text, line, start, width, encoding)
-    if not source.readable or not source.text[slice(*piece)].strip():
-        yield Text("")
-        return
-
-    def shown(first: int, last: int) -> str:
-        return visible(source.text[first:last], encoding)
-
-    left, right = _CUT if piece.start > line.start else "", _CUT if piece.end < line.end else ""
-    before = cell_len(left + shown(piece.start, start))
-    marks = "^" * max(1, cell_len(shown(start, min(end, piece.end))))
-    yield Text.assemble((f" {number} | ", "cyan"), left + shown(*piece) + right)
-    yield Text.assemble((f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, _STYLES[found.severity]))
-
-
-def _line_span(source: Source, number: int) -> Span:
-    """A line without its end, as offsets: a line may be the whole of a large file, and is not copied."""
-    starts, text = source.line_starts, source.text
-    if number > len(starts):
-        return Span(len(text), len(text))
-    start, end = starts[number - 1], starts[number] if number < len(starts) else len(text)
-    while end > start and text[end - 1] in "\r\n":
-        end -= 1
-    return Span(start, end)
-
-
-def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Span:
-    """The part of a line that fits into `width` columns and shows what stands before and behind `start`."""
-    if line.end - line.start <= width and cell_len(visible(text[slice(*line)], encoding)) <= width:
-        return line
-    first = max(line.start, start - width // 3)
-    left = width - 2 * len(_CUT)
-    last = first
-    while last < line.end and (left := left - cell_len(visible(text[last], encoding))) >= 0:
-        last += 1
-    return Span(first, max(last, min(start + 1, line.end)))

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from textwrap import fill, indent
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from mudline.basics.display import DisplayTable
 from mudline.basics.display import text as text_column
 from mudline.checks.output import visible_lines
-from mudline.checks.registry import UnknownRule, origin, rules, select
+from mudline.checks.pages import origin
+from mudline.checks.registry import UnknownRule, rules, select
 from mudline.cli import DONE, options
+from mudline.cli.finding_lines import STYLES
 from mudline.cli.streams import emit_json
 from mudline.cli.view import View
 from mudline.language.rules import Rule
-
-if TYPE_CHECKING:
-    from mudline.cli.printing import Printer
 
 _PAGE = 100
 """Columns of the page of a rule."""
@@ -58,20 +57,19 @@ def _object(rule: Rule) -> dict[str, Any]:
 
 def _print_rules(rules: Sequence[Rule], view: View) -> None:
     """Print a row for each rule: code, severity, name, what it finds."""
-    printer = view.printer()
     columns = (
         text_column("code", lambda rule: rule.code.code),
-        text_column("severity", lambda rule: _severity(rule, printer)),
+        text_column("severity", _severity),
         text_column("name", lambda rule: rule.code.slug),
         text_column("finds", lambda rule: rule.page.title + _package(rule, " [{}]")),
     )
-    printer.table(DisplayTable(f"{len(rules)} rules", columns, rules))
+    view.printer().table(DisplayTable(f"{len(rules)} rules", columns, rules))
 
 
-def _severity(rule: Rule, printer: Printer) -> tuple[str, str]:
+def _severity(rule: Rule) -> tuple[str, str]:
     """The severity of a rule, and its style."""
     severity = rule.code.severity
-    return severity.value, printer.severity_styles[severity]
+    return severity.value, STYLES[severity]
 
 
 def _package(rule: Rule, words: str) -> str:
@@ -84,7 +82,7 @@ def _print_rule(rule: Rule, view: View) -> None:
     """Print what a rule finds and why, with a bad and a good deck."""
     printer = view.printer()
     width = min(printer.width, _PAGE)
-    printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule, printer), ")", fold=False)
+    printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule), ")", fold=False)
     line, column = rule.page.place
     bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.page.bad, rule.page.good))
     for paragraph in (

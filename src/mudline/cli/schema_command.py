@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from mudline.checks.configuration import ENCODING, EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
+from mudline.checks.pages import origin
 from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN
 from mudline.cli.streams import emit_json
@@ -90,7 +91,7 @@ def _code() -> dict[str, Any]:
 
 def _rule() -> dict[str, Any]:
     """What names rules: an editor offers the families, codes and slugs of mudline, and takes those of plugins too."""
-    from mudline.checks.registry import origin, rules  # noqa: PLC0415 - it imports all rules
+    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
 
     own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]
     families = dict.fromkeys(code.code.rstrip("0123456789") for code in own)

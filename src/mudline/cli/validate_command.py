@@ -19,6 +19,7 @@ from mudline.checks.configuration import refuses_outside
 from mudline.checks.output.json import as_object
 from mudline.checks.verdict import Verdict, judge_content
 from mudline.cli import DONE, FOUND, options
+from mudline.cli.finding_lines import print_findings
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit
@@ -180,7 +181,7 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
     for verdict, found, data in judged:
         verdicts.append(verdict)
         if found and not view.quiet:
-            view.printer().findings(found, Source.from_bytes(data, verdict.file), following=view.verbose)
+            print_findings(view, found, Source.from_bytes(data, verdict.file))
     if verdicts:
         printer = view.printer()
         printer.table(DisplayTable("Decks", _COLUMNS, verdicts))

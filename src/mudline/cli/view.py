@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Bar, Printer
+    from mudline.cli.printing import Bar, Line, Printer
 
 DELAY = 0.5
 """Seconds of a run before a bar is drawn."""
@@ -32,6 +32,19 @@ class View(NamedTuple):
         from mudline.cli.printing import Printer  # noqa: PLC0415 - output for programs needs no rich
 
         return Printer(self.color)
+
+    def lines(self, lines: Iterable[Line]) -> None:
+        """Print lines for people; rich does it where there is a terminal or colour, as it takes half of a short run."""
+        if self.color == "always" or sys.stdout.isatty():
+            self.printer().lines(lines)
+        else:
+            texts = ((part if isinstance(part, str) else part[0] for part in line) for line in lines)
+            sys.stdout.writelines(f"{''.join(pieces)}\n" for pieces in texts)
+
+    @property
+    def width(self) -> int | None:
+        """The columns of the terminal that is printed on; None where it is none."""
+        return self.printer().width if sys.stdout.isatty() else None
 
     def bar(self, total: int) -> Bar:
         """A bar of so many steps."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mudline.checks.output import LintRun
-from mudline.checks.registry import page
+from mudline.checks.pages import page
 from mudline.language.diagnostics import Diagnostic, Fix
 
 SUMMARY = "an [array of objects](json.md#findings)"

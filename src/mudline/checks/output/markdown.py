@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from mudline.basics.short_repr import counted
 from mudline.checks.output import LintRun, visible
-from mudline.checks.registry import page
+from mudline.checks.pages import page
 from mudline.language.diagnostics import Diagnostic, Severity
 
 SUMMARY = (

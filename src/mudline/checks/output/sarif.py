@@ -10,7 +10,8 @@ from typing import Any
 from urllib.parse import quote
 
 from mudline.checks.output import Fingerprints, LintRun, visible
-from mudline.checks.registry import page, rules
+from mudline.checks.pages import page
+from mudline.checks.registry import rules
 from mudline.language.diagnostics import Diagnostic, Edit, Severity
 from mudline.language.rules import Rule
 

@@ -162,6 +162,7 @@ class ContactModel:
         expect(together, "together", (bool, np.bool_), "True or False")
         series = _as_series(positions, self._nodes)
         mask = self._everywhere if present is None else _as_mask(present, self._nodes)
+        partly = None if mask.all() else mask
         motion = as_velocities(velocities, series.shape)
         clock = as_times(times, len(series))
         if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
@@ -173,7 +174,7 @@ class ContactModel:
         for start in range(0, len(series), rows):
             stop = min(start + rows, len(series))
             with np.errstate(all="ignore"):  # everything that can overflow is checked
-                points = _read_steps(series, range(start, stop), self.input.node_ids, mask)
+                points = _read_steps(series, range(start, stop), self.input.node_ids, partly)
                 when = None if clock is None else clock[start:stop]
                 part = self._blank(points, mask, when) if whole is None else whole.steps(start, stop)
                 rates = None if motion is None else np.asarray(motion[start:stop], np.float64)
@@ -225,7 +226,7 @@ class ContactModel:
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
-            given = _read_steps(series, range(1), self.input.node_ids, self._everywhere)
+            given = _read_steps(series, range(1), self.input.node_ids, None)
             if out is None:
                 part, spare = self._blank(np.empty(given.shape), self._everywhere, None), None
             else:
@@ -385,13 +386,13 @@ def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArra
 
     `before` (...) are those of the step before the first.
     """
-    rates = np.empty(places.shape)
     first = 1
     if before is not None and spans is not None and len(spans) == len(places):
+        if len(places) == 1:  # as time-domain programs ask for at each of their steps
+            return (places - before) / spans
         first = 0
-        np.subtract(places[0], before, out=rates[0])
-    else:
-        rates[0] = 0.0
+    rates = np.empty(places.shape)
+    rates[0] = 0.0 if before is None or first else places[0] - before
     if len(places) > 1:
         np.subtract(places[1:], places[:-1], out=rates[1:])
     if spans is None:
@@ -428,17 +429,20 @@ def _as_mask(present: ArrayLike, nodes: int) -> BoolArray:
     return mask
 
 
-def _read_steps(series: RealArray | StepReader, steps: range, node_ids: IdArray, present: BoolArray) -> FloatArray:
-    """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for the nodes that are not present.
+def _read_steps(
+    series: RealArray | StepReader, steps: range, node_ids: IdArray, present: BoolArray | None
+) -> FloatArray:
+    """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for nodes that are not present, if any.
 
     Raises:
         PositionError: a position of a node that is present is NaN, infinite or too large for a float64.
     """
     points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
     # a finite sum has finite terms only, and is sooner had than a look at each of them
-    if not math.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
+    able = True if present is None else present
+    if not math.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & able)).size:
         row, column = bad[0].tolist()
         step, node = steps.start + row, int(node_ids[column])
         place = tuple(points[row, column].tolist())
         raise PositionError(f"node {node} at step {step}: its position {place} is not finite", node, step)
-    return points if present.all() else np.where(present[:, np.newaxis], points, np.nan)
+    return points if present is None else np.where(present[:, np.newaxis], points, np.nan)

@@ -78,8 +78,8 @@ class ContactState:
 
     def remember(self, before: ContactState, names: tuple[str, ...] = REMEMBERED) -> None:
         """Write what the state before this one remembers into the arrays of this one."""
-        for name, part in self._parts():
-            if name in names and self is not before:
+        for name in names if self is not before else ():
+            if (part := getattr(self, name)) is not None:
                 for new, old in zip(arrays_of(part), arrays_of(getattr(before, name)), strict=True):
                     new[...] = old
 

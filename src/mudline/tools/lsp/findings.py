@@ -10,7 +10,7 @@ from lsprotocol import types
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.checks.engine import Fixing
 from mudline.checks.fixing import fix_bytes
-from mudline.checks.registry import page
+from mudline.checks.pages import page
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.diagnostics import Diagnostic, Fix, Severity, Span
 from mudline.tools.lsp.decks import Analysis

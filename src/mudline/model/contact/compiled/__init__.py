@@ -68,6 +68,7 @@ class Features(NamedTuple):
     tables: bool
     breakout: bool
     embeds: bool
+    velocities: bool
 
 
 def features_of(tables: Tables, *, flat: bool) -> Features:
@@ -88,6 +89,7 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
         turned=friction is not None and bool(friction.turned.size),
         tables=trench is not None and bool((trench.table >= 0).any()),
         embeds=tables.embeds,
+        velocities=tables.velocities,
     )
 
 

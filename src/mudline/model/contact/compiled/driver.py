@@ -8,7 +8,6 @@ for the sums at nodes, which come after the elements.
 from __future__ import annotations
 
 import itertools
-import math
 import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -52,6 +51,7 @@ _RANGE, _RANGE_OF_ONE = 256, 8192
 """Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache; and of a
 single step, of which nothing is read again."""
 _STEPS = 64
+_NO_SPEED = np.empty((0, 0))
 _WORTH_THREADS = 60_000
 """Nodes times steps of a batch from which on several threads are worth their start."""
 
@@ -159,15 +159,14 @@ class CompiledDriver:
         Return False where something is not finite: the numpy driver has to say what.
         """
         speed = batch.speed
-        if speed is not None and not (math.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
-            return False
         after.remember(state, IN_PLACE)
         together = len(self._together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS
+        points, arrays = self._arrays(part, batch.points)
         job = (
-            *self._fixed, read_only(batch.points), np.empty((0, 0)) if speed is None else speed,
+            *self._fixed, points, _NO_SPEED if speed is None else speed,
             self._laid_tables(batch.laid, complete=batch.complete),
-            self._work(len(batch.points), 2**64 if together else self._held),
-            self._arrays(part), self._remembered(state), self._remembered(after),
+            self._work(len(points), 2**64 if together else self._held),
+            arrays, self._remembered(state), self._remembered(after),
         )  # fmt: skip
         try:
             return not self._run(job, together=together)
@@ -195,9 +194,10 @@ class CompiledDriver:
         slides, lateral = self._has.slides, self._has.lateral
         return np.empty(shape if slides else none), np.empty(shape if lateral else none), np.uint64(held - 1)
 
-    def _arrays(self, part: ContactResult) -> tuple[Any, ...]:
-        """What the loops read and write of a batch, made once for each."""
-        if (found := self._made.get(part)) is not None:
+    def _arrays(self, part: ContactResult, points: FloatArray) -> tuple[Any, ...]:
+        """Positions, and what the loops read and write of a batch, as the loops take it; made once for each."""
+        found = self._made.get(part)
+        if found is not None and found[0].base is points:
             return found
         none = np.zeros((0, 0), np.int8)
         of_elements = (
@@ -213,7 +213,7 @@ class CompiledDriver:
             np.zeros((0, 0, 2), np.int8) if part.friction_state is None else part.friction_state,
         )
         normals = read_only(part.normal) if self._normal is None else self._normal
-        found = self._made[part] = part.gap, normals, of_elements, of_nodes
+        found = self._made[part] = read_only(points), (part.gap, normals, of_elements, of_nodes)
         return found
 
     def _remembered(self, state: ContactState) -> tuple[Any, ...]:

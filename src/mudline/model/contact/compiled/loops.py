@@ -248,7 +248,7 @@ def _softened(has: Features) -> Callable[..., Any]:
 def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
     friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
-    turns = has.turns
+    turns, moves = has.turns, has.velocities
     flat, elliptic, trench, breakout, damps = has.flat, has.elliptic, has.trench, has.breakout, has.nodal_damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
@@ -287,6 +287,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         total += f
                 if damps:
                     total += damping_force(0.0 - gap[step, i], speed[step, i], damping[i])
+                if moves:
+                    wrong += not (math.isfinite(speed[step, i]) or math.isnan(gap[step, i]))
                 totals[step, i] = total
                 n = point_of(normals, 0, 0)
                 if normals.shape[1] > 1:

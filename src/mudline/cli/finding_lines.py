@@ -1,0 +1,116 @@
+"""Findings as people read them: the place and the message, then the source line with a mark under the fault."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from mudline.basics.short_repr import counted
+from mudline.checks.output import visible
+from mudline.cli.view import View
+from mudline.language.diagnostics import Diagnostic, Severity, Span
+from mudline.language.syntax.source import Source
+
+if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
+    from mudline.cli.printing import Line, Part
+
+EXCERPT_WIDTH = 120
+"""Columns of a source line that are shown where no terminal sets a limit."""
+
+STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold blue"}
+
+_CUT = "..."
+_NARROWEST_LINE = 20
+_FOLLOWS = "    follows: "
+
+
+def print_findings(view: View, found: Iterable[Diagnostic], source: Source) -> None:
+    """Print the findings of one file, each with its source line; with `-v` also those that follow from it."""
+    view.lines(_lines(found, source, view))
+
+
+def _lines(found: Iterable[Diagnostic], source: Source, view: View) -> Iterator[Line]:
+    width, encoding = min(view.width or EXCERPT_WIDTH, EXCERPT_WIDTH), (sys.stdout.encoding or "utf-8").lower()
+    for one in found:
+        yield _headline(one, encoding)
+        yield from excerpt(one, source, width, encoding)
+        for each in one.following if view.verbose else ():
+            yield [_FOLLOWS, *_headline(each, encoding)]
+
+
+def print_summary(view: View, found: Sequence[Diagnostic], files: int) -> None:
+    """Print how many findings of each severity there are in so many files."""
+    parts: list[Part] = []
+    for severity, style in STYLES.items():
+        if count := sum(one.severity is severity for one in found):
+            word = f"{count} {severity.value}" if severity is Severity.INFO else counted(count, severity.value)
+            parts += [", ", (word, style)]
+    view.lines([["Found ", *parts[1:], f" in {counted(files, 'file')}."]])
+
+
+def _headline(found: Diagnostic, encoding: str) -> list[Part]:
+    style = STYLES[found.severity]
+    return [
+        (visible(f"{found.file}:{found.line}:{found.column}", encoding), "bold"),
+        ": ",
+        (found.severity.value, style),
+        " ",
+        (found.code, style),
+        f" {visible(found.message, encoding)} ",
+        (f"[{found.slug}]", "dim"),
+    ]
+
+
+def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Line]:
+    """The source line with a mark under the fault; a long line is cut around it."""
+    line = _line_span(source, found.line)
+    number = str(found.line)
+    width = max(_NARROWEST_LINE, width - len(f" {number} | "))
+    start = min(line.start + found.column - 1, line.end)
+    end = min(line.start + found.end_column - 1, line.end) if found.end_line == found.line else line.end
+    piece = _window(source.text, line, start, width, encoding)
+    if not source.readable or not source.text[slice(*piece)].strip():
+        yield []
+        return
+
+    def shown(first: int, last: int) -> str:
+        return visible(source.text[first:last], encoding)
+
+    left, right = _CUT if piece.start > line.start else "", _CUT if piece.end < line.end else ""
+    before = _cells(left + shown(piece.start, start))
+    marks = "^" * max(1, _cells(shown(start, min(end, piece.end))))
+    yield [(f" {number} | ", "cyan"), left + shown(*piece) + right]
+    yield [(f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, STYLES[found.severity])]
+
+
+def _line_span(source: Source, number: int) -> Span:
+    """A line without its end, as offsets: a line may be the whole of a large file, and is not copied."""
+    starts, text = source.line_starts, source.text
+    if number > len(starts):
+        return Span(len(text), len(text))
+    start, end = starts[number - 1], starts[number] if number < len(starts) else len(text)
+    while end > start and text[end - 1] in "\r\n":
+        end -= 1
+    return Span(start, end)
+
+
+def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Span:
+    """The part of a line that fits into `width` columns and shows what stands before and behind `start`."""
+    if line.end - line.start <= width and _cells(visible(text[slice(*line)], encoding)) <= width:
+        return line
+    first = max(line.start, start - width // 3)
+    left = width - 2 * len(_CUT)
+    last = first
+    while last < line.end and (left := left - _cells(visible(text[last], encoding))) >= 0:
+        last += 1
+    return Span(first, max(last, min(start + 1, line.end)))
+
+
+def _cells(text: str) -> int:
+    """The columns that a text without control characters takes."""
+    if text.isascii():
+        return len(text)
+    from rich.cells import cell_len  # noqa: PLC0415 - most decks are ASCII
+
+    return cell_len(text)
