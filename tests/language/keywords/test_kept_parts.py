@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import OpenBlock, can_keep, is_read, kept_lines, openers
 from mudline.language.keywords.model import Block, Record, record_schema
@@ -46,7 +47,7 @@ def only(text: str) -> Block:
 @pytest.mark.parametrize("form", ["json", "yaml", "keyword"])
 def test_kept_lines_stay_in_their_place_in_every_form(text: str, form: str) -> None:
     deck = deck_of(text)
-    assert deck.problems == []
+    assert [problem for problem in deck.problems if problem.weight is not Severity.INFO] == []
     again = load_bytes(dump(deck, form).encode(), "deck.keyxm" if form == "keyword" else f"deck.{form}")
     assert again.sections == deck.sections
     assert dump(again, "keyword") == text
@@ -75,7 +76,33 @@ def test_a_part_that_is_not_public_is_kept_and_the_others_are_read() -> None:
 
 def test_the_parts_that_are_read_are_checked_beside_others() -> None:
     lines = "$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n 1, two\n TYPE=CONSTANT\n 1, two\n TYPE=OTHER\n x\n"
-    assert [fault.split(":")[0] for fault in faults(lines)] == ["6"]
+    assert [fault.split(":")[0] for fault in faults(lines)] == ["6", "7"]
+
+
+UNKNOWN = [
+    ("LOAD CASE", "*BOUNDARY\n TYPE=OTHER\n 1, 1\n garbage here\n", "4:7", "TYPE="),
+    ("LOAD CASE", "*LOAD\n TYPE=OTHER\n hullo there\n", "4:7", "TYPE="),
+    ("LOAD CASE", "*WAVE-JONSWAP\n FREQUENCY=AREA, SPEC=OTHER\n garbage here\n", "4:23", "SPEC="),
+    ("LOAD CASE", "*ANALYSIS TYPE\n TYPE=OTHER\n", "4:7", "TYPE="),
+    ("MODEL", "*HYDRODYNAMIC SETS\n SET=ALL, TYPE=OTHER\n garbage here\n", "4:16", "TYPE="),
+    ("MODEL", "*P-Y\n TYPE=OTHER\n garbage here\n", "4:7", "TYPE="),
+]
+
+
+@pytest.mark.parametrize(
+    ("section", "lines", "place", "key"), UNKNOWN, ids=[lines.split("\n")[0] for _, lines, *_ in UNKNOWN]
+)
+def test_a_word_that_is_not_known_is_told_where_the_lines_behind_it_are_not_read(
+    section: str, lines: str, place: str, key: str
+) -> None:
+    message = f"'OTHER' is not known for {key}, and what it stands for is passed through unchanged"
+    text = f"C a deck\n${section}\n{lines}"
+    assert faults(text) == [f"{place} SYN005 {message}"]
+    assert [problem.weight for problem in deck_of(text).problems] == [Severity.INFO]
+
+
+def test_a_word_whose_lines_are_known_not_to_be_public_is_not_told() -> None:
+    assert faults("$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n 12, Semi\n") == []
 
 
 def test_a_type_that_is_nearly_a_known_one_is_told() -> None:

@@ -167,11 +167,15 @@ def _may_be(problem: Problem, text: str, content: Content) -> bool:
 
 
 def doubtful(problems: Sequence[Problem]) -> list[Problem]:
-    """The words that may be misspelt in lines which are kept, as warnings."""
-    near = [problem for problem in problems if problem.code in (SYN004, SYN005) and problem.repair]
+    """The words that are not known in lines which are kept: as warnings those that may be misspelt, others as infos."""
     return [
         problem
         if problem.weight is not Severity.ERROR
-        else replace(problem, message=problem.message + _KEPT, severity=Severity.WARNING)
-        for problem in near
+        else replace(
+            problem,
+            message=problem.message + _KEPT,
+            severity=Severity.WARNING if problem.repair else Severity.INFO,
+        )
+        for problem in problems
+        if problem.code is SYN005 or (problem.code is SYN004 and problem.repair)
     ]
