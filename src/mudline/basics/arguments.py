@@ -29,6 +29,12 @@ def expect(value: object, name: str, kind: type | tuple[type, ...], expected: st
         raise ArgumentKindError(f"{name} must be {expected}, not {type(value).__name__}")
 
 
+def expect_fields(holder: object, kinds: dict[str, tuple[type | tuple[type, ...], str]]) -> None:
+    """Raise ArgumentKindError for a field that is not of its kind, given with words for it by the field's name."""
+    for name, (kind, expected) in kinds.items():
+        expect(getattr(holder, name), name, kind, expected)
+
+
 def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: str) -> None:
     """Raise ValueError for an argument that is not one of the allowed words, which `expected` lists."""
     if not isinstance(value, str) or value not in allowed:

@@ -53,7 +53,7 @@ FAULTS = [
     ("time_stepping|*TIME STEPPING\n TYPE=NEWMARK\n", "3:7 SYN005"),
     ("hydrodynamic_sets|*HYDRODYNAMIC SETS\n SET=ALL, TYPE=CONSTANT\n 1.0\n blah blah\n", "5:2 SYN001"),
     ("hydrodynamic_sets|*HYDRODYNAMIC SETS\n blah\n SET=A, TYPE=REYNOLDS\n 1E4, 1.2\n", "3:2 SYN001"),
-    ("hydrodynamic_sets|*HYDRODYNAMIC SETS\n OPTION=REYNOLDS\n SET=ALL, TYPE=CONSTANT\n 1.2\n", ""),
+    ("hydrodynamic_sets|*HYDRODYNAMIC SETS\n OPTION=REYNOLDS\n SET=ALL, TYPE=REYNOLDS\n 1E4, 1.2\n 1E6, 0.7\n", ""),
     ("drag_chain|*DRAG CHAIN\n GEN=12, 5\n 12, 20, 140\n", "3:6 REF010"),
     ("drag_chain|*DRAG CHAIN\n 12, 20, 140\n GEN=12, 5\n", ""),
     ("current|*CURRENT\n TYPE=SUBROUTINE\n", "3:2 SYN001"),

@@ -42,7 +42,7 @@ def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     """The legacy surfaces of a deck, in the order of the file."""
-    return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
+    return deck.blocks_with("seabed_type")
 
 
 def misspelt(deck: Deck) -> Iterator[Problem]:

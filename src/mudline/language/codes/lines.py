@@ -51,7 +51,7 @@ SYN005 = Code(
 
     A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
     words and suggests the nearest. Upper or lower case does not matter. Some settings take more words than public pages
-    show: another one is an info, and it says where the lines behind it are passed through unchanged.
+    show: another one is an info where the lines behind it are passed through unchanged.
 
     Example on seabed:
         - TYPE=ELSTIC

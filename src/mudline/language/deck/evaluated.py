@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from mudline.language.codes.fields import SYN002
 from mudline.language.codes.references import REF007
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import DEFINING, NoValueError, Parameters, Value, bare, folded
+from mudline.language.deck.parameters import DEFINING, NoValueError, Parameters, Value, bare, name_key
 from mudline.language.diagnostics import Blocks, Problem, Where
 from mudline.language.keywords.model import FieldSpec, ListRow, Part, record_schema
 from mudline.language.keywords.table import Table
@@ -39,7 +39,7 @@ def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> La
             number = parameters.number(getattr(line.element if kind is Names.ELEMENT else line.node, "number", None))
             if number is None or not number.is_integer() or not line.label:
                 continue
-            name = folded(bare(line.label))
+            name = name_key(line.label)
             if found.setdefault((kind, name), int(number)) != int(number) and where.section < own:
                 thing = kind.name.lower()
                 message = (
@@ -59,7 +59,7 @@ def labels_given(deck: Deck, kind: Names) -> dict[str, str]:
         for line in cast("Labels", block).labels:
             thing = line.thing or thing
             if thing == kind.name and line.label:
-                found.setdefault(folded(bare(line.label)), bare(line.label))
+                found.setdefault(name_key(line.label), bare(line.label))
     return found
 
 
@@ -184,7 +184,7 @@ class _Evaluator:
         """The number of a label that `*LABEL` gives; any other value stays."""
         if not isinstance(value, Label):
             return value
-        return self.labels.get((slot.about.names or slot.about.defines, folded(bare(value))), value)
+        return self.labels.get((slot.about.names or slot.about.defines, name_key(value)), value)
 
     def _list_row(self, row: ListRow, where: Where) -> ListRow:
         """Its fields have the index as path, as JSON holds them in a list."""

@@ -107,7 +107,7 @@ class Context:
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
         """The rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one holds."""
-        found = self.deck.blocks_that(lambda declared: declared.facts.seabed_type)
+        found = self.deck.blocks_with("seabed_type")
         return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:

@@ -121,7 +121,7 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
             yield where, deck.folder, name
 
 
-_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
+COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
 _KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
 _PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
 _MANY = 1000
@@ -270,6 +270,6 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
     yield key, values
 
 
-def data_lines(lines: Iterable[str]) -> Iterator[str]:
+def data_lines(lines: Iterable[str]) -> list[str]:
     """The lines that are not comments. One with C and a letter in column 1 is one: no key of interest begins so."""
-    return (line for line in lines if not _COMMENT.match(line))
+    return [line for line in lines if not COMMENT.match(line)]

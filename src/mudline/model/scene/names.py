@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
 from mudline.language.deck.model import Deck, NamedPlace, Opaque
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import is_read, kept_lines
@@ -59,7 +59,7 @@ def _every_name(context: Context) -> dict[Names, NamesOfKind]:
         if one.role == "names":
             names.used.append(one)
         else:
-            names.defined.setdefault(folded(bare(one.name)), []).append(one)
+            names.defined.setdefault(name_key(one.name), []).append(one)
     return found
 
 
@@ -72,7 +72,7 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
         doubt = _doubt(context, definers)
         advice = f"define it in {' or '.join(f'*{keyword}' for keyword in definers)}, or correct the name"
         for given in names.used:
-            if folded(bare(given.name)) in known or not given.name:
+            if name_key(given.name) in known or not given.name:
                 continue
             thing = kind.value.removeprefix("a ").removeprefix("an ")
             message = f"{thing} {shown(given.name)} is not defined{context.hint(given.name, known)}: {advice}"
@@ -106,7 +106,7 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
     """Names that nothing uses: an info where the keywords that would use them are not read, or not in the deck."""
     raw = ""
     for kind, names in names_of(context, kinds).items():
-        used = {folded(bare(one.name)) for one in names.used}
+        used = {name_key(one.name) for one in names.used}
         users = catalogue.users(kind)
         for key, (first, *_) in names.defined.items():
             if key in used:

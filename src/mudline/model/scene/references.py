@@ -15,7 +15,7 @@ from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
@@ -52,7 +52,7 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
             continue
         if section.name not in _OF_THE_MODEL and sets.find(name) is None:
             own = sets_of_postprocessing(context.deck) if own is None else own
-            if folded(bare(name)) in own or not context.deck.keywords():
+            if name_key(name) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
     laws.referenced.update(folded(one.name) for one in names_used(context, Names.CURVE))
@@ -65,7 +65,7 @@ def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
     """The sets that other sections than the model define, by their folded names."""
     sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
     names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
-    return {folded(bare(name)): bare(name) for name in names}
+    return {name_key(name): bare(name) for name in names}
 
 
 def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
@@ -87,7 +87,7 @@ def check_soil(context: Context, nodes: Numbered) -> None:
     """Every NODE= of soil springs against the nodes of the deck."""
     named = [
         (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
-        for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs)
+        for where, block in context.deck.blocks_with("soil_springs")
         for i, springs in enumerate(cast("LateralSoil", block).sets)
         for j, curve in enumerate(springs.curves)
     ]
@@ -248,7 +248,7 @@ def _is_no_freedom(freedom: object) -> bool:
 def check_lines(context: Context) -> None:
     """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
     blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
-    groups = {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
+    groups = {name_key(group.name): group.name for block in blocks for group in block.groups if group.name}
     for where, block in context.blocks("LINE PATH SECTIONS"):
         for index, path in enumerate(cast("LinePathSections", block).paths):
             place = where.inside("paths", index)
@@ -292,7 +292,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:
     """A name, given by a KEY for a thing that a keyword defines; `known` has the names by their folded form."""
     key, thing, keyword = what
-    if folded(bare(name)) in known:
+    if name_key(name) in known:
         return
     message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
     source = context.possible_definition(keyword[1:])

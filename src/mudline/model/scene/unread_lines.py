@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from functools import cached_property
 
@@ -13,7 +13,7 @@ from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF006, REF015
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import NoValueError, Parameters, bare, folded
+from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
@@ -25,7 +25,7 @@ from mudline.language.keywords.values import Equation, Label, Names, number_mean
 from mudline.language.syntax.fields import Field, Group, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
+from mudline.model.scene.deck_values import COMMENT, data_lines, file_name, find_file, not_found
 from mudline.model.scene.names import CURVES, names_of
 from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.references import KEYWORD, check_label, sets_of_postprocessing, shows_nodes
@@ -53,7 +53,7 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
     `nodes` are those of the deck, None where others are.
     """
     looking: _Looking | None = None
-    for where, keyword, line in unread_lines(context.written):
+    for where, keyword, line in unread_lines(context):
         holds = keyword == KEYWORD and is_of_vessels(context.written, where)
         if len(line) > _LONGEST or not (holds or _WORTH.search(line)):
             continue
@@ -71,8 +71,13 @@ def is_of_vessels(deck: Deck, where: Where) -> bool:
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 
-def unread_lines(deck: Deck) -> Iterator[tuple[Where, str, str]]:
+def unread_lines(context: Context) -> list[tuple[Where, str, str]]:
     """The lines of a deck itself that are not read, without comments: their place, keyword and text."""
+    return context.once(_every_unread_line)
+
+
+def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
+    deck, found = context.written, list[tuple[Where, str, str]]()
     for i, section in enumerate(deck.own_sections):
         for j, block in enumerate(section.blocks):
             if type(block) is Opaque:
@@ -83,7 +88,8 @@ def unread_lines(deck: Deck) -> Iterator[tuple[Where, str, str]]:
                 lines = ((Where(i, j, ("unread", n)), line) for n, line in enumerate(deck.origin.kept_lines(i, j)))
             else:
                 lines = ((Where(i, j, path), line) for path, line in kept_places(block))
-            yield from ((where, block.keyword, line) for where, line in lines if [*data_lines([line])])
+            found += ((where, block.keyword, line) for where, line in lines if not COMMENT.match(line))
+    return found
 
 
 def _uses_any_curve(line: str) -> bool:
@@ -188,7 +194,7 @@ class _Looking:
                 self._note(reason.problem)
 
     def _label(self, given: Field, where: Where) -> None:
-        if Label.match(given.text):
+        if given.text.startswith("{") and Label.match(given.text):
             check_label(self.context, REF006, given.text, where.inside(*given.span))
 
     def _number(self, given: Field, where: Where) -> None:
@@ -210,7 +216,7 @@ class _Looking:
             return
         of_results = self.context.written.sections[where.section].name in _OF_RESULTS
         own = self._sets_of_results if of_results else {}
-        if self.sets.find(name) is None and folded(bare(name)) not in own:
+        if self.sets.find(name) is None and name_key(name) not in own:
             hint = self.context.hint(name, self._set_names) or self.context.hint(name, own)
             message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS{_UNREAD}"
             self._note(Problem(REF001, message, None, Severity.WARNING, where, lacks=name))
@@ -241,7 +247,7 @@ class _Looking:
         if self.vessels is None:
             found = names_of(self.context, {Names.VESSEL}).get(Names.VESSEL)
             self.vessels = {key: given[0].name for key, given in found.defined.items()} if found else {}
-        if self.vessels and folded(bare(name)) not in self.vessels:
+        if self.vessels and name_key(name) not in self.vessels:
             from mudline.model.scene.rules.names import REF019  # noqa: PLC0415 - only for a finding
 
             message = f"vessel {shown(name)} is not defined{self.context.hint(name, self.vessels)}{_UNREAD}"
@@ -254,7 +260,7 @@ class _Looking:
         if self.curves is None:
             found = names_of(self.context, CURVES | {Names.CURVE}).values()
             self.curves = {key: given[0].name for names in found for key, given in names.defined.items()}
-        key = folded(bare(name))
+        key = name_key(name)
         if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
             from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
 
@@ -277,7 +283,7 @@ class _Looking:
                 for line in data_lines(block.lines if isinstance(block, Opaque) else kept_lines(block)):
                     if not _uses_any_curve(line):
                         pieces = line.replace("=", ",").split(",")
-                        found.update(folded(bare(piece)) for each in pieces for piece in (each, *each.split()))
+                        found.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
         return found
 
     def _file(self, where: Where, _: str, written: str) -> None:

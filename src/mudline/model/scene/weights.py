@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, picked
-from mudline.model.scene.sections import surroundings
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
@@ -95,7 +94,7 @@ def attached(scene: ResolvedDeck) -> Attached:
 def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
     """Yield each mass that is no rotary inertia, with the index of its node; None where that is not known."""
     labels = {
-        folded(bare(line.label)): line.node.number
+        name_key(line.label): line.node.number
         for _, block in scene.deck.blocks("LABEL")
         for line in cast("Labels", block).labels
         if line.node is not None and line.label
@@ -103,7 +102,7 @@ def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
     for _, block in scene.deck.blocks("MASS"):
         for one in cast("Masses", block).masses:
             if one.type_ != "ROTARY INERTIA":
-                given = labels.get(folded(bare(one.node))) if isinstance(one.node, str) else one.node
+                given = labels.get(name_key(one.node)) if isinstance(one.node, str) else one.node
                 known = scene.nodes.indices(np.array([given]))[0] if isinstance(given, int) else -1
                 yield one, int(known) if known >= 0 else None
 
@@ -117,9 +116,7 @@ def operating_weight(scene: ResolvedDeck) -> Floats:
     for one in contents(scene)[-1:]:
         mass = mass + one.mass
     with np.errstate(over="ignore", invalid="ignore"):
-        return (
-            scene.submerged_weight + mass * surroundings(scene.deck).gravity if mass.any() else scene.submerged_weight
-        )
+        return scene.submerged_weight + mass * scene.surroundings.gravity if mass.any() else scene.submerged_weight
 
 
 _WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS")

@@ -11,7 +11,7 @@ from lsprotocol import types
 from mudline.basics.limits import MOST_HINTS
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text, usual_text
@@ -171,7 +171,7 @@ def named_help(analysis: Analysis, found: Site, name: str) -> str:
 
 
 def _same(one: str, other: str) -> bool:
-    return folded(bare(one)) == folded(bare(other))
+    return name_key(one) == name_key(other)
 
 
 def set_help(scene: Scene, name: str) -> str:

@@ -10,7 +10,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from mudline.basics.resources import modules_of
-from mudline.language.rules import RULES, Rule
+from mudline.language.rules import RULES, Rule, findings
 
 if TYPE_CHECKING:
     from mudline.language.diagnostics import Problem
@@ -25,4 +25,4 @@ def _rules() -> tuple[Rule, ...]:
 
 def checked(scene: ResolvedDeck) -> list[Problem]:
     """Return what all rules that block find, of each without the rest where it is very much."""
-    return [problem for one in _rules() for problem in one.findings(scene)]
+    return [problem for found in findings(_rules(), scene).values() for problem in found]

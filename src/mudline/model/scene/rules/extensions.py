@@ -54,7 +54,7 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    found = list(scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    found = scene.deck.blocks_with("extension")
     names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in found))
     for where, _ in found[:1]:
         needs = "needs" if len(names.split(" and ")) == 1 else "need"

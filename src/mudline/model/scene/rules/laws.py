@@ -35,7 +35,7 @@ SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 def extends_rigid(scene: ResolvedDeck) -> bool:
     """Whether EXT001 says that the seabed is rigid: faults of laws that have no effect then are not reported."""
-    extension = any(True for _ in scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    extension = bool(scene.deck.blocks_with("extension"))
     return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
 
 
