@@ -51,7 +51,7 @@ class LintContext:
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
-        return self.scene.context.blocks(keyword, section)
+        return self.scene.context.placed.get((section, keyword), ())
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck itself, with its equations."""

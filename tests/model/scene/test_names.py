@@ -9,7 +9,7 @@ from mudline.checks.registry import rules
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import Names
-from mudline.model.scene.names import CURVES, THINGS
+from mudline.model.scene.references import CURVES, THINGS
 from tests.helpers.builders.decks import CLEAN
 
 VESSEL = "*VESSEL,INTEGRATED\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0\n"

@@ -17,7 +17,7 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection
-from mudline.model.scene.names import CURVES
+from mudline.model.scene.references import CURVES
 from mudline.model.scene.sets import ALL
 
 ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")

@@ -39,7 +39,7 @@ from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Kind, RawBlock, parse
-from mudline.model.scene.names import CURVES, THINGS
+from mudline.model.scene.references import CURVES, THINGS
 
 LONGEST_PIECE = 600
 """Characters of a block that are read to see which keyword its lines belong to."""

@@ -30,11 +30,10 @@ from mudline.language.keywords.reader import schemas_of
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.rows import NUMBER
-from mudline.model.scene.force_curves import SceneCurve
-from mudline.model.scene.names import CURVES, THINGS, names_of, undefined
-from mudline.model.scene.references import used_names
+from mudline.model.scene.curves import SceneCurve
+from mudline.model.scene.references import CURVES, THINGS, names_of, undefined, used_names
+from mudline.model.scene.rules.fields import REF019
 from mudline.model.scene.rules.laws import REF002, undefined_curve
-from mudline.model.scene.rules.names import REF019
 from mudline.model.scene.sets import ALL
 
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})

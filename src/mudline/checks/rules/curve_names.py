@@ -21,12 +21,12 @@ from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.tree import Kind, Leaf
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.names import CURVES, repeated, unused
+from mudline.model.scene.references import CURVES, repeated, unused
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Variation
     from mudline.language.keywords.library.seabed_properties import SeabedProperties
-    from mudline.model.scene.force_curves import SceneCurve
+    from mudline.model.scene.curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 

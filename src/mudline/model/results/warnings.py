@@ -31,7 +31,7 @@ from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unkn
 from mudline.model.scene.given_positions import PositionDoubt, position_doubts
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.survey import survey_of
+from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import Contents, attached, contents, left_out, operating_weight
 

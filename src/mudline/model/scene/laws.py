@@ -17,8 +17,8 @@ from mudline.language.keywords.naming import set_slots
 from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
+from mudline.model.scene.curves import SceneCurve, set_name
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.force_curves import SceneCurve, set_name
 from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 

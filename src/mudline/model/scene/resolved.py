@@ -24,11 +24,11 @@ from mudline.language.keywords.catalogue import facts_of
 from mudline.language.keywords.text import suggestion
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
-from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import ElementTable
-from mudline.model.scene.names import CURVES, THINGS, undefined
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,

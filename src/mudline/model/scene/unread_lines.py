@@ -26,9 +26,16 @@ from mudline.language.syntax.fields import Field, Group, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import COMMENT, data_lines, file_name, find_file, not_found
-from mudline.model.scene.names import CURVES, names_of
 from mudline.model.scene.numbering import Numbered
-from mudline.model.scene.references import KEYWORD, check_label, sets_of_postprocessing, shows_nodes
+from mudline.model.scene.references import (
+    CURVES,
+    KEYWORD,
+    check_label,
+    every_name,
+    names_of,
+    sets_of_postprocessing,
+    shows_nodes,
+)
 from mudline.model.scene.sets import Sets
 
 _EQUATION = re.compile(r"=\[[^\[\]\r\n]*\]")
@@ -245,10 +252,10 @@ class _Looking:
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
         if self.vessels is None:
-            found = names_of(self.context, {Names.VESSEL}).get(Names.VESSEL)
-            self.vessels = {key: given[0].name for key, given in found.defined.items()} if found else {}
+            found = self.context.once(every_name)[Names.VESSEL].defined
+            self.vessels = {key: given[0].name for key, given in found.items()}
         if self.vessels and name_key(name) not in self.vessels:
-            from mudline.model.scene.rules.names import REF019  # noqa: PLC0415 - only for a finding
+            from mudline.model.scene.rules.fields import REF019  # noqa: PLC0415 - only for a finding
 
             message = f"vessel {shown(name)} is not defined{self.context.hint(name, self.vessels)}{_UNREAD}"
             self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))

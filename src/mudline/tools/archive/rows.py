@@ -24,7 +24,7 @@ from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_curves import OF_SEABED, other_curves
+from mudline.model.scene.curves import OF_SEABED, other_curves
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.references import used_names

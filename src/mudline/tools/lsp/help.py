@@ -21,11 +21,10 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.model.results.summary import followers
-from mudline.model.scene.deck_curves import ENDS, DeckCurve, other_curves
+from mudline.model.scene.curves import ENDS, DeckCurve, SceneCurve, other_curves
 from mudline.model.scene.deck_values import find_file
-from mudline.model.scene.force_curves import SceneCurve
 from mudline.model.scene.model import Scene
-from mudline.model.scene.names import CURVES
+from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.model.scene.sets import NamedSet
 from mudline.tools.lsp.decks import Analysis, value_text
