@@ -113,7 +113,7 @@ def test_mesh_before_the_additional_sets() -> None:
         ),
         (
             "*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n",
-            "4:10 SYN003 set is missing",
+            "4:10 SYN003 set is missing: expected a name",
         ),
         (
             "*LINE PATH SECTIONS\n LINE=x\n SECTION=a, 0, 1, REPAT=g\n",

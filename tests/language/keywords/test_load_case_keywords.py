@@ -69,7 +69,7 @@ def test_resistance_comes_first() -> None:
     for keyword in ("P-Y", "T-Z"):
         text = f"$MODEL\n*{keyword}\n SET=a\n DEPTH=2\n 1, 2, 3\n 1, x\n"
         assert faults(text) == [
-            "5:2 SYN003 3 fields, expected 2 (`resistance, displacement`)",
+            "5:2 SYN003 2 fields expected (`resistance, displacement`), found 3",
             "6:5 SYN002 'x' is not a number: expected a number or an equation =[...] for displacement",
         ]
 

@@ -111,7 +111,7 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # a set whose STIFFNESS= is not known
     if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
         return True  # a block of which no set is known
-    if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
+    if "SEABED PROPERTIES" in scene.context.misplaced or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read

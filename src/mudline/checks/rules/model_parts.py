@@ -113,7 +113,7 @@ def no_elements(context: LintContext) -> Iterator[Problem]:
     reading = scene.context
     if len(scene.element_ids) or not shown.issuperset(_PARTS) or reading.external_definers or reading.restart:
         return
-    if models and not reading.unread and not reading.misplaced_keywords and not _unread_give(context, "elements"):
+    if models and not reading.unread and not reading.misplaced and not _unread_give(context, "elements"):
         yield Problem(
             GEO015, "no elements, so there is no contact to check: add *ELEMENT or *LINES", where=Where(models[0], -1)
         )

@@ -81,10 +81,10 @@ def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
 
     Those of the seabed do, and those for want of which an error is a warning.
     """
-    for keyword in filter(None, scene.context.misplaced_keywords):
+    for keyword in filter(None, scene.context.misplaced):
         depend = sorted({found.code.code for found in scene.findings if found.maybe_defined_by == keyword})
         if depend or is_superseded(keyword) or supersedes(keyword):
-            words, where = scene.context.misplaced_place(keyword)
+            words, where = scene.context.misplaced[keyword]
             codes = f" ({', '.join(depend)})" if depend else ""
             yield _refusal(_MISSPELT.format(words, keyword, codes), where)
 

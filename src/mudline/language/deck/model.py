@@ -26,6 +26,7 @@ from mudline.language.diagnostics import (
     Where,
 )
 from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.naming import Role, all_names_given, gives_names
 from mudline.language.keywords.values import Names, Text
@@ -73,6 +74,7 @@ _INTERNAL = frozenset(
         "blocks_with",
         "diagnose",
         "errors",
+        "every_block",
         "folder_of",
         "incomplete",
         "lost",
@@ -121,7 +123,7 @@ class Origin:
         return True
 
 
-_KINDS = {
+_KINDS: dict[str, tuple[Any, str]] = {
     **dict.fromkeys(("file", "source"), (str, "a str")),
     **dict.fromkeys(("preamble", "sections", "comments", "problems"), (list, "a list")),
     "origin": (Origin, "an Origin"),
@@ -270,15 +272,22 @@ class Deck:
         own = len(self.own_sections)
         return sorted(numbered, key=lambda placed: placed[0] < own)
 
+    def every_block(self) -> list[tuple[Where, str, Block | Opaque]]:
+        """The blocks of all sections in their order, read or not: their place, the name of their section, the block."""
+        return [
+            (Where(i, j), section.name, block)
+            for i, section in enumerate(self.sections)
+            for j, block in enumerate(section.blocks)
+        ]
+
     def names(self) -> list[NamedPlace]:
         """Return every name that the fields of the deck give, in its order, whether it is used or defined there.
 
         Numbers and labels of nodes and elements are no names.
         """
         return [
-            NamedPlace(kind, role, name, Where(i, j, path))
-            for i, section in enumerate(self.sections)
-            for j, block in enumerate(section.blocks)
+            NamedPlace(kind, role, name, where._replace(path=path))
+            for where, _, block in self.every_block()
             if gives_names(type(block))
             for kind, role, name, path in all_names_given(block)
         ]
@@ -305,6 +314,11 @@ class Deck:
     def errors(self) -> list[Problem]:
         """What could not be read."""
         return [problem for problem in self.problems if problem.weight is Severity.ERROR]
+
+
+def raw_lines(block: Block | Opaque) -> list[str]:
+    """The lines of a block that are passed through: those that its model keeps, of a block without one all."""
+    return block.lines if isinstance(block, Opaque) else kept_lines(block)
 
 
 def comment_texts(deck: Deck) -> Iterator[str]:

@@ -8,57 +8,38 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 from operator import itemgetter
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.basics.limits import MOST_COLUMNS, MOST_REPORTED
+from mudline.basics.limits import MOST_COLUMNS
 from mudline.basics.short_repr import short_repr
-from mudline.language.codes.fields import SYN002, SYN003, SYN016
-from mudline.language.diagnostics import Problem, Span
+from mudline.language.diagnostics import Span
 from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Record, record_schema
-from mudline.language.keywords.numbers import not_a_number
-from mudline.language.keywords.table import Column, Table, from_rows, row_format
-from mudline.language.keywords.text import Value, decimal_comma, in_braces, maybe_label, missing_comma, semicolons
+from mudline.language.keywords.table import Column, Table, from_rows
+from mudline.language.keywords.text import Value
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
-from mudline.language.keywords.values import Equation, Kind, Label
-from mudline.language.syntax.fields import Field, split, trimmed
-from mudline.language.syntax.rows import Rows as RawRows
+from mudline.language.keywords.values import Equation, Label
+from mudline.language.syntax.fields import Field, trimmed
 from mudline.language.syntax.rows import read_rows, row_fields, row_starts
-
-
-class BlockReading(Protocol):
-    """The reading of a block, which a table in it adds to."""
-
-    text: str
-    problems: list[Problem]
-    unclosed: Span | None
-
-    def short(self, message: str, span: Span) -> None:
-        """Note a row that is too short."""
 
 
 class TableBuilder:
     """Collects the runs of one table."""
 
-    def __init__(self, builder: BlockReading, slot: FieldSpec) -> None:
-        self.builder = builder
-        self.columns: list[Column] = slot.columns
+    def __init__(self, columns: list[Column]) -> None:
+        self.columns = columns
         self.runs: list[tuple[int, Span]] = []
         self.parts: list[Table] = []
         self.count = 0
 
-    def add(self, span: Span) -> int:
-        """Read one run; returns its number of rows."""
-        text = self.builder.text
-        raw = read_rows(text, span, len(self.columns))
+    def add(self, text: str, span: Span) -> tuple[Table, list[int]]:
+        """Read one run of a text; returns its rows, and the numbers of those that have faults."""
         self.runs.append((self.count, span))
-        table, faults = from_rows(raw, self.columns)
-        if faults:
-            self._report(span, raw, table, faults)
+        table, faults = from_rows(read_rows(text, span, len(self.columns)), self.columns)
         self.parts.append(table)
         self.count += len(table)
-        return len(table)
+        return table, sorted({row for row, _ in faults})
 
     def finish(self) -> Table:
         """All rows in one table."""
@@ -74,91 +55,6 @@ class TableBuilder:
             start += len(part)
         lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
         return Table(values, np.concatenate(lengths), words)
-
-    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
-        text = self.builder.text
-        starts = row_starts(text, span)
-
-        def line(row: int) -> Span:
-            end = text.find("\n", starts[row], span.end)
-            return Span(starts[row], span.end if end < 0 else end)
-
-        short = {row for row, column in faults if column < 0}
-        reported = 0
-        broken: set[int] = set()
-        for (row, column), fault in sorted(faults.items()):
-            if row in short and column >= 0:
-                continue
-            if self._label(table, raw, line(row), row, column):
-                continue
-            reported += 1
-            if reported > MOST_REPORTED:
-                continue
-            if row not in broken and (self._brackets(line(row)) or self._comma(line(row))):
-                broken.add(row)
-            if row not in broken:
-                self._fault(line(row), row, column, fault, raw)
-        if reported > MOST_REPORTED:
-            message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
-            self.builder.problems.append(Problem(SYN002, message, line(-1)))
-
-    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
-        """A word where a node number belongs is taken for a label whose braces were forgotten."""
-        word = raw.words.get((row, column), "")
-        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
-            return False
-        table.words[row, column] = label
-        place = row_fields(self.builder.text, line, len(self.columns))[column].span
-        message = f"{word!r} is not a number: if it is a label, write {label}"
-        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
-        return True
-
-    def _brackets(self, line: Span) -> bool:
-        """Whether the fault of a row is an unclosed bracket, which is then reported instead."""
-        _, problems = split(self.builder.text, line)
-        for problem in problems:
-            if problem.span != self.builder.unclosed:
-                self.builder.problems.append(problem)
-        return bool(problems)
-
-    def _comma(self, line: Span) -> bool:
-        """Whether the fault of a row is a comma that is missing, which is then reported instead."""
-        fields, _ = split(self.builder.text, line)
-        required = sum(column.required for column in self.columns)
-        problem = missing_comma(fields, [column.kind for column in self.columns], required)
-        if problem is not None:
-            self.builder.problems.append(problem)
-        return problem is not None
-
-    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
-        text = self.builder.text
-        if column < 0:
-            fields, _ = split(text, line)
-            required = [column.required for column in self.columns]
-            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
-                self.builder.problems.append(problem)
-                return
-            if problem := semicolons(text, fields):
-                self.builder.problems.append(problem)
-                return
-            wanted = row_format([column.label for column in self.columns], required)
-            place = Span(fields[0].span.start, fields[-1].span.end)
-            message = f"{fault} (`{wanted}`)"
-            if len(fields) < sum(required):
-                self.builder.short(message, place)
-            else:
-                self.builder.problems.append(Problem(SYN003, message, place))
-            return
-        place = row_fields(text, line, len(self.columns))[column].span
-        word = raw.words.get((row, column))
-        if word == "":
-            self.builder.short(fault, place)
-            return
-        if word and (problem := semicolons(text, row_fields(text, line, len(self.columns)))):
-            self.builder.problems.append(problem)
-            return
-        wrong = word and not_a_number(word, place, self.columns[column].label, self.columns[column].kind)
-        self.builder.problems.append(wrong or Problem(SYN002, fault, place))
 
 
 class Item(NamedTuple):

@@ -219,11 +219,10 @@ class DeckCurve(NamedTuple):
 
 def other_curves(deck: Deck) -> Iterator[DeckCurve]:
     """The curves of a deck but those of its seabed, in the order of the file."""
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and _has_curves(type(block)):
-                for curve in _curves(block, block.keyword, Where(i, j), "", Where(i, j)):
-                    yield _below_surface(deck, curve) if curve.kind == OF_CURRENT else curve
+    for where, _, block in deck.every_block():
+        if type(block) is not Opaque and _has_curves(type(block)):
+            for curve in _curves(block, block.keyword, where, "", where):
+                yield _below_surface(deck, curve) if curve.kind == OF_CURRENT else curve
 
 
 def _below_surface(deck: Deck, curve: DeckCurve) -> DeckCurve:

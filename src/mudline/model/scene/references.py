@@ -16,11 +16,11 @@ from mudline.basics.spelling import same_marks
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
-from mudline.language.deck.model import Deck, NamedPlace, Opaque
+from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
 from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.keeping import is_read, kept_lines
+from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.naming import idents_given, may_name, names_given
 from mudline.language.keywords.text import shown
@@ -63,6 +63,11 @@ class NamesOfKind:
     used: list[NamedPlace] = field(default_factory=list)
     defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
 
+    @property
+    def known(self) -> dict[str, str]:
+        """The names that are defined, as first written, by their folded form."""
+        return {key: given[0].name for key, given in self.defined.items()}
+
 
 def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
     """The names of some kinds that the fields of a deck give."""
@@ -86,7 +91,7 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
     for kind, names in names_of(context, kinds).items():
         if not names.used or not (definers := catalogue.definers(kind)) or not context.deck.keywords():
             continue
-        known = {key: given[0].name for key, given in names.defined.items()}
+        known = names.known
         doubt = _doubt(context, definers)
         advice = f"define it in {' or '.join(f'*{keyword}' for keyword in definers)}, or correct the name"
         for given in names.used:
@@ -100,12 +105,10 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
 
 def _doubt(context: Context, definers: Collection[str]) -> str:
     """What may define a thing besides the lines that were read, in words; "" where nothing may."""
-    for i, section in enumerate(context.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if block.keyword in definers and (
-                isinstance(block, Opaque) or not is_read(block) or context.deck.lost(Where(i, j))
-            ):
-                return f"; a line of *{block.keyword} that was not read may define it"
+    for where, _, block in context.deck.every_block():
+        unsure = block.keyword in definers and (isinstance(block, Opaque) or not is_read(block))
+        if unsure or (block.keyword in definers and context.deck.lost(where)):
+            return f"; a line of *{block.keyword} that was not read may define it"
     words = (context.possible_definition(keyword) for keyword in definers)
     return next((f"; {one}" for one in words if one), "")
 
@@ -140,8 +143,7 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
 
 def _not_read(deck: Deck) -> str:
     """The lines that are not read, which may use names; a line end where there are none."""
-    blocks = (block for section in deck.sections for block in section.blocks)
-    lines = (block.lines if isinstance(block, Opaque) else kept_lines(block) for block in blocks)
+    lines = (raw_lines(block) for _, _, block in deck.every_block())
     return "\n".join(folded(line) for own in lines for line in own) or "\n"
 
 
@@ -204,13 +206,12 @@ def check_soil(context: Context, nodes: Numbered) -> None:
 
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     """Every node and element that a keyword names, but those that are looked at where nodes and sets are made."""
-    for i, section in enumerate(context.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is Opaque or not _names_idents(type(block)):
-                continue
-            for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
-                named = [(ident, Where(i, j, path)) for path, ident in idents_given(block, what)]
-                check(context, nodes if what is Names.NODE else elements, named)
+    for where, _, block in context.deck.every_block():
+        if type(block) is Opaque or not _names_idents(type(block)):
+            continue
+        for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
+            named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, what)]
+            check(context, nodes if what is Names.NODE else elements, named)
 
 
 @cache

@@ -95,8 +95,6 @@ class _Reader:
         self.elements = elements
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
-        self.links: dict[str, str] = {}
-        """Sets that are given once, as one subset, by their keys with that of the subset."""
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -126,42 +124,23 @@ class _Reader:
                 message = "set ALL is predefined and holds every element: choose another name"
                 self.context.report(REF009, message, where.inside("name"))
                 continue
-            known = self.definitions.get(key)
-            if known is None:
-                self.definitions[key] = [(entry, where)]
-                only = entry.members[0] if len(entry.members) == 1 else None
-                subset = known_name(cast("SetSubset", only).subset) if only and only.rule == "set_subset" else None
-                if subset is not None:
-                    self.links[key] = name_key(subset)
-            else:
-                known.append((entry, where))
-                self.links.pop(key, None)
+            self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
-        named, definitions, links = self.sets.named, self.definitions, self.links
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
             current = waiting[-1]
-            link = links.get(current)
-            if current in named:
+            if current in self.sets.named:
                 waiting.pop()
             elif current in unfinished:
                 waiting.pop()
                 unfinished.remove(current)
-                if link is not None and (found := named.get(link)):
-                    entry, where = definitions[current][0]
-                    is_open = found.open or is_partly_unknown(entry.members)
-                    named[current] = NamedSet(entry.name, found.elements, where, is_open)
-                else:
-                    self._settle(current)
+                self._settle(current)
             else:
                 unfinished.add(current)
-                if link in definitions and link not in unfinished:
-                    waiting.append(link)
-                else:
-                    self._await(current, waiting, unfinished)
+                self._await(current, waiting, unfinished)
 
     def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
         """Put the subsets that are to be expanded before a set on the stack; those that cannot be are reported."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 from functools import cached_property
 
@@ -12,14 +12,14 @@ import numpy as np
 from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF006, REF015
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.keeping import is_read, kept_lines, kept_places
-from mudline.language.keywords.model import record_schema
+from mudline.language.keywords.keeping import is_read, kept_places
+from mudline.language.keywords.model import Path, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
 from mudline.language.syntax.fields import Field, Group, read_line
@@ -85,17 +85,18 @@ def unread_lines(context: Context) -> list[tuple[Where, str, str]]:
 
 def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
     deck, found = context.written, list[tuple[Where, str, str]]()
-    for i, section in enumerate(deck.own_sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is Opaque:
-                lines = ((Where(i, j, ("lines", n)), line) for n, line in enumerate(block.lines))
-            elif is_read(block):
-                continue
-            elif isinstance(deck.origin, TextOrigin):
-                lines = ((Where(i, j, ("unread", n)), line) for n, line in enumerate(deck.origin.kept_lines(i, j)))
-            else:
-                lines = ((Where(i, j, path), line) for path, line in kept_places(block))
-            found += ((where, block.keyword, line) for where, line in lines if not COMMENT.match(line))
+    for at, _, block in deck.alone.every_block():
+        lines: Iterable[tuple[Path, str]]
+        if type(block) is Opaque:
+            lines = ((("lines", n), line) for n, line in enumerate(block.lines))
+        elif is_read(block):
+            continue
+        elif isinstance(deck.origin, TextOrigin):
+            kept = deck.origin.kept_lines(at.section, at.block)
+            lines = ((("unread", n), line) for n, line in enumerate(kept))
+        else:
+            lines = kept_places(block)
+        found += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
     return found
 
 
@@ -121,8 +122,6 @@ class _Looking:
         self.context = context
         self.sets = sets
         self.parameters: Parameters | None = None
-        self.vessels: dict[str, str] | None = None
-        self.curves: dict[str, str] | None = None
         self.checks: dict[str, Callable[[Where, str, str], None]] = {
             Names.SET.name: self._set,
             Names.VESSEL.name: self._vessel,
@@ -251,22 +250,17 @@ class _Looking:
         definers = catalogue.definers(Names.VESSEL)
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
-        if self.vessels is None:
-            found = self.context.once(every_name)[Names.VESSEL].defined
-            self.vessels = {key: given[0].name for key, given in found.items()}
-        if self.vessels and name_key(name) not in self.vessels:
+        vessels = self.context.once(every_name)[Names.VESSEL].known
+        if vessels and name_key(name) not in vessels:
             from mudline.model.scene.rules.fields import REF019  # noqa: PLC0415 - only for a finding
 
-            message = f"vessel {shown(name)} is not defined{self.context.hint(name, self.vessels)}{_UNREAD}"
+            message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}{_UNREAD}"
             self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))
 
     def _curve(self, where: Where, keyword: str, name: str) -> None:
         """A curve that a line of the model or of a load case uses; another line that is not read may define it."""
         if not self._is_of_model(where, keyword):
             return
-        if self.curves is None:
-            found = names_of(self.context, CURVES | {Names.CURVE}).values()
-            self.curves = {key: given[0].name for names in found for key, given in names.defined.items()}
         key = name_key(name)
         if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
             from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
@@ -274,6 +268,12 @@ class _Looking:
             meant = self.context.hint(name, self.curves)
             message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it{_UNREAD}"
             self._note(Problem(REF002, message, None, Severity.WARNING, where, lacks=name))
+
+    @cached_property
+    def curves(self) -> dict[str, str]:
+        """The curves of all kinds that the deck defines, by their folded names."""
+        kinds = names_of(self.context, CURVES | {Names.CURVE}).values()
+        return {key: name for names in kinds for key, name in names.known.items()}
 
     @cached_property
     def _may_lack_curves(self) -> bool:
@@ -285,12 +285,11 @@ class _Looking:
     def _other_words(self) -> set[str]:
         """What stands in the lines that are not read and use no curve: a curve of this name may be defined there."""
         found: set[str] = set()
-        for section in self.context.deck.sections:
-            for block in section.blocks:
-                for line in data_lines(block.lines if isinstance(block, Opaque) else kept_lines(block)):
-                    if not _uses_any_curve(line):
-                        pieces = line.replace("=", ",").split(",")
-                        found.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
+        for _, _, block in self.context.deck.every_block():
+            for line in data_lines(raw_lines(block)):
+                if not _uses_any_curve(line):
+                    pieces = line.replace("=", ",").split(",")
+                    found.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
         return found
 
     def _file(self, where: Where, _: str, written: str) -> None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.deck_values import number
@@ -17,7 +16,6 @@ from mudline.model.scene.numbering import Floats, picked
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
     from mudline.language.keywords.library.loads import InternalFluid
-    from mudline.language.keywords.library.mesh import Labels
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -93,17 +91,10 @@ def attached(scene: ResolvedDeck) -> Attached:
 
 def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
     """Yield each mass that is no rotary inertia, with the index of its node; None where that is not known."""
-    labels = {
-        name_key(line.label): line.node.number
-        for _, block in scene.deck.blocks("LABEL")
-        for line in cast("Labels", block).labels
-        if line.node is not None and line.label
-    }
     for _, block in scene.deck.blocks("MASS"):
         for one in cast("Masses", block).masses:
             if one.type_ != "ROTARY INERTIA":
-                given = labels.get(name_key(one.node)) if isinstance(one.node, str) else one.node
-                known = scene.nodes.indices(np.array([given]))[0] if isinstance(given, int) else -1
+                known = scene.nodes.indices(np.array([one.node]))[0] if isinstance(one.node, int) else -1
                 yield one, int(known) if known >= 0 else None
 
 

@@ -52,7 +52,7 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     reading, types = scene.context, scene.laws.types
     if "ELASTIC" in types:
         return
-    unclear = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
+    unclear = "SEABED PROPERTIES" in scene.deck.keywords() or "SEABED PROPERTIES" in reading.misplaced
     if unclear and "RIGID" not in types:
         return
     supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")

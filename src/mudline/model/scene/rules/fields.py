@@ -48,12 +48,11 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for i, section in enumerate(scene.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and ranged_slots(type(block)):
-                for path, message in range_faults(block):
-                    if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
-                        yield Problem(SBD010, message, where=Where(i, j, path))
+    for where, _, block in scene.deck.every_block():
+        if type(block) is not Opaque and ranged_slots(type(block)):
+            for path, message in range_faults(block):
+                if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
+                    yield Problem(SBD010, message, where=where._replace(path=path))
 
 
 @rule(REF015, blocks=True)

@@ -192,7 +192,7 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     if not first:
         return
     reading, types = scene.context, scene.laws.types
-    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or "SEABED PROPERTIES" in reading.misplaced
     if "RIGID" not in types and ("ELASTIC" in types or unread):
         return  # a type that could not be read is reported elsewhere
     for curve in first.values():
