@@ -93,7 +93,7 @@ class _Places:
             self.count += item.size
 
     def path(self, position: int, *, within: bool) -> list[_Places]:
-        """Those of the records that begin before a position, from this one to the innermost; `within`: and end behind."""
+        """Those of the records that begin before a position (`within`: and end behind it), from this one inwards."""
         at = bisect_left(self.starts, position) - 1
         if at < 0 or (within and (self.within[at].last or 0) <= position):
             return [self]
