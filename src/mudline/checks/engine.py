@@ -211,10 +211,12 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     """
     found: list[Problem] = []
     noticed = context.noticed
-    advice = findings([rule for rule in chosen if rule.check is not None and not rule.blocks], context)
+    advice = iter(findings([rule for rule in chosen if rule.check is not None and not rule.blocks], context))
     for rule in chosen:
-        code = rule.code.code
-        found += map(_advice, advice[code]) if code in advice else noticed.get(code, ())
+        if rule.check is None or rule.blocks:
+            found += noticed.get(rule.code.code, ())
+        else:
+            found += map(_advice, next(advice))
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 

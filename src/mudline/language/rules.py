@@ -201,9 +201,9 @@ def _places(lines: list[str], sought: list[str]) -> list[slice]:
     return [place for place in places if lines[place] == sought]
 
 
-def findings(rules: Iterable[Rule], subject: object) -> dict[str, list[Problem]]:
-    """Return what the functions of some rules find in their subject, by the codes of the rules."""
-    return {one.code.code: one.findings(subject) for one in rules}
+def findings(rules: Iterable[Rule], subject: object) -> list[list[Problem]]:
+    """Return what the function of each of some rules finds in their subject."""
+    return [one.findings(subject) for one in rules]
 
 
 def first_reported(problems: Iterable[Problem]) -> list[Problem]:

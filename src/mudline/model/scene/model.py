@@ -63,7 +63,7 @@ class Scene(ResolvedDeck):
     def problems(self) -> list[Problem]:
         """What resolving the deck noticed, and what the rules that block find."""
         found = findings(_rules(), self)
-        return [*self.noticed, *chain.from_iterable(found.values())]
+        return [*self.noticed, *chain.from_iterable(found)]
 
     def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:
         """The findings that keep the scene from being evaluated; `tension` is that of `contact`."""
