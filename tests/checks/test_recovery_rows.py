@@ -29,7 +29,7 @@ def summary(text: str, name: str = "deck.keyxm") -> list[tuple[str, int, int]]:
 def test_the_same_fault_in_row_after_row_is_one_finding() -> None:
     (one,) = (each for each in found(changed((CURVE, POINTS))) if each.code == "SYN003")
     assert one.message == (
-        "3 fields, expected 2 (`ratio, force`); and 3 more rows of this block (2, 3, 4), the last in line 24"
+        "2 fields expected (`ratio, force`), found 3; and 3 more rows of this block (2, 3, 4), the last in line 24"
     )
     assert (one.line, [each.line for each in one.following]) == (21, [22, 23, 24])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
@@ -27,6 +27,12 @@ def expect(value: object, name: str, kind: type | tuple[type, ...], expected: st
     """Raise ArgumentKindError for an argument that is not of a kind, which `expected` says in words."""
     if not isinstance(value, kind):
         raise ArgumentKindError(f"{name} must be {expected}, not {type(value).__name__}")
+
+
+def expect_fields(holder: object, kinds: Mapping[str, tuple[Any, str]]) -> None:
+    """Raise ArgumentKindError for a field that is not of its kind, given with words for it by the field's name."""
+    for name, (kind, expected) in kinds.items():
+        expect(getattr(holder, name), name, kind, expected)
 
 
 def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: str) -> None:

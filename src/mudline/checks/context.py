@@ -51,7 +51,7 @@ class LintContext:
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
-        return self.scene.context.blocks(keyword, section)
+        return self.scene.context.placed.get((section, keyword), ())
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck itself, with its equations."""
@@ -92,11 +92,9 @@ class LintContext:
         return self.noticed.get(code.code, ())
 
 
-def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any]]:
+def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, Any]]:
     """Every entry below a SET= of some blocks, with its place."""
-    for where, block in blocks:
-        for index, entry in enumerate(block.sets):
-            yield where.inside("sets", index), entry
+    return [(where.inside("sets", index), entry) for where, block in blocks for index, entry in enumerate(block.sets)]
 
 
 def of_variations(deck: Deck) -> Iterator[Problem]:

@@ -22,7 +22,7 @@ from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.naming import repeated_set
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
-from mudline.language.rules import Rule
+from mudline.language.rules import Rule, findings
 from mudline.language.syntax.tree import RawBlock
 
 if TYPE_CHECKING:
@@ -211,11 +211,12 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     """
     found: list[Problem] = []
     noticed = context.noticed
+    advice = iter(findings([rule for rule in chosen if rule.check is not None and not rule.blocks], context))
     for rule in chosen:
         if rule.check is None or rule.blocks:
             found += noticed.get(rule.code.code, ())
         else:
-            found.extend(map(_advice, rule.findings(context)))
+            found += map(_advice, next(advice))
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 

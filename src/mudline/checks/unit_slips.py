@@ -67,25 +67,29 @@ SLIPS = {
 
 
 class Units(NamedTuple):
-    """The units of a deck: the name that `unit_text` knows, and sizes in SI; of unknown ones 1."""
+    """The units of a deck: the name that `unit_text` knows, and sizes in SI; those that are not `known` have 1."""
 
     name: str
     length: float = 1.0
     force: float = 1.0
     mass: float = 1.0
-
-    @property
-    def known(self) -> bool:
-        """Whether the sizes are those of the deck."""
-        return self.name != "user"
+    known: bool = True
 
     def compares(self, unit: str) -> bool:
         """Whether numbers of a unit can be compared with those in SI."""
         return self.known or unit in ("", "-", "%", "deg", "T", "Hz")
 
+    @lru_cache(256)  # noqa: B019 - there are few units
     def size(self, unit: str) -> float:
         """A unit of a field in SI; 1 of what is no dimension."""
-        return _size(self, unit)
+        if not re.fullmatch(r"(?:[FLMT]\d?|1|/)+", unit):
+            return 1.0
+        sizes = {"F": self.force, "L": self.length, "M": self.mass, "T": 1.0}
+        found = 1.0
+        for side, sign in zip(unit.split("/"), (1, -1), strict=False):
+            for letter, power in re.findall(r"([FLMT])(\d?)", side):
+                found *= sizes[letter] ** (sign * int(power or 1))
+        return found
 
     def behind(self, unit: str) -> str:
         """A unit of a field as it is written behind a number, with a space; "" where there is none that is known."""
@@ -113,19 +117,7 @@ def units_of(context: LintContext) -> Units:
         density, gravity = number(ocean, "density"), number(ocean, "gravity")
         if _LIGHT[0] <= density <= _LIGHT[1] and abs(gravity - _GRAVITY) < 0.02 * _GRAVITY:
             return _TONNES
-    return Units("user")
-
-
-@lru_cache(256)
-def _size(units: Units, unit: str) -> float:
-    if not re.fullmatch(r"(?:[FLMT]\d?|1|/)+", unit):
-        return 1.0
-    sizes = {"F": units.force, "L": units.length, "M": units.mass, "T": 1.0}
-    found = 1.0
-    for side, sign in zip(unit.split("/"), (1, -1), strict=False):
-        for letter, power in re.findall(r"([FLMT])(\d?)", side):
-            found *= sizes[letter] ** (sign * int(power or 1))
-    return found
+    return Units("user", known=False)
 
 
 _STRICT = 1.2

@@ -15,7 +15,7 @@ from mudline.cli.streams import emit, notify
 from mudline.editing.backbone_block import COARSEST, FINEST, backbone
 from mudline.language.keywords.writer import block_lines
 from mudline.model.curves.backbones import MODELS, Backbone, Soil
-from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.curves import OF_SEABED
 
 _DRAWN = 400
 

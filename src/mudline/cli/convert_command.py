@@ -211,8 +211,8 @@ def sort_curves(deck: Deck) -> list[str]:
     Returns the names of curves that were left as they are, because a ratio in them is an equation.
     """
     left: list[str] = []
-    for _, block in deck.blocks_that(lambda declared: declared.facts.defines == "curves"):
-        for curve in block.curves:
+    for _, block in deck.blocks_with("defines"):
+        for curve in block.curves if block.facts.defines == "curves" else ():
             if any(column == 0 for _, column in curve.points.words):
                 left.append(getattr(curve, "name", None) or curve.set_name or "ALL")
                 continue

@@ -17,7 +17,7 @@ from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
 from mudline.model.results.summary import followers
-from mudline.model.scene.deck_curves import ENDS, OF_CURRENT, OF_SEABED
+from mudline.model.scene.curves import ENDS, OF_CURRENT, OF_SEABED
 from mudline.model.scene.model import Scene, resolve
 
 if TYPE_CHECKING:

@@ -201,6 +201,11 @@ def _places(lines: list[str], sought: list[str]) -> list[slice]:
     return [place for place in places if lines[place] == sought]
 
 
+def findings(rules: Iterable[Rule], subject: object) -> list[list[Problem]]:
+    """Return what the function of each of some rules finds in their subject."""
+    return [one.findings(subject) for one in rules]
+
+
 def first_reported(problems: Iterable[Problem]) -> list[Problem]:
     """As many findings as are reported one by one; the next one says that there are more."""
     found = list(islice(problems, MOST_REPORTED + 1))

@@ -19,7 +19,6 @@ from mudline.model.contact import ContactModel
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.tables import ContactState
 from mudline.model.scene.model import resolve
-from mudline.model.scene.sections import surroundings
 from tests.benchmarks.dynamics.beam import DECKS, in_line_order
 
 PULLS = {50: 3.0, 200: 15.0, 600: 40.0}
@@ -115,7 +114,7 @@ def read_chain(case: Case) -> Chain:
         friction,
         float(scene.mass_per_length[0]),
         float(contact.input.diameter[0]),
-        surroundings(scene.deck).gravity,
+        scene.surroundings.gravity,
     )
 
 

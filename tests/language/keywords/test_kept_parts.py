@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import OpenBlock, can_keep, is_read, kept_lines, openers
 from mudline.language.keywords.model import Block, Record, record_schema
@@ -46,7 +47,7 @@ def only(text: str) -> Block:
 @pytest.mark.parametrize("form", ["json", "yaml", "keyword"])
 def test_kept_lines_stay_in_their_place_in_every_form(text: str, form: str) -> None:
     deck = deck_of(text)
-    assert deck.problems == []
+    assert [problem for problem in deck.problems if problem.weight is not Severity.INFO] == []
     again = load_bytes(dump(deck, form).encode(), "deck.keyxm" if form == "keyword" else f"deck.{form}")
     assert again.sections == deck.sections
     assert dump(again, "keyword") == text
@@ -71,6 +72,33 @@ def test_a_part_that_is_not_public_is_kept_and_the_others_are_read() -> None:
     }
     assert not is_read(block)
     assert is_read(only("$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n"))
+
+
+UNKNOWN = [
+    ("LOAD CASE", "*BOUNDARY\n TYPE=OTHER\n 1, 1\n garbage here\n", "4:7", "TYPE="),
+    ("LOAD CASE", "*WAVE-JONSWAP\n FREQUENCY=AREA, SPEC=OTHER\n garbage here\n", "4:23", "SPEC="),
+    ("MODEL", "*HYDRODYNAMIC SETS\n SET=ALL, TYPE=OTHER\n garbage here\n", "4:16", "TYPE="),
+    ("MODEL", "*P-Y\n TYPE=OTHER\n garbage here\n", "4:7", "TYPE="),
+]
+
+
+@pytest.mark.parametrize(
+    ("section", "lines", "place", "key"), UNKNOWN, ids=[lines.split("\n")[0] for _, lines, *_ in UNKNOWN]
+)
+def test_a_word_that_is_not_known_is_told_where_the_lines_behind_it_are_not_read(
+    section: str, lines: str, place: str, key: str
+) -> None:
+    message = f"'OTHER' is not known for {key}, and what it stands for is passed through unchanged"
+    text = f"C a deck\n${section}\n{lines}"
+    assert faults(text) == [f"{place} SYN005 {message}"]
+    assert [problem.weight for problem in deck_of(text).problems] == [Severity.INFO]
+
+
+@pytest.mark.parametrize(
+    "lines", ["*BOUNDARY\n TYPE=VESSEL\n 12, Semi\n", "*LOAD\n TYPE=OTHER\n 1, 2\n", "*ANALYSIS TYPE\n TYPE=OTHER\n"]
+)
+def test_a_word_is_not_told_where_lines_behind_a_known_one_would_not_be_read_either(lines: str) -> None:
+    assert faults(f"$LOAD CASE\n{lines}") == []
 
 
 def test_a_type_that_is_nearly_a_known_one_is_told() -> None:

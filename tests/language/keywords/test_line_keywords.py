@@ -82,8 +82,14 @@ def test_paths() -> None:
             "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n 1, 2, 3, 4\n",
             "5:2 SYN003 0 to 3 fields expected (`[start] [, longest] [, end]`), found 4",
         ),
-        ("*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n ADDITIONAL= ,\n", "5:2 SYN003 ADDITIONAL= has no value"),
-        ("*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n", "4:10 SYN003 set is missing"),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n ADDITIONAL= ,\n",
+            "5:2 SYN003 ADDITIONAL= has no value",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n",
+            "4:10 SYN003 set is missing: expected a name",
+        ),
         (
             "*LINE PATH SECTIONS\n LINE=x\n SECTION=a, 0, 1, REPAT=g\n",
             "4:19 SYN004 REPAT= does not belong on this line (did you mean REPEAT?): expected SECTION=, REPEAT=",

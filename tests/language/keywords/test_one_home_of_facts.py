@@ -50,7 +50,7 @@ EXCEPTIONS = {
     "tools/reporting/content.py": "the title of a deck is that of its page",
     "tools/reporting/inputs.py": "the blocks that a checker asks for, in their order",
     "model/scene/sections.py": "curves of which it takes a slope",
-    "model/scene/rules/soil.py": "names the laws that it refuses beside a soil",
+    "model/scene/rules/extensions.py": "names the laws that it refuses beside a soil",
     "model/scene/rules/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "model/scene/context.py": "a lost line of lines defines a set, as it names one",
     "model/results/stage_times.py": "the blocks that give the stages of a plan, whose lines it shows",

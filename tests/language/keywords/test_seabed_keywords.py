@@ -115,7 +115,7 @@ def test_a_table_of_resistance_and_what_follows_it() -> None:
         (" MODEL=WALL\n 0, 0\n", "SYN001", "expected PEAK= before this line"),
         (" PEAK=TABEL\n", "SYN005", "expected a number or TABLE (did you mean TABLE?)"),
         (" MODEL=SLOPE\n", "SYN005", "expected PEAK or WALL"),
-        (" PEAK=TABLE\n 0, 0\n 1\n", "SYN014", "1 field, expected 2 (`offset, resistance`)"),
+        (" PEAK=TABLE\n 0, 0\n 1\n", "SYN014", "2 fields expected (`offset, resistance`), found 1"),
         (" PEAK=TABLE\n 0, 0\n 1, x\n", "SYN002", "for resistance"),
     ],
 )

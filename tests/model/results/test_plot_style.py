@@ -14,7 +14,7 @@ from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.plots import curves_figure, evaluation_figure, model_figure
 from mudline.model.results.plots.style import COLORS, SEABED, style_of
-from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.model import resolve
 from tests.helpers.samples import sample
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax import fields
@@ -91,7 +91,7 @@ def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str
     block = "".join(f"{text}\n" for text in (f"*{keyword}", *lines))
     found = opaque_set_names(deck_of(block))
     for name in (line, section, *more):
-        assert folded(bare(name)) in found
+        assert name_key(name) in found
         seabed = f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={data.draw(_CASES)(name)}\n STIFFNESS=1.0\n"
         assert reported(f"$MODEL\n{block}{seabed}") == []
 
@@ -116,7 +116,7 @@ _pieces = st.lists(
 @settings(max_examples=80)
 def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
     line = " " + line.replace("$", "").replace("*", "")
-    wanted = {folded(bare(name)) for name in _slowly(line)} - {""}
+    wanted = {name_key(name) for name in _slowly(line)} - {""}
     assert set(opaque_set_names(deck_of(f"*LINES\n{line}\n"))) == wanted
 
 

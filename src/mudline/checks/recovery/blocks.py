@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from mudline.language.deck.model import Deck, NamedPlace, Origin
+from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Span
 from mudline.language.keywords import catalogue
@@ -16,8 +17,8 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection
-from mudline.model.scene.names import CURVES
-from mudline.model.scene.sets import ALL, set_key
+from mudline.model.scene.references import CURVES
+from mudline.model.scene.sets import ALL
 
 ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 """The number at the begin of a row."""
@@ -174,9 +175,9 @@ class Blocks:
             defined = {ALL} if what is Names.SET else set[str]()
             found = [one for one in self._names if one.kind is what]
             models = (one for one in found if self.deck.sections[one.where.section].name == "MODEL")
-            defined |= {set_key(one.name) for one in models if one.role == "defines"}
+            defined |= {name_key(one.name) for one in models if one.role == "defines"}
             given = (one.name for one in found if one.role == "names")
-            self._missing[what] = list(dict.fromkeys(name for name in given if name and set_key(name) not in defined))
+            self._missing[what] = list(dict.fromkeys(name for name in given if name and name_key(name) not in defined))
         return self._missing[what]
 
     @cached_property
@@ -185,5 +186,5 @@ class Blocks:
         found: dict[str, list[Names]] = {}
         for kind in (Names.CURVE, *CURVES):
             for name in self.missing(kind):
-                found.setdefault(set_key(name), []).append(kind)
+                found.setdefault(name_key(name), []).append(kind)
         return found

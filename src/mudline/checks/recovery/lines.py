@@ -24,6 +24,7 @@ from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN013
 from mudline.language.codes.references import REF007
+from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import catalogue
@@ -38,8 +39,7 @@ from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Kind, RawBlock, parse
-from mudline.model.scene.names import CURVES, THINGS
-from mudline.model.scene.sets import set_key
+from mudline.model.scene.references import CURVES, THINGS
 
 LONGEST_PIECE = 600
 """Characters of a block that are read to see which keyword its lines belong to."""
@@ -216,7 +216,8 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
 def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines that a block can have, and that another keyword has, which its section or the deck lacks."""
     text = blocks.text
-    wrong = {blocks.block_at(start_of(text, one)).start for one in problems}
+    worse = (one for one in problems if one.weight is not Severity.INFO)
+    wrong = {blocks.block_at(start_of(text, one)).start for one in worse}
     for number, section in enumerate(text.tree.sections):
         present = {block.name for block in section.blocks}
         for index, block in enumerate(section.blocks):
@@ -241,7 +242,7 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     facts = read.model.facts if read else Facts()
     lacking = [keyword for keyword in facts.beside if facts.defines and keyword not in blocks.keywords]
     for name in _name_of_curve().finditer(unified, *whole(block)) if blocks.lacked_curves else ():
-        kinds = blocks.lacked_curves.get(set_key(name[1]), [])
+        kinds = blocks.lacked_curves.get(name_key(name[1]), [])
         if len(kinds) == 1 and block.name not in catalogue.definers(kinds[0]):
             yield Problem(SYN001, "", trimmed(unified, *name.span()))
             return

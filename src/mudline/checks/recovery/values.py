@@ -21,7 +21,7 @@ from mudline.checks.rules.style_lines import INDENTED_COMMENT
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF005, REF006, REF007, REF008
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.model import Block, Part, record_schema
@@ -30,12 +30,11 @@ from mudline.language.keywords.reader import schemas_of
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.rows import NUMBER
-from mudline.model.scene.force_curves import SceneCurve
-from mudline.model.scene.names import CURVES, THINGS, names_of, undefined
-from mudline.model.scene.references import used_names
+from mudline.model.scene.curves import SceneCurve
+from mudline.model.scene.references import CURVES, THINGS, names_of, undefined, used_names
+from mudline.model.scene.rules.fields import REF019
 from mudline.model.scene.rules.laws import REF002, undefined_curve
-from mudline.model.scene.rules.names import REF019
-from mudline.model.scene.sets import ALL, set_key
+from mudline.model.scene.sets import ALL
 
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
@@ -161,13 +160,13 @@ def _names(
     alike: dict[str, list[Problem]] = {}
     for problem in problems:
         if problem.weight is Severity.ERROR:
-            alike.setdefault(set_key(problem.lacks), []).append(problem)
+            alike.setdefault(name_key(problem.lacks), []).append(problem)
     text = context.text
     if not alike or text is None:
         return
     places: dict[str, list[Where]] = {}
     for where, name in used_names(context.deck, *kinds):
-        places.setdefault(set_key(name), []).append(where)
+        places.setdefault(name_key(name), []).append(where)
     for key, found in alike.items():
         near = meant_names(key, known, effort)
         if len(near) != 1:
@@ -187,7 +186,7 @@ def _own_name(context: LintContext, where: Where) -> str:
     """The folded name of what the record around a place defines, "" where it defines nothing."""
     record = context.scene.context.as_written(where._replace(path=where.path[:2]))
     names = (name for _, name in names_given(record, Names.SET, "defines")) if isinstance(record, Part) else ()
-    return set_key(next(iter(names), ""))
+    return name_key(next(iter(names), ""))
 
 
 def _numbers(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
@@ -243,7 +242,7 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
 
 def _unused_set(context: LintContext) -> list[str]:
     """The name of the only set that nothing uses."""
-    used = {set_key(name) for _, name in used_names(context.deck, Names.SET, Names.SUBSET)}
+    used = {name_key(name) for _, name in used_names(context.deck, Names.SET, Names.SUBSET)}
     named = context.scene.set_table.named
     sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
     return sets if len(sets) == 1 else []

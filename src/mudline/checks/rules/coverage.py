@@ -53,7 +53,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     count = len(scene.element_ids)
-    given = scene.deck.blocks_that(lambda declared: bool(declared.facts.gives))
+    given = scene.deck.blocks_with("gives")
     for keyword in dict.fromkeys(block.keyword for _, block in given):
         places = [(where, scene.set_table.find(entry.set_name)) for where, entry in _named(context, keyword)]
         known = [(where, set_) for where, set_ in places if set_ is not None and set_.elements.size]
@@ -163,7 +163,7 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     follows = any(is_of_vessels(context.deck, where) for where, _ in context.written(KEYWORD, "LOAD CASE"))
     held = list(held_nodes(scene)) if follows else []
-    for where, keyword, line in unread_lines(context.deck) if held else ():
+    for where, keyword, line in unread_lines(scene.context) if held else ():
         if keyword != KEYWORD or not is_of_vessels(context.deck, where):
             continue
         first, *others = read_line(line, Span(0, len(line))).groups[0].fields

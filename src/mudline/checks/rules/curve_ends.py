@@ -14,7 +14,7 @@ from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.model.curves import ForceCurve
-from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask, looked_up
 from mudline.model.scene.seabed import SeabedKind

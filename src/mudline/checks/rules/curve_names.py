@@ -21,12 +21,12 @@ from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.tree import Kind, Leaf
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.names import CURVES, repeated, unused
+from mudline.model.scene.references import CURVES, repeated, unused
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Variation
     from mudline.language.keywords.library.seabed_properties import SeabedProperties
-    from mudline.model.scene.force_curves import SceneCurve
+    from mudline.model.scene.curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 
@@ -111,7 +111,7 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # a set whose STIFFNESS= is not known
     if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
         return True  # a block of which no set is known
-    if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
+    if "SEABED PROPERTIES" in scene.context.misplaced or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read

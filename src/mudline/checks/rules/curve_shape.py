@@ -15,8 +15,7 @@ from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, 
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import line_spans, row_fields
-from mudline.model.scene.deck_curves import other_curves
-from mudline.model.scene.force_curves import SceneCurve, clashes_and_repeats
+from mudline.model.scene.curves import SceneCurve, clashes_and_repeats, other_curves
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 

@@ -13,7 +13,7 @@ from mudline.checks.context import Found, Joined, LintContext, entries_of_sets, 
 from mudline.checks.rules.coordinates import UNT006
 from mudline.checks.rules.unusual import UNT004, UNT005
 from mudline.language.deck.model import Opaque
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.naming import names_given
@@ -25,7 +25,6 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.rules.fields import GEO001
 from mudline.model.scene.sections import Section, format_of
-from mudline.model.scene.sets import set_key
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.geometric_sets import GeometricSet
@@ -230,7 +229,7 @@ def _lengths_fit(values: Sequence[object], columns: Sequence[FieldSpec], most: f
 def without_sections(scene: Scene) -> Mask:
     """Elements that take no section: springs, hinges and flex joints, by their numbers or sets."""
     found = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, block in scene.deck.blocks_that(lambda declared: declared.facts.zero_length):
+    for _, block in scene.deck.blocks_with("zero_length"):
         found |= np.isin(scene.element_ids, list(_numbers(block)))
         for _, name in names_given(block, Names.SET):
             if set_ := scene.set_table.find(name):
@@ -262,7 +261,7 @@ def _repeated(sections: Iterable[Section]) -> list[Section]:
     known: set[str] = set()
     found: list[Section] = []
     for section in sections:
-        name = set_key(section.name)
+        name = name_key(section.name)
         if name in known:
             found.append(section)
         known.add(name)

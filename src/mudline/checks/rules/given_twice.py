@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.geometry import GEO006
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block, FieldSpec, Path
@@ -47,7 +47,7 @@ def given_twice(context: LintContext) -> Iterator[Problem]:
             seen.add(block.keyword)
             for path, slot, value in block.walk(_is_unique):
                 known = is_name(value) or (isinstance(value, int | float) and math.isfinite(value))
-                key = (block.keyword, *_list_of(path, j), slot.name, folded(bare(str(value))))
+                key = (block.keyword, *_list_of(path, j), slot.name, name_key(str(value)))
                 if known and value != "" and key in seen:
                     yield Problem(REF022, _words(slot, value, block), where=Where(i, j, path))
                 seen.add(key)

@@ -46,8 +46,8 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    found = context.deck.blocks_that(lambda declared: declared.subject == "seabed" and declared.facts.superseded_by)
-    for number, (where, block) in enumerate(found):
+    found = context.deck.blocks_with("superseded_by")
+    for number, (where, block) in enumerate(one for one in found if one[1].subject == "seabed"):
         newer = " and ".join(map(str, block.facts.superseded_by))
         message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
         yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))

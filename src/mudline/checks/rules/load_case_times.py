@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown
@@ -203,7 +203,7 @@ def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
         for index, drift in enumerate(cast("Drift", block).drifts):
             if not drift.vessel or not drift.type_:
                 continue
-            kind = kinds.setdefault(folded(bare(drift.vessel)), drift.type_)
+            kind = kinds.setdefault(name_key(drift.vessel), drift.type_)
             if kind != drift.type_:
                 message = f"vessel {shown(drift.vessel)} has a drift of TYPE={kind} above: give it one kind"
                 yield Problem(VES001, message, where=where.inside("drifts", index, "type"))

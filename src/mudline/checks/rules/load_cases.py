@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
-from mudline.model.scene.sets import set_key
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import AnalysisType
@@ -85,14 +85,14 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     """
     if not _analysis(context) & {*_DYNAMIC} or not _has_waves(context):
         return
-    moving = context.scene.deck.blocks_that(lambda declared: declared.facts.moves_vessels, "LOAD CASE")
-    moved = {set_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
+    moving = context.scene.deck.blocks_with("moves_vessels", "LOAD CASE")
+    moved = {name_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
     for keyword in catalogue.definers(Names.VESSEL):
         for where, block in context.blocks(keyword):
             for index, vessel in enumerate(cast("Vessels | IntegratedVessels", block).vessels):
                 place = where.inside("vessels", index)
                 name = str(getattr(vessel, "vessel", None) or "")
-                still = name and set_key(name) not in moved and not getattr(vessel, "rao", None)
+                still = name and name_key(name) not in moved and not getattr(vessel, "rao", None)
                 if still and not getattr(vessel, "unread", None):
                     message = (
                         f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in "

@@ -23,7 +23,7 @@ from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats
-from mudline.model.scene.sections import surroundings, weights
+from mudline.model.scene.sections import weights
 
 _STEEL_E = YOUNG[1]
 _STEEL_DENSITY = WALL[2]
@@ -96,13 +96,13 @@ class Numbers:
     @property
     def water(self) -> float:
         """Density of the water; that of sea water where the deck's may not be one."""
-        density = surroundings(self.context.scene.deck).density * self.units.size("M/L3")
+        density = self.context.scene.surroundings.density * self.units.size("M/L3")
         return density if not self.units.known or 900.0 <= density <= 2500.0 else _SEA_WATER
 
     @property
     def depth(self) -> float:
         """Depth of the water; NaN where it is not known."""
-        return surroundings(self.context.scene.deck).depth * self.units.size("L") if self.deep else math.nan
+        return self.context.scene.surroundings.depth * self.units.size("L") if self.deep else math.nan
 
     @property
     def density(self) -> float:
@@ -204,7 +204,7 @@ def _long_heave(of: Numbers, name: str, value: float) -> float:
 
 def _steepness(of: Numbers, height: float) -> float:
     """Height over length in deep water, of the peak period of a sea; NaN where gravity is not known."""
-    gravity = surroundings(of.context.scene.deck).gravity * of.units.size("L/T2")
+    gravity = of.context.scene.surroundings.gravity * of.units.size("L/T2")
     gravity = 9.81 if of.units.known and not 9.0 < gravity < 11.0 else gravity
     period = of("period") * (_PEAK_PERIOD if getattr(of.holder, "spec", None) == "HSTZ" else 1.0)
     return over(2.0 * math.pi * height, gravity * period * period)
@@ -248,7 +248,7 @@ def _laid(context: LintContext) -> _Laid:
 
     The weight is the submerged one, or what a pipe that floats has with its contents: a share of that in air.
     """
-    laws, table, around = context.scene.laws, context.scene.section_table, surroundings(context.scene.deck)
+    laws, table, around = context.scene.laws, context.scene.section_table, context.scene.surroundings
     weight, width = [math.nan] * len(laws.set_laws), [math.nan] * len(laws.set_laws)
     held = np.zeros((len(laws.set_laws) + 1, len(table.sections) + 1), dtype=np.bool_)
     if held.size <= _MOST_PAIRS:

@@ -72,13 +72,14 @@ def lacks(context: LintContext, *gifts: Gift) -> bool:
 
 def _unread_give(context: LintContext, *gifts: Gift) -> bool:
     """Whether a line that is not read may give a model something of some kinds."""
+    return any(may_give(*one, gift) for one in context.once(_not_read) for gift in gifts)
+
+
+def _not_read(context: LintContext) -> list[tuple[str, str]]:
+    """The blocks of which lines are not read: keyword and section."""
     sections = context.scene.deck.sections
-    unread = (
-        (block.keyword, sections[where.section].name)
-        for where, block in _blocks(context)
-        if type(block) is Opaque or kept_lines(block)
-    )
-    return any(may_give(*one, gift) for one in unread for gift in gifts)
+    blocks = [(where, block) for where, block in _blocks(context) if type(block) is Opaque or kept_lines(block)]
+    return [(block.keyword, sections[where.section].name) for where, block in blocks]
 
 
 @rule(GEO015)
@@ -112,7 +113,7 @@ def no_elements(context: LintContext) -> Iterator[Problem]:
     reading = scene.context
     if len(scene.element_ids) or not shown.issuperset(_PARTS) or reading.external_definers or reading.restart:
         return
-    if models and not reading.unread and not reading.misplaced_keywords and not _unread_give(context, "elements"):
+    if models and not reading.unread and not reading.misplaced and not _unread_give(context, "elements"):
         yield Problem(
             GEO015, "no elements, so there is no contact to check: add *ELEMENT or *LINES", where=Where(models[0], -1)
         )

@@ -16,7 +16,7 @@ from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, blocks_of
-from mudline.model.scene.survey import survey_of
+from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import FLAT, NEAR
 
 HIGHEST = 100.0

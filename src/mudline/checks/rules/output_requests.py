@@ -59,7 +59,7 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
 
 def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
     """The texts that begin lines of postprocessing which are not read, where no setting stands before them."""
-    for where, _, line in unread_lines(context.deck):
+    for where, _, line in unread_lines(context.scene.context):
         if context.deck.sections[where.section].name.endswith(_REQUESTS):
             first = read_line(line, Span(0, len(line))).groups[0]
             if not first.key and first.fields[0].text[:1].isalpha():

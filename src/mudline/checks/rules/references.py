@@ -15,7 +15,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown, known_name
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import TextEdit, with_line_ends
-from mudline.model.scene.names import THINGS, repeated
+from mudline.model.scene.references import THINGS, repeated
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 
 if TYPE_CHECKING:

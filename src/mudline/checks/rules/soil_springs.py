@@ -87,7 +87,7 @@ def soil_gains_again(context: LintContext) -> Iterator[Problem]:
 
 def _springs(context: LintContext) -> Iterator[tuple[Where, list[Any]]]:
     """Return the curves of each set of soil springs, and their place."""
-    for where, block in context.scene.deck.blocks_that(lambda declared: declared.facts.soil_springs):
+    for where, block in context.scene.deck.blocks_with("soil_springs"):
         for index, entry in enumerate(block.sets):
             yield where.inside("sets", index, "curves"), entry.curves
 

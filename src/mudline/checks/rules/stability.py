@@ -15,8 +15,8 @@ from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.force_curves import SceneCurve
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 

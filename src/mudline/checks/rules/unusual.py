@@ -102,10 +102,8 @@ class Judged(NamedTuple):
 @cache
 def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, ...]]:
     """The fields of a part that have usual values, and those that hold tables or parts with such fields."""
-    slots = [
-        slot for slot in record_schema(part).slots if slot.about.usuals or any(any(_judged(one)) for one in slot.parts)
-    ]
-    own = tuple(slot for slot in slots if slot.about.usuals and not isinstance(slot.about, Rows))
+    slots = [slot for slot in record_schema(part).slots if slot.usuals or any(any(_judged(one)) for one in slot.parts)]
+    own = tuple(slot for slot in slots if slot.usuals and not isinstance(slot.about, Rows))
     return own, tuple(slot for slot in slots if slot.parts)
 
 
@@ -123,7 +121,7 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
     if not (given or outer):
         return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    yield from _of_row([one for slot, value in given for one in _compared(of, slot, value, where.inside(slot.json))])
+    yield from _of_row([one for slot, value in given for one in _compared(of, slot, value, slot.json)])
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
@@ -143,7 +141,7 @@ def _ranges(part: type[Part], units: Units) -> list[tuple[FieldSpec, float, floa
     """
     found = []
     for slot in _judged(part)[0]:
-        usuals, size = slot.about.usuals, units.size(slot.about.unit)
+        usuals, size = slot.usuals, units.size(slot.about.unit)
         low, high = max(usual.low for usual in usuals), min(usual.high for usual in usuals)
         plain = not any(usual.of for usual in usuals)
         found.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
@@ -169,29 +167,30 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
     columns = record_schema(cast("type[Part]", slot.row)).columns
     names = [column.name for column in columns]
     for index, column in enumerate(columns):
-        if not column.about.usuals:
+        if not column.usuals:
             continue
         values = table.column(index)
         limits = np.fmin.reduce(values, initial=0.0), np.fmax.reduce(values, initial=0.0)
         low, high = (float(limit) * of.units.size(column.about.unit) for limit in limits)
-        if all(not usual.of and usual.low <= low and high <= usual.high for usual in column.about.usuals):
+        if all(not usual.of and usual.low <= low and high <= usual.high for usual in column.usuals):
             continue
         for at, value in enumerate(values.tolist()):
             cells = SimpleNamespace(**dict(zip(names, table.values[at].tolist(), strict=False)))
             row = replace(of, part=cells, holder=of.part, columns=columns)
-            if found := _compared(row, column, value, of.where.inside(slot.json, at, index)):
+            if found := _compared(row, column, value, slot.json, at, index):
                 yield from found
                 return
-    yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan, of.where)
+    yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan)
 
 
 # ----------------------------------------------------------------------------------------------------------- judgement
 
 
-def _compared(of: Numbers, slot: FieldSpec, value: float, where: Where) -> list[Judged]:
+def _compared(of: Numbers, slot: FieldSpec, value: float, *path: str | int) -> list[Judged]:
     """The finding about a value (as the deck has it), for the first of its ranges that it is outside of; or none."""
-    for usual in slot.about.usuals if not slot.about.fault(value) else ():
-        if _is_unusual(of, slot, usual, value):
+    for usual in slot.usuals:
+        if _is_unusual(of, slot, usual, value) and not slot.about.fault(value):
+            where = of.where.inside(*path)
             code = UNT008 if usual.remark else CODES[usual.code]
             advice, explains = _advice(of, slot, usual, value, where)
             problem = Problem(code, f"{_seen(of, slot, usual, value)}: {advice}", where=where)
@@ -209,7 +208,7 @@ def _quantity(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> float
 def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
     """Whether a value (as the deck has it) is outside of a range that holds for it."""
     unit = slot.about.unit
-    if (value == 0.0 and usual.of[:1] in ("", "/")) or not (usual.of or of.units.compares(unit)):
+    if (value == 0.0 and usual.of[:1] in ("", "/")) or not (usual.of or of.units.known or of.units.compares(unit)):
         return False
     if (usual.when and not CONDITIONS[usual.when](of)) or usual.holds(
         _quantity(of, slot, usual, value * of.units.size(unit))
@@ -329,7 +328,7 @@ def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float]
     sized = {one.name: value * of.units.size(one.about.unit) for one, value in zip(fields, values, strict=True)}
     other = of.having(sized)
     return not any(
-        one.about.fault(value) or any(_is_unusual(other, one, usual, value) for usual in one.about.usuals)
+        one.about.fault(value) or any(_is_unusual(other, one, usual, value) for usual in one.usuals)
         for one, value in zip(fields, values, strict=True)
         if one in asked
     )

@@ -52,7 +52,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     if stray := list(_stray_laws(context)):
         yield from stray
         return
-    if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
+    if reading.restart or any(map(is_superseded, reading.misplaced)) or "SEABED PROPERTIES" in reading.misplaced:
         return
     if "SEABED CONTACT" in context.keywords:
         return  # it may hold the pipe

@@ -19,7 +19,7 @@ from mudline.language.keywords.model import Record
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Label
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import SetLaw
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Numbered

@@ -17,7 +17,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.model import FieldSpec, Path, Record, Row, record_schema
-from mudline.language.keywords.places import Places
+from mudline.language.keywords.parsed import Places
 from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind as FieldKind

@@ -42,7 +42,7 @@ def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     """The legacy surfaces of a deck, in the order of the file."""
-    return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
+    return deck.blocks_with("seabed_type")
 
 
 def misspelt(deck: Deck) -> Iterator[Problem]:
@@ -81,10 +81,10 @@ def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
 
     Those of the seabed do, and those for want of which an error is a warning.
     """
-    for keyword in filter(None, scene.context.misplaced_keywords):
+    for keyword in filter(None, scene.context.misplaced):
         depend = sorted({found.code.code for found in scene.findings if found.maybe_defined_by == keyword})
         if depend or is_superseded(keyword) or supersedes(keyword):
-            words, where = scene.context.misplaced_place(keyword)
+            words, where = scene.context.misplaced[keyword]
             codes = f" ({', '.join(depend)})" if depend else ""
             yield _refusal(_MISSPELT.format(words, keyword, codes), where)
 

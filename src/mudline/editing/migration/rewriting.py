@@ -12,7 +12,7 @@ import numpy as np
 
 from mudline.editing.migration.refusals import surfaces
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.keywords.library.seabed_curves import Embedment
@@ -26,7 +26,7 @@ from mudline.language.syntax.tree import Kind, RawBlock
 from mudline.model.scene.laws import DIRECTIONS
 from mudline.model.scene.model import Scene
 from mudline.model.scene.representatives import shows_elements
-from mudline.model.scene.sets import ALL, set_key
+from mudline.model.scene.sets import ALL
 
 _UNSAFE = re.compile(r"[^\w.-]+")
 _FRICTION = ("longitudinal", "transverse", "longitudinal_mobilisation", "transverse_mobilisation", "constant")
@@ -57,7 +57,7 @@ def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     legacy = [(i, law) for i, law in enumerate(scene.laws.set_laws) if law.family == "legacy" and law.curve >= 0]
     followed = set(np.unique(scene.laws.of_element).tolist())
     for index, law in reversed(legacy):
-        key = set_key(law.set_.name)
+        key = name_key(law.set_.name)
         unheld = shown and not law.set_.open and index not in followed
         if key in later or ALL in later or unheld:
             unused.add(law.where)

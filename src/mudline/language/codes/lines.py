@@ -50,7 +50,8 @@ SYN005 = Code(
     The setting takes one of a few words, and this is none of them.
 
     A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
-    words and suggests the nearest. Upper or lower case does not matter.
+    words and suggests the nearest. Upper or lower case does not matter. Some settings take more words than public pages
+    show: another one is an info where the lines behind it are passed through unchanged.
 
     Example on seabed:
         - TYPE=ELSTIC

@@ -12,9 +12,9 @@ from pydantic import BaseModel
 from mudline.language.codes.fields import SYN002
 from mudline.language.codes.references import REF007
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import DEFINING, NoValueError, Parameters, Value, bare, folded
+from mudline.language.deck.parameters import DEFINING, NoValueError, Parameters, Value, bare, name_key
 from mudline.language.diagnostics import Blocks, Problem, Where
-from mudline.language.keywords.model import FieldSpec, ListRow, Part, record_schema
+from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import UNKNOWN
@@ -39,7 +39,7 @@ def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> La
             number = parameters.number(getattr(line.element if kind is Names.ELEMENT else line.node, "number", None))
             if number is None or not number.is_integer() or not line.label:
                 continue
-            name = folded(bare(line.label))
+            name = name_key(line.label)
             if found.setdefault((kind, name), int(number)) != int(number) and where.section < own:
                 thing = kind.name.lower()
                 message = (
@@ -59,7 +59,7 @@ def labels_given(deck: Deck, kind: Names) -> dict[str, str]:
         for line in cast("Labels", block).labels:
             thing = line.thing or thing
             if thing == kind.name and line.label:
-                found.setdefault(folded(bare(line.label)), bare(line.label))
+                found.setdefault(name_key(line.label), bare(line.label))
     return found
 
 
@@ -156,7 +156,7 @@ class _Evaluator:
         kind: type[Part] = type(part)
         for slot in record_schema(kind).slots:
             value = getattr(part, slot.name)
-            inner = where._replace(path=(*where.path, slot.json))
+            inner = where._replace(path=(*where.path, slot.order if slot.of_list else slot.json))
             new = self._value(value, slot, inner)
             if new is not value:
                 changed[slot.name] = new
@@ -169,8 +169,6 @@ class _Evaluator:
             return self._labelled(value, slot)
         if isinstance(value, Table):
             return self._table(value, slot, where) if value.equations or (self.labels and value.words) else value
-        if isinstance(value, ListRow):
-            return self._list_row(value, where)
         if isinstance(value, Part):
             return self.part(value, where)
         if isinstance(value, list) and value and isinstance(value[0], Part):
@@ -184,19 +182,7 @@ class _Evaluator:
         """The number of a label that `*LABEL` gives; any other value stays."""
         if not isinstance(value, Label):
             return value
-        return self.labels.get((slot.about.names or slot.about.defines, folded(bare(value))), value)
-
-    def _list_row(self, row: ListRow, where: Where) -> ListRow:
-        """Its fields have the index as path, as JSON holds them in a list."""
-        changed: dict[str, object] = {}
-        for index, slot in enumerate(record_schema(type(row)).columns):
-            value = getattr(row, slot.name)
-            if isinstance(value, Equation):
-                place = where._replace(path=(*where.path, index))
-                changed[slot.name] = self._number(value, slot.kind or Kind.REAL, slot.label, place)
-            elif isinstance(value, Label):
-                changed[slot.name] = self._labelled(value, slot)
-        return row.model_copy(update=changed) if changed else row
+        return self.labels.get((slot.about.names or slot.about.defines, name_key(value)), value)
 
     def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
         """The value of an equation."""

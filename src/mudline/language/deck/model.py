@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import NoneType
 from typing import Any, NamedTuple, Self
 
-from mudline.basics.arguments import expect
+from mudline.basics.arguments import expect, expect_fields
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.quantities import checked_units
 from mudline.basics.short_repr import counted, cut, listed, outline, short_repr
@@ -26,8 +26,9 @@ from mudline.language.diagnostics import (
     Where,
 )
 from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import Block, Part, record_schema
-from mudline.language.keywords.naming import Role, all_names_given
+from mudline.language.keywords.naming import Role, all_names_given, gives_names
 from mudline.language.keywords.values import Names, Text
 
 
@@ -70,9 +71,10 @@ _INTERNAL = frozenset(
         "alone",
         "base_of",
         "bases",
-        "blocks_that",
+        "blocks_with",
         "diagnose",
         "errors",
+        "every_block",
         "folder_of",
         "incomplete",
         "lost",
@@ -121,6 +123,17 @@ class Origin:
         return True
 
 
+_KINDS: dict[str, tuple[Any, str]] = {
+    **dict.fromkeys(("file", "source"), (str, "a str")),
+    **dict.fromkeys(("preamble", "sections", "comments", "problems"), (list, "a list")),
+    "origin": (Origin, "an Origin"),
+    "folder": ((Path, NoneType), "a Path or None"),
+    "bases": (tuple, "a tuple"),
+    "incomplete": (bool, "True or False"),
+}
+"""The fields of a deck by what they hold."""
+
+
 @dataclass(repr=False)
 class Deck:
     """A deck: its sections and blocks as validated models, equations as written.
@@ -156,15 +169,8 @@ class Deck:
 
     def __post_init__(self) -> None:
         """Raise ValueError for what a caller of `mudline.Deck` gave in the place of a text or a list."""
-        for name in ("file", "source"):
-            expect(getattr(self, name), name, str, "a str")
+        expect_fields(self, _KINDS)
         checked_units(self.units)
-        for name in ("preamble", "sections", "comments", "problems"):
-            expect(getattr(self, name), name, list, "a list")
-        expect(self.origin, "origin", Origin, "an Origin")
-        expect(self.folder, "folder", (Path, NoneType), "a Path or None")
-        expect(self.bases, "bases", tuple, "a tuple")
-        expect(self.incomplete, "incomplete", bool, "True or False")
 
     def __repr__(self) -> str:
         blocks = sum(len(section.blocks) for section in self.sections)
@@ -248,14 +254,15 @@ class Deck:
                     if block.keyword == keyword and type(block) is not Opaque:
                         yield Where(index, number), block
 
-    def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks whose declaration has a fact, in the order of `blocks`."""
-        for index, found in self._in_order():
-            if found.name == section:
-                for number, block in enumerate(found.blocks):
-                    declared: type[Any] = type(block)
-                    if declared is not Opaque and fact(declared):
-                        yield Where(index, number), block
+    def blocks_with(self, fact: str, section: str = "MODEL") -> list[tuple[Where, Any]]:
+        """The modelled blocks whose declaration has one of its `Facts`, in the order of `blocks`."""
+        return [
+            (Where(index, number), block)
+            for index, found in self._in_order()
+            if found.name == section
+            for number, block in enumerate(found.blocks)
+            if type(block) is not Opaque and getattr(block.facts, fact)  # type: ignore[union-attr]  # as above
+        ]
 
     def _in_order(self) -> Iterable[tuple[int, Section]]:
         """The sections with their numbers: those of the decks that it continues first."""
@@ -265,15 +272,23 @@ class Deck:
         own = len(self.own_sections)
         return sorted(numbered, key=lambda placed: placed[0] < own)
 
+    def every_block(self) -> list[tuple[Where, str, Block | Opaque]]:
+        """The blocks of all sections in their order, read or not: their place, the name of their section, the block."""
+        return [
+            (Where(i, j), section.name, block)
+            for i, section in enumerate(self.sections)
+            for j, block in enumerate(section.blocks)
+        ]
+
     def names(self) -> list[NamedPlace]:
         """Return every name that the fields of the deck give, in its order, whether it is used or defined there.
 
         Numbers and labels of nodes and elements are no names.
         """
         return [
-            NamedPlace(kind, role, name, Where(i, j, path))
-            for i, section in enumerate(self.sections)
-            for j, block in enumerate(section.blocks)
+            NamedPlace(kind, role, name, where._replace(path=path))
+            for where, _, block in self.every_block()
+            if gives_names(type(block))
             for kind, role, name, path in all_names_given(block)
         ]
 
@@ -299,6 +314,11 @@ class Deck:
     def errors(self) -> list[Problem]:
         """What could not be read."""
         return [problem for problem in self.problems if problem.weight is Severity.ERROR]
+
+
+def raw_lines(block: Block | Opaque) -> list[str]:
+    """The lines of a block that are passed through: those that its model keeps, of a block without one all."""
+    return block.lines if isinstance(block, Opaque) else kept_lines(block)
 
 
 def comment_texts(deck: Deck) -> Iterator[str]:

@@ -43,6 +43,11 @@ def bare(name: str) -> str:
     return text
 
 
+def name_key(name: str) -> str:
+    """A name of a thing as such names compare: without case, blanks, quotes and braces."""
+    return bare(name).casefold()
+
+
 class ListItem(NamedTuple):
     """An item of a list: the name of its parameter, its value as written, and where that begins in the list."""
 

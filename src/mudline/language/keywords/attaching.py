@@ -25,11 +25,8 @@ class Between(NamedTuple):
     kept: bool = False
 
 
-class _Held(NamedTuple):
-    """What a record holds before the item of an index."""
-
-    before: int
-    line: Between
+_Held = tuple[int, Between]
+"""A line that a record holds, behind the index of the item that it stands before."""
 
 
 def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRecord) -> list[str]:
@@ -42,7 +39,7 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
     whole = _Places(block)
     held: dict[int, tuple[ParsedRecord, list[_Held]]] = {}
     for line in sorted(kept):
-        path = whole.begun(line.position)
+        path = whole.path(line.position, within=False)
         while len(path) > 1 and "unread" not in path[-1].record.part.model_fields:
             path.pop()
         _hold(held, path[-1], line)
@@ -50,7 +47,7 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
             places.record.reach(line.position)
     for comment in comments:
         if block.last is not None and comment.position < block.last:
-            _hold(held, whole.owner(comment.position), comment)
+            _hold(held, whole.path(comment.position, within=True)[-1], comment)
         else:
             trailing.append(comment.text)
     for record, lines in held.values():  # a setting may be read in another place than it is written back to
@@ -60,7 +57,7 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
 
 def _hold(held: dict[int, tuple[ParsedRecord, list[_Held]]], places: _Places, line: Between) -> None:
     record = places.record
-    held.setdefault(id(record), (record, []))[1].append(_Held(places.index(line.position), line))
+    held.setdefault(id(record), (record, []))[1].append((places.index(line.position), line))
 
 
 def _write(record: ParsedRecord, lines: list[_Held]) -> None:
@@ -89,36 +86,20 @@ class _Places:
         self.inner: dict[int, _Places] = {}
         self.items = sorted(record.items, key=attrgetter("position"))
         self.positions = [item.position for item in self.items]
-        self.count, self.before = self._counts()
+        self.count = 0
+        self.before: dict[tuple[int, int], int] = {}
+        for item in sorted(record.items, key=attrgetter("order", "position")):
+            self.before.setdefault((item.order, item.position), self.count)
+            self.count += item.size
 
-    def _counts(self) -> tuple[int, dict[tuple[int, int], int]]:
-        """The number of items, and how many are written before those of an order and position."""
-        before: dict[tuple[int, int], int] = {}
-        count = 0
-        for item in sorted(self.record.items, key=attrgetter("order", "position")):
-            before.setdefault((item.order, item.position), count)
-            count += item.size
-        return count, before
-
-    def begun(self, position: int) -> list[_Places]:
-        """Those of the records around a position, and of those that end before it, from this one to the innermost."""
+    def path(self, position: int, *, within: bool) -> list[_Places]:
+        """Those of the records that begin before a position (`within`: and end behind it), from this one inwards."""
         at = bisect_left(self.starts, position) - 1
-        return [self] if at < 0 else [self, *self._inner(at).begun(position)]
-
-    def owner(self, position: int) -> _Places:
-        """Those of the innermost record that has lines on both sides of a position."""
-        at = bisect_left(self.starts, position) - 1
-        if at < 0:
-            return self
-        last = self.within[at].last
-        if last is None or last <= position:
-            return self
-        return self._inner(at).owner(position)
-
-    def _inner(self, at: int) -> _Places:
+        if at < 0 or (within and (self.within[at].last or 0) <= position):
+            return [self]
         if at not in self.inner:
             self.inner[at] = _Places(self.within[at])
-        return self.inner[at]
+        return [self, *self.inner[at].path(position, within=within)]
 
     def index(self, position: int) -> int:
         """Index, in the order in which the record is written, of the first item behind a position, or their number."""
@@ -167,11 +148,15 @@ def _may_be(problem: Problem, text: str, content: Content) -> bool:
 
 
 def doubtful(problems: Sequence[Problem]) -> list[Problem]:
-    """The words that may be misspelt in lines which are kept, as warnings."""
-    near = [problem for problem in problems if problem.code in (SYN004, SYN005) and problem.repair]
+    """The words that are not known in lines which are kept: as warnings those that may be misspelt, others as infos."""
     return [
         problem
         if problem.weight is not Severity.ERROR
-        else replace(problem, message=problem.message + _KEPT, severity=Severity.WARNING)
-        for problem in near
+        else replace(
+            problem,
+            message=problem.message + _KEPT,
+            severity=Severity.WARNING if problem.repair else Severity.INFO,
+        )
+        for problem in problems
+        if problem.code is SYN005 or (problem.code is SYN004 and problem.repair)
     ]

@@ -7,15 +7,17 @@ from typing import cast
 
 from lark import Tree
 
+from mudline.basics.limits import MOST_REPORTED
+from mudline.basics.short_repr import counted
 from mudline.basics.spelling import nearest
-from mudline.language.codes.fields import SYN003
+from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN014
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords.grammar import ROW, Content, Node
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
 from mudline.language.keywords.numbers import cut_number
 from mudline.language.keywords.parsed import Item, ParsedRecord, TableBuilder, Written
-from mudline.language.keywords.table import fewest_fields, row_format
+from mudline.language.keywords.table import Table, fewest_fields, row_format
 from mudline.language.keywords.text import (
     MIXED_FIELDS,
     UnreadableError,
@@ -29,9 +31,9 @@ from mudline.language.keywords.text import (
     semicolons,
 )
 from mudline.language.keywords.unknown import UNKNOWN, Partly
-from mudline.language.keywords.values import Kind, Names
+from mudline.language.keywords.values import Kind, Label, Names
 from mudline.language.syntax.fields import Field, Group, read_line, split, trimmed
-from mudline.language.syntax.rows import blank_separated
+from mudline.language.syntax.rows import blank_separated, row_starts
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
@@ -70,7 +72,7 @@ class Builder:
             else:
                 self._settings(built, child)
         if found.table and found.table.required:
-            built.tables.setdefault(found.table.json, TableBuilder(self, found.table))
+            built.tables.setdefault(found.table.json, TableBuilder(found.table.columns))
         for name, table in built.tables.items():
             built.values[name] = table.finish()
         return built
@@ -233,14 +235,34 @@ class Builder:
             fields, behind = self._cut(built, content.span, keys=bool(found.keys))
             slot = self._slot_of_row(built, number, len(fields), last)
         if slot is found.table:
-            table = built.tables.setdefault(slot.json, TableBuilder(self, slot))
-            count = table.add(content.span)
+            builder = built.tables.setdefault(slot.json, TableBuilder(slot.columns))
+            table, faulty = builder.add(self.text, content.span)
+            count = len(table)
+            if faulty:
+                self._faulty_rows(built, slot, content.span, table, faulty)
         else:
             self._fill(built, slot, fields, trimmed(self.text, *content.span))
         if behind:
             self._groups(built, behind)
         built.items.append(Item(slot.order, start, count))
         built.reach(start)
+
+    def _faulty_rows(self, built: ParsedRecord, slot: FieldSpec, run: Span, table: Table, rows: list[int]) -> None:
+        """Report the faults of some rows of a table; labels whose braces were forgotten are put in."""
+        columns = record_schema(cast("type[Part]", slot.row)).columns
+        starts = row_starts(self.text, run)
+        for number, row in enumerate(rows):
+            end = self.text.find("\n", starts[row], run.end)
+            line = Span(starts[row], run.end if end < 0 else end)
+            if number == MOST_REPORTED:
+                self.report(SYN002, f"{counted(len(rows) - number, 'more faulty row')} in this table", line)
+                break
+            before = len(self.problems)
+            values, _ = self._fields(columns, self._cut(built, line, keys=False)[0], line)
+            if any(one.code not in (SYN002, SYN016) for one in self.problems[before : before + 1]):
+                del self.problems[before + 1 :]  # of a row that is cut wrongly nothing more is said
+            labels = ((at, value) for at, value in enumerate(values.values()) if isinstance(value, Label))
+            table.words.update(((row, at), label) for at, label in labels)
 
     def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[Group]]:
         """Return the fields of a row, and the settings behind them on the line of a record that has `keys`."""
@@ -318,7 +340,8 @@ class Builder:
         for slot, given in zip(columns, fields, strict=False):
             if not given.text:
                 if slot.required and not miscounted:
-                    self.short(f"{slot.label} is missing", given.span)
+                    expected = f": expected {slot.kind.value}" if slot.kind else ""
+                    self.short(f"{slot.label} is missing{expected}", given.span)
                 values[slot.json] = UNKNOWN if slot.required else None
                 continue
             try:

@@ -54,6 +54,7 @@ def can_keep(part: type[Part]) -> bool:
     return any(map(_is_open, fields_of(part))) or keeps_lines(part)
 
 
+@cache
 def keeps_lines(part: type[Part]) -> bool:
     """Return True if a part, or one inside it, can keep lines."""
     return "unread" in part.model_fields or any(_holds_keepers(slot) for slot in record_schema(part).slots)
@@ -69,11 +70,13 @@ def _holds_keepers(slot: FieldSpec) -> bool:
 
 def kept_lines(part: Part) -> list[str]:
     """Return the lines that a part and those inside it keep."""
-    return [line for _, line in kept_places(part)]
+    return [line for _, line in kept_places(part)] if keeps_lines(type(part)) else []
 
 
 def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
     """Yield the lines that a part and those inside it keep, with their paths."""
+    if not keeps_lines(type(part)):
+        return
     inner = ((path, one) for path, _, one in part.walk(_holds_keepers) if isinstance(one, Part))
     for path, keeper in chain([((), part)], inner):
         for number, line in enumerate(getattr(keeper, "unread", ())):

@@ -46,6 +46,7 @@ from mudline.language.keywords.table import (
     row_format,
 )
 from mudline.language.keywords.unknown import is_unknown
+from mudline.language.keywords.usual import Usual
 from mudline.language.keywords.values import Facts, Kind, Subject
 
 FEWEST_POINTS = 2
@@ -304,6 +305,7 @@ class FieldSpec:
     required: bool
     many: bool
     order: int
+    usuals: tuple[Usual, ...]
     of_list: bool = False
 
     @property
@@ -381,6 +383,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
             required=info.is_required(),
             many=is_list(info.annotation),
             order=order,
+            usuals=meta.usuals if meta else (),
             of_list=issubclass(part, ListRow),
         )
         found.slots.append(slot)

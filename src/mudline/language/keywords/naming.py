@@ -46,6 +46,12 @@ class NameGiven(NamedTuple):
     path: Path
 
 
+@cache
+def gives_names(part: type[Part]) -> bool:
+    """Return True if a part, or one inside it, has fields for names."""
+    return any(map(_holds_name, fields_of(part)))
+
+
 def all_names_given(part: Part) -> list[NameGiven]:
     """Return every name that a part gives by a text; numbers and labels of nodes and elements are no names."""
     return [

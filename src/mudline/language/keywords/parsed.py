@@ -1,61 +1,45 @@
-"""Records as the Builder leaves them: plain values, and what is needed to find their places among the lines."""
+"""Records as the Builder leaves them: plain values, and where these stand, which is found when somebody asks."""
 
 from __future__ import annotations
 
+from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import chain
-from typing import Any, NamedTuple, Protocol
+from operator import itemgetter
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.basics.limits import MOST_REPORTED
-from mudline.language.codes.fields import SYN002, SYN003, SYN016
-from mudline.language.diagnostics import Problem, Span
-from mudline.language.keywords.model import FieldSpec, ListRow, Part, Record, record_schema
-from mudline.language.keywords.numbers import not_a_number
-from mudline.language.keywords.table import Column, Table, from_rows, row_format
-from mudline.language.keywords.text import Value, decimal_comma, in_braces, maybe_label, missing_comma, semicolons
+from mudline.basics.limits import MOST_COLUMNS
+from mudline.basics.short_repr import short_repr
+from mudline.language.diagnostics import Span
+from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Record, record_schema
+from mudline.language.keywords.table import Column, Table, from_rows
+from mudline.language.keywords.text import Value
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
-from mudline.language.keywords.values import Equation, Kind, Label
-from mudline.language.syntax.fields import Field, split
-from mudline.language.syntax.rows import Rows as RawRows
+from mudline.language.keywords.values import Equation, Label
+from mudline.language.syntax.fields import Field, trimmed
 from mudline.language.syntax.rows import read_rows, row_fields, row_starts
-
-
-class BlockReading(Protocol):
-    """The reading of a block, which a table in it adds to."""
-
-    text: str
-    problems: list[Problem]
-    unclosed: Span | None
-
-    def short(self, message: str, span: Span) -> None:
-        """Note a row that is too short."""
 
 
 class TableBuilder:
     """Collects the runs of one table."""
 
-    def __init__(self, builder: BlockReading, slot: FieldSpec) -> None:
-        self.builder = builder
-        self.columns: list[Column] = slot.columns
+    def __init__(self, columns: list[Column]) -> None:
+        self.columns = columns
         self.runs: list[tuple[int, Span]] = []
         self.parts: list[Table] = []
         self.count = 0
 
-    def add(self, span: Span) -> int:
-        """Read one run; returns its number of rows."""
-        text = self.builder.text
-        raw = read_rows(text, span, len(self.columns))
+    def add(self, text: str, span: Span) -> tuple[Table, list[int]]:
+        """Read one run of a text; returns its rows, and the numbers of those that have faults."""
         self.runs.append((self.count, span))
-        table, faults = from_rows(raw, self.columns)
-        if faults:
-            self._report(span, raw, table, faults)
+        table, faults = from_rows(read_rows(text, span, len(self.columns)), self.columns)
         self.parts.append(table)
         self.count += len(table)
-        return len(table)
+        return table, sorted({row for row, _ in faults})
 
     def finish(self) -> Table:
         """All rows in one table."""
@@ -71,91 +55,6 @@ class TableBuilder:
             start += len(part)
         lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
         return Table(values, np.concatenate(lengths), words)
-
-    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
-        text = self.builder.text
-        starts = row_starts(text, span)
-
-        def line(row: int) -> Span:
-            end = text.find("\n", starts[row], span.end)
-            return Span(starts[row], span.end if end < 0 else end)
-
-        short = {row for row, column in faults if column < 0}
-        reported = 0
-        broken: set[int] = set()
-        for (row, column), fault in sorted(faults.items()):
-            if row in short and column >= 0:
-                continue
-            if self._label(table, raw, line(row), row, column):
-                continue
-            reported += 1
-            if reported > MOST_REPORTED:
-                continue
-            if row not in broken and (self._brackets(line(row)) or self._comma(line(row))):
-                broken.add(row)
-            if row not in broken:
-                self._fault(line(row), row, column, fault, raw)
-        if reported > MOST_REPORTED:
-            message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
-            self.builder.problems.append(Problem(SYN002, message, line(-1)))
-
-    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
-        """A word where a node number belongs is taken for a label whose braces were forgotten."""
-        word = raw.words.get((row, column), "")
-        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
-            return False
-        table.words[row, column] = label
-        place = row_fields(self.builder.text, line, len(self.columns))[column].span
-        message = f"{word!r} is not a number: if it is a label, write {label}"
-        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
-        return True
-
-    def _brackets(self, line: Span) -> bool:
-        """Whether the fault of a row is an unclosed bracket, which is then reported instead."""
-        _, problems = split(self.builder.text, line)
-        for problem in problems:
-            if problem.span != self.builder.unclosed:
-                self.builder.problems.append(problem)
-        return bool(problems)
-
-    def _comma(self, line: Span) -> bool:
-        """Whether the fault of a row is a comma that is missing, which is then reported instead."""
-        fields, _ = split(self.builder.text, line)
-        required = sum(column.required for column in self.columns)
-        problem = missing_comma(fields, [column.kind for column in self.columns], required)
-        if problem is not None:
-            self.builder.problems.append(problem)
-        return problem is not None
-
-    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
-        text = self.builder.text
-        if column < 0:
-            fields, _ = split(text, line)
-            required = [column.required for column in self.columns]
-            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
-                self.builder.problems.append(problem)
-                return
-            if problem := semicolons(text, fields):
-                self.builder.problems.append(problem)
-                return
-            wanted = row_format([column.label for column in self.columns], required)
-            place = Span(fields[0].span.start, fields[-1].span.end)
-            message = f"{fault} (`{wanted}`)"
-            if len(fields) < sum(required):
-                self.builder.short(message, place)
-            else:
-                self.builder.problems.append(Problem(SYN003, message, place))
-            return
-        place = row_fields(text, line, len(self.columns))[column].span
-        word = raw.words.get((row, column))
-        if word == "":
-            self.builder.short(fault, place)
-            return
-        if word and (problem := semicolons(text, row_fields(text, line, len(self.columns)))):
-            self.builder.problems.append(problem)
-            return
-        wrong = word and not_a_number(word, place, self.columns[column].label, self.columns[column].kind)
-        self.builder.problems.append(wrong or Problem(SYN002, fault, place))
 
 
 class Item(NamedTuple):
@@ -270,3 +169,99 @@ def _given(fields: dict[str, Any]) -> set[str]:
 def _known(slot: FieldSpec, value: object) -> Any:
     """A value of a field, or what stands for one that could not be read."""
     return UNKNOWN_NAME if value is UNKNOWN and slot.is_text else value
+
+
+@dataclass(slots=True)
+class Places:
+    """Spans by path. Tables keep only where their runs begin: a row is looked up when somebody asks.
+
+    `kept` is where the lines begin that are passed through unchanged.
+    """
+
+    text: str
+    block: Span
+    spans: dict[Path, Span] = field(default_factory=dict)
+    runs: dict[Path, list[tuple[int, Span]]] = field(default_factory=dict)
+    kept: frozenset[int] = frozenset()
+    _lines: dict[Span, array[int]] = field(default_factory=dict)
+
+    __repr__ = short_repr
+
+    def add(self, record: ParsedRecord, path: Path = ()) -> None:
+        """Add the values of a record, and of the records in it."""
+        if record.opening:
+            self.spans[path] = trimmed(self.text, *record.opening)
+        for name, span, names, fields in record.written:
+            inner = path if name is None else (*path, name)
+            if span:
+                self.spans[inner] = span
+            for column, given in zip(names, fields, strict=False):
+                self.spans[*inner, column] = given.span
+        for name, table in record.tables.items():
+            if table.runs:
+                self.runs[*path, name] = table.runs
+        for name, children in record.children.items():
+            for index, child in enumerate(children):
+                self.add(child, (*path, name, index))
+
+    def find(self, path: Path) -> Span:
+        """The span of a value; where it has none (it was left out), that of the nearest thing around it."""
+        for length in range(len(path), 0, -1):
+            inner = path[:length]
+            if inner in self.spans:
+                return self.spans[inner]
+            if inner in self.runs:
+                return self._cell(self.runs[inner], path[length:])
+        return self.block
+
+    def has(self, path: Path) -> bool:
+        """Whether exactly this value was written in the deck."""
+        return path in self.spans or path in self.runs
+
+    def at(self, offset: int) -> tuple[Path, Span] | None:
+        """The innermost value that stands at an offset, or that ends there, and its span."""
+        around = [(path, span) for path, span in self.spans.items() if path and span.start <= offset <= span.end]
+        for path, runs in self.runs.items():
+            for first, run in runs:
+                if run.start <= offset <= run.end and (cell := self._cell_at(run, offset)):
+                    row, column, span = cell
+                    around.append(((*path, first + row, column), span))
+        return min(around, key=lambda found: found[1].end - found[1].start, default=None)
+
+    def _cell_at(self, run: Span, offset: int) -> tuple[int, int, Span] | None:
+        """Row and column of a run at an offset, and the span of the field."""
+        starts = self._starts(run)
+        row = bisect_right(starts, offset) - 1
+        if row < 0:
+            return None
+        stop = self.text.find("\n", starts[row], run.end)
+        fields = row_fields(self.text, Span(starts[row], run.end if stop < 0 else stop), MOST_COLUMNS)
+        at = (column for column, given in enumerate(fields) if given.span.start <= offset <= given.span.end)
+        column = next(at, None)
+        return None if column is None else (row, column, fields[column].span)
+
+    def moved(self, text: str, by: int) -> Places:
+        """The same in a text in which all of it stands further behind."""
+        spans = {path: span.moved(by) for path, span in self.spans.items()}
+        runs = {path: [(row, span.moved(by)) for row, span in found] for path, found in self.runs.items()}
+        return Places(text, self.block.moved(by), spans, runs, frozenset(at + by for at in self.kept))
+
+    def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
+        row = int(inner[0]) if inner else 0
+        first, run = runs[max(bisect_right(runs, row, key=itemgetter(0)) - 1, 0)]
+        starts = self._starts(run)
+        if not 0 <= row - first < len(starts):
+            return run
+        start = starts[row - first]
+        stop = self.text.find("\n", start, run.end)
+        line = Span(start, run.end if stop < 0 else stop)
+        fields = row_fields(self.text, line, MOST_COLUMNS)
+        if len(inner) > 1 and 0 <= int(inner[1]) < len(fields):
+            return fields[int(inner[1])].span
+        return Span(fields[0].span.start, fields[-1].span.end) if fields else line
+
+    def _starts(self, run: Span) -> array[int]:
+        """Where the rows of a run begin, found once."""
+        if run not in self._lines:
+            self._lines[run] = row_starts(self.text, run)
+        return self._lines[run]

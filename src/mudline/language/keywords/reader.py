@@ -20,8 +20,7 @@ from mudline.language.keywords.fields import AS_TEXT
 from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.language.keywords.keeping import is_choice, opened
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
-from mudline.language.keywords.parsed import ParsedRecord, construct, lose
-from mudline.language.keywords.places import Places
+from mudline.language.keywords.parsed import ParsedRecord, Places, construct, lose
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.rows import line_spans

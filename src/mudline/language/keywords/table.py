@@ -30,11 +30,10 @@ def not_whole(written: str, value: float, label: str) -> str:
     return f"{written} is not a whole number: {label} needs one"
 
 
-def misfit(message: str, row: int, column: int | None = None) -> ValidationError:
-    """The fault of a cell or, without a column, of a row of a list that a table cannot hold."""
+def misfit(message: str, *path: str | int) -> ValidationError:
+    """What a validator raises for a fault inside of what it is given, as that of a row, or of a row and a column."""
     kind = PydanticCustomError("table", "{fault}", {"fault": message})
-    place = InitErrorDetails(type=kind, loc=(row,) if column is None else (row, column), input=None)
-    return ValidationError.from_exception_data("table", [place])
+    return ValidationError.from_exception_data("table", [InitErrorDetails(type=kind, loc=path, input=None)])
 
 
 class Part(NamedTuple):
@@ -271,7 +270,7 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
     """A table from a block of rows, as YAML holds a long one. Raises ValidationError for the first fault."""
     table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
     for (row, column), fault in sorted(faults.items()):
-        raise misfit(fault, row, column if column >= 0 else None)
+        raise misfit(fault, row, *([column] if column >= 0 else []))
     return table
 
 

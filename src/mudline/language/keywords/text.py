@@ -230,14 +230,19 @@ def _choice(field: Field, slot: FieldSpec) -> str:
 
 
 def _open_choice(field: Field, slot: FieldSpec, problems: list[Problem]) -> str:
-    """A known value, or another one as it is; one that is spelt nearly as a known one is a warning."""
+    """A known value, or another one as it is: a warning where it is spelt nearly as a known one.
+
+    Else an info, where lines behind a known one would have been read.
+    """
     word = " ".join(field.text.upper().split())
     if word in slot.choices:
         return word
-    if near := nearest(word, slot.choices):
-        kept = ", and what it stands for is passed through unchanged" if slot.about.opaque is not None else ""
+    near, opaque = nearest(word, slot.choices), slot.about.opaque
+    if near or not set(slot.choices).issubset(slot.choices if opaque is None else opaque):
+        kept = ", and what it stands for is passed through unchanged" if opaque is not None else ""
         message = f"{shown(field.text)} is not known for {slot.label}{hint(near)}{kept}"
-        problems.append(Problem(SYN005, message, field.span, Severity.WARNING, repair=instead(near, field.span)))
+        severity = Severity.WARNING if near else Severity.INFO
+        problems.append(Problem(SYN005, message, field.span, severity, repair=instead(near, field.span)))
     return field.text
 
 

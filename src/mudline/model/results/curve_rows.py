@@ -11,8 +11,7 @@ from mudline.language.deck.parameters import folded
 from mudline.language.keywords.format import unit_text
 from mudline.model.curves import ForceCurve
 from mudline.model.results.summary import CURVE_SIDES, followers
-from mudline.model.scene.deck_curves import OF_SEABED, DeckCurve, other_curves
-from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.curves import OF_SEABED, DeckCurve, SceneCurve, other_curves
 from mudline.model.scene.model import Scene
 
 

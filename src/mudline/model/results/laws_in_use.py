@@ -30,7 +30,7 @@ from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import SeabedProperties
-    from mudline.model.scene.force_curves import SceneCurve
+    from mudline.model.scene.curves import SceneCurve
     from mudline.model.scene.laws import SetLaw
 
 

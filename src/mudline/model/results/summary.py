@@ -21,7 +21,6 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, summed
 from mudline.model.scene.resolved import LawArrays
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
-from mudline.model.scene.sections import surroundings
 from mudline.model.scene.sheet import sheet_of
 from mudline.model.scene.weights import contents
 
@@ -210,7 +209,7 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     """
     weights = [scene.submerged_weight]
     if (inside := contents(scene)) and inside[-1].mass.any():
-        weights.append(scene.submerged_weight + inside[-1].mass * surroundings(scene.deck).gravity)
+        weights.append(scene.submerged_weight + inside[-1].mass * scene.surroundings.gravity)
     own = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
     smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
     arrays, zones = scene.law_arrays(), _Zones.of(smoothing, len(scene.element_ids))

@@ -31,8 +31,7 @@ from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unkn
 from mudline.model.scene.given_positions import PositionDoubt, position_doubts
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.sections import surroundings
-from mudline.model.scene.survey import survey_of
+from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import Contents, attached, contents, left_out, operating_weight
 
@@ -243,7 +242,7 @@ class ContactWatch:
     def _least_weight(self) -> tuple[Floats, Contents | None]:
         """The least submerged weight per length (m,) over the load cases, and the first case in which one floats."""
         scene = self._scene
-        gravity, masses = surroundings(scene.deck).gravity, attached(scene).weighing
+        gravity, masses = scene.surroundings.gravity, attached(scene).weighing
         own = scene.submerged_weight + masses * gravity if masses.any() else scene.submerged_weight
         with np.errstate(over="ignore", invalid="ignore"):
             cases = [(own + one.mass * gravity, one) for one in contents(scene)]

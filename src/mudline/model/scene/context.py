@@ -83,10 +83,9 @@ class Context:
 
     def __post_init__(self) -> None:
         self._sound = range(0 if self.deck.problems else len(self.deck.own_sections))
-        for i, section in enumerate(self.deck.sections[len(self._sound) :], len(self._sound)):
-            for j, block in enumerate(section.blocks):
-                if self.deck.lost(Where(i, j)):
-                    self.unread.add(block.keyword)
+        for where, _, block in self.deck.every_block():
+            if where.section not in self._sound and self.deck.lost(where):
+                self.unread.add(block.keyword)
 
     def once(self, make: Callable[[Context], T]) -> T:
         """What a function makes of this deck, made once for all that ask."""
@@ -107,7 +106,7 @@ class Context:
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
         """The rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one holds."""
-        found = self.deck.blocks_that(lambda declared: declared.facts.seabed_type)
+        found = self.deck.blocks_with("seabed_type")
         return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
@@ -191,9 +190,8 @@ class Context:
 
     def _own_block(self, keyword: str) -> Where | None:
         """The first block of a keyword in the model of the deck itself."""
-        models = ((i, section) for i, section in enumerate(self.deck.own_sections) if section.name == "MODEL")
-        places = (Where(i, j) for i, one in models for j, block in enumerate(one.blocks) if block.keyword == keyword)
-        return next(places, None)
+        blocks = self.written.alone.every_block()
+        return next((where for where, name, block in blocks if (name, block.keyword) == ("MODEL", keyword)), None)
 
     def _definer(self, keyword: str, number: int | None) -> str:
         """The keyword whose lines are not read and may define a thing with a number, None for any, or ""."""
@@ -236,21 +234,7 @@ class Context:
         return self._misplaced_definition(keyword)
 
     def _misplaced_definition(self, keyword: str) -> str:
-        place = self.misplaced(keyword)
-        return f"{place} may define it" if place else ""
-
-    def misplaced(self, keyword: str) -> str:
-        """A keyword in a place where it is not read, or is misspelt, in words; "" when there is none."""
-        return self.misplaced_place(keyword)[0]
-
-    def misplaced_place(self, keyword: str) -> tuple[str, Where]:
-        """A keyword in a place where it is not read, or is misspelt: in words, and the place; "" when there is none."""
-        return self._misplaced.get(keyword, ("", Where()))
-
-    @property
-    def misplaced_keywords(self) -> list[str]:
-        """Keywords that stand where they are not read, or are misspelt."""
-        return list(self._misplaced)
+        return f"{self.misplaced[keyword][0]} may define it" if keyword in self.misplaced else ""
 
     def hint(self, word: str, names: Mapping[str, str]) -> str:
         """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded.
@@ -318,7 +302,7 @@ class Context:
         return {self._position(problem) for problem in self.deck.problems if problem.code == SYN016}
 
     @cached_property
-    def _misplaced(self) -> dict[str, tuple[str, Where]]:
+    def misplaced(self) -> dict[str, tuple[str, Where]]:
         """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt.
 
         Each with the first of its places, and that in words.
@@ -326,10 +310,9 @@ class Context:
         outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
         found = {name: (f"the *{name} before the first section", Where()) for name in outside}
         places: dict[tuple[str, str], Where] = {}
-        for i, section in enumerate(self.deck.sections):
-            for j, block in enumerate(section.blocks):
-                if isinstance(block, Opaque):
-                    places.setdefault((section.name, block.keyword), Where(i, j))
+        for where, section, block in self.deck.every_block():
+            if isinstance(block, Opaque):
+                places.setdefault((section, block.keyword), where)
         effort = Effort()
         for (name, keyword), where in places.items():
             for meant, words in self._meant(name, keyword, effort):
@@ -359,9 +342,7 @@ def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
     """What `Deck.blocks` gives for every section and keyword."""
     found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
     own = len(deck.own_sections)
-    for i in (*range(own, len(deck.sections)), *range(own)):
-        section = deck.sections[i]
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque:  # isinstance of a model takes several times as long
-                found.setdefault((section.name, block.keyword), []).append((Where(i, j), block))
+    for where, section, block in sorted(deck.every_block(), key=lambda one: one[0].section < own):
+        if type(block) is not Opaque:  # isinstance of a model takes several times as long
+            found.setdefault((section, block.keyword), []).append((where, block))
     return found

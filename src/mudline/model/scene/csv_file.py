@@ -76,14 +76,6 @@ class NumericTable(NamedTuple):
     columns: dict[str, Floats]
     lines: Sequence[int]
 
-    def fault(self, row: int, message: str) -> DeckError:
-        """A fault in a row."""
-        return data_error(self.file, message, self.lines[row])
-
-    def whole(self, name: str) -> Ids:
-        """A column as whole numbers; raises DeckError with the line of one that is none."""
-        return whole_numbers(self.file, name, self.columns[name], self.lines)
-
 
 def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckError:
     """A fault of a data file."""

@@ -18,6 +18,7 @@ from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, record_schema
+from mudline.language.keywords.naming import kinds_of, names_given
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax.fields import read_line
@@ -110,9 +111,12 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
     """
     if deck.folder is None:
         return
-    own = len(deck.own_sections)
     files = [
-        (one.where, one.name) for one in deck.names() if one.kind is Names.FILE and one.name and one.where.section < own
+        (where._replace(path=path), name)
+        for where, _, block in deck.alone.every_block()
+        if Names.FILE in kinds_of(type(block), "names")
+        for path, name in names_given(block, Names.FILE)
+        if name
     ]
     parameters = Parameters(deck) if files else None
     for where, written in files:
@@ -121,7 +125,7 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
             yield where, deck.folder, name
 
 
-_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
+COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
 _KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
 _PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
 _MANY = 1000
@@ -270,6 +274,6 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
     yield key, values
 
 
-def data_lines(lines: Iterable[str]) -> Iterator[str]:
+def data_lines(lines: Iterable[str]) -> list[str]:
     """The lines that are not comments. One with C and a letter in column 1 is one: no key of interest begins so."""
-    return (line for line in lines if not _COMMENT.match(line))
+    return [line for line in lines if not COMMENT.match(line)]

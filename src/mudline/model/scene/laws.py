@@ -17,8 +17,8 @@ from mudline.language.keywords.naming import set_slots
 from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
+from mudline.model.scene.curves import SceneCurve, set_name
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.force_curves import SceneCurve, set_name
 from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
@@ -337,7 +337,7 @@ class Extension(NamedTuple):
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
     """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
-    given = {block.keyword for _, block in context.deck.blocks_that(_goes_by_set)}
+    given = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
     found = {}
     for keyword in catalogue.in_order(given):
         made = Extension([], [], [], np.zeros(0, dtype=np.intp))
@@ -352,7 +352,3 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
                     made.sets.append(None if name is None else sets.find(name))
         found[keyword] = made._replace(of_element=later_wins(made.sets, count))
     return found
-
-
-def _goes_by_set(declared: type[Block]) -> bool:
-    return declared.facts.extension and declared.facts.later_wins

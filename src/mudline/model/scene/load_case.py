@@ -21,7 +21,6 @@ from mudline.model.scene.deck_values import FOOT, find_file, number
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.oscillation import line_of
 from mudline.model.scene.resolved import ResolvedDeck
-from mudline.model.scene.sections import surroundings
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import TimeSpan
@@ -98,7 +97,7 @@ def _waves(scene: ResolvedDeck) -> Iterator[_Wave]:
         for entry in cast("RegularWaves", block).waves
     ]
     yield from sorted((each for wave in regular for each in _usable(wave)), key=lambda wave: -wave.amplitude)
-    gravity = surroundings(scene.deck).gravity
+    gravity = scene.surroundings.gravity
     for where, block in scene.deck.blocks("WAVE-JONSWAP", "LOAD CASE"):
         for sea in cast("JonswapSeas", block).seas:
             if (given := sea.area_height or sea.progression_height) is not None:

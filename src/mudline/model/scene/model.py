@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Literal
 
+from mudline.basics.resources import modules_of
 from mudline.basics.short_repr import counted, cut, outline
 from mudline.language.deck.evaluated import evaluated
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
+from mudline.language.rules import RULES, Rule, findings
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_curves import check_curves
-from mudline.model.scene.force_curves import read_curves
+from mudline.model.scene.curves import check_curves, read_curves
 from mudline.model.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.model.scene.mesh import read_elements, read_nodes
 from mudline.model.scene.references import (
@@ -25,7 +27,6 @@ from mudline.model.scene.references import (
 )
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.restart import continued
-from mudline.model.scene.rules import checked
 from mudline.model.scene.seabed import read_seabed
 from mudline.model.scene.sections import read_sections
 from mudline.model.scene.sets import read_sets
@@ -61,7 +62,8 @@ class Scene(ResolvedDeck):
     @cached_property
     def problems(self) -> list[Problem]:
         """What resolving the deck noticed, and what the rules that block find."""
-        return [*self.noticed, *checked(self)]
+        found = findings(_rules(), self)
+        return [*self.noticed, *chain.from_iterable(found)]
 
     def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:
         """The findings that keep the scene from being evaluated; `tension` is that of `contact`."""
@@ -99,6 +101,13 @@ class Scene(ResolvedDeck):
 
         self.require_evaluable(tension)
         return contact_input(self, tension)
+
+
+@cache
+def _rules() -> tuple[Rule, ...]:
+    """The rules that find what blocks evaluation."""
+    modules_of("mudline.model.scene.rules")
+    return tuple(one for one in RULES.values() if one.blocks)
 
 
 def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:

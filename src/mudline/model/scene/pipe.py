@@ -11,7 +11,7 @@ from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, picked
 from mudline.model.scene.resolved import ResolvedDeck
-from mudline.model.scene.sections import stiffnesses, surroundings
+from mudline.model.scene.sections import stiffnesses
 from mudline.model.scene.weights import contents
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class Pipe(NamedTuple):
 
 def pipe_of(scene: ResolvedDeck) -> Pipe:
     """Return the elements of a scene with the contents of its load case and its hydrodynamic coefficients."""
-    table, around = scene.section_table, surroundings(scene.deck)
+    table, around = scene.section_table, scene.surroundings
     filled = contents(scene)
     inside = filled[-1].mass if filled else np.zeros(len(scene.element_ids))
     added, drag, given, with_buoyancy, along = _coefficients(scene)

@@ -99,7 +99,7 @@ def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | No
         return _from_npy(path, nodes)
     if suffix == ".npz":
         return _from_arrays(file, _load_npz(path), nodes)
-    return _from_csv(path, nodes, headings)
+    return _of_table(read_numeric_csv(path, ("node", *_AXES), COLUMNS, headings), nodes)
 
 
 def positions_of(
@@ -138,16 +138,12 @@ def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray
     return spread
 
 
-def _from_csv(path: Path, nodes: Numbered, headings: Mapping[str, str] | None) -> Positions:
-    return _of_table(read_numeric_csv(path, ("node", *_AXES), COLUMNS, headings), nodes)
-
-
 def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
     if not table.lines:
         raise data_error(table.file, "no row below the header", 2)
     if len({name in table.columns for name in _VELOCITIES}) > 1:
         raise data_error(table.file, "velocities need all of vx, vy and vz")
-    ids = table.whole("node")
+    ids = whole_numbers(table.file, "node", table.columns["node"], table.lines)
     where = nodes.indices(ids)
     if (where < 0).any():
         raise _unknown(table.file, ids[where < 0], table.lines[int(np.argmax(where < 0))])
@@ -170,7 +166,8 @@ def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> No
     repeats = np.flatnonzero(ordered[1:] == ordered[:-1])
     if repeats.size:
         row = int(order[repeats[0] + 1])
-        raise table.fault(row, f"node {ids[row]} is given twice{_at(times, int(step[row]))}")
+        message = f"node {ids[row]} is given twice{_at(times, int(step[row]))}"
+        raise data_error(table.file, message, table.lines[row])
     if len(cells) < len(times) * len(given):
         gaps = np.flatnonzero(ordered != np.arange(len(ordered)))
         at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, cast
 
@@ -14,10 +16,11 @@ from mudline.basics.spelling import same_marks
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
-from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import bare, folded
-from mudline.language.diagnostics import Blocks, Code, Severity, Where
+from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
+from mudline.language.deck.parameters import bare, folded, name_key
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.naming import idents_given, may_name, names_given
 from mudline.language.keywords.text import shown
@@ -26,7 +29,6 @@ from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import makes_labels
 from mudline.model.scene.laws import LawTable
-from mudline.model.scene.names import names_used
 from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.sets import Sets
 
@@ -37,6 +39,114 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import ElementRows, Elements
     from mudline.language.keywords.library.soil_springs import LateralSoil
 
+
+CURVES = frozenset(
+    {
+        *(Names.MOMENT_CURVATURE, Names.FORCE_STRAIN, Names.TORQUE_TWIST, Names.STRESS_STRAIN),
+        *(Names.DAMPER, Names.DRAG_LIFT, Names.PIP_STIFFNESS, Names.S_N_CURVE),
+    }
+)
+"""Kinds of curves but those of a seabed."""
+THINGS = frozenset(
+    {
+        *(Names.VESSEL, Names.BODY, Names.AUXILIARY, Names.CABLE, Names.LINE, Names.SECTION_GROUP),
+        *(Names.VECTOR, Names.GUIDE),
+    }
+)
+"""Kinds of things that have names and are no curves."""
+
+
+@dataclass(eq=False)
+class NamesOfKind:
+    """The names of a kind: those that fields use, and those that they define, by their folded form."""
+
+    used: list[NamedPlace] = field(default_factory=list)
+    defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
+
+    @property
+    def known(self) -> dict[str, str]:
+        """The names that are defined, as first written, by their folded form."""
+        return {key: given[0].name for key, given in self.defined.items()}
+
+
+def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
+    """The names of some kinds that the fields of a deck give."""
+    return {kind: names for kind, names in context.once(every_name).items() if kind in kinds}
+
+
+def every_name(context: Context) -> dict[Names, NamesOfKind]:
+    """The names of all kinds that the fields of a deck give; ask `Context.once` for them."""
+    found: dict[Names, NamesOfKind] = defaultdict(NamesOfKind)
+    for one in context.deck.names():
+        names = found[one.kind]
+        if one.role == "names":
+            names.used.append(one)
+        else:
+            names.defined.setdefault(name_key(one.name), []).append(one)
+    return found
+
+
+def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
+    """Names that nothing defines; where that is not certain, because not all was read, a warning."""
+    for kind, names in names_of(context, kinds).items():
+        if not names.used or not (definers := catalogue.definers(kind)) or not context.deck.keywords():
+            continue
+        known = names.known
+        doubt = _doubt(context, definers)
+        advice = f"define it in {' or '.join(f'*{keyword}' for keyword in definers)}, or correct the name"
+        for given in names.used:
+            if name_key(given.name) in known or not given.name:
+                continue
+            thing = kind.value.removeprefix("a ").removeprefix("an ")
+            message = f"{thing} {shown(given.name)} is not defined{context.hint(given.name, known)}: {advice}"
+            severity = Severity.WARNING if doubt else None
+            yield Problem(code, message + doubt, None, severity, given.where, blocks=Blocks.NEVER, lacks=given.name)
+
+
+def _doubt(context: Context, definers: Collection[str]) -> str:
+    """What may define a thing besides the lines that were read, in words; "" where nothing may."""
+    for where, _, block in context.deck.every_block():
+        unsure = block.keyword in definers and (isinstance(block, Opaque) or not is_read(block))
+        if unsure or (block.keyword in definers and context.deck.lost(where)):
+            return f"; a line of *{block.keyword} that was not read may define it"
+    words = (context.possible_definition(keyword) for keyword in definers)
+    return next((f"; {one}" for one in words if one), "")
+
+
+def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
+    """Names that are defined a second time."""
+    for kind, names in names_of(context, kinds).items():
+        thing = kind.value.removeprefix("a ").removeprefix("an ")
+        for given in names.defined.values():
+            for later in given[1:]:
+                message = f"{thing} {shown(later.name)} is already defined: choose another name, or keep one of them"
+                yield Problem(code, message, where=later.where)
+
+
+def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
+    """Names that nothing uses: an info where the keywords that would use them are not read, or not in the deck."""
+    raw = ""
+    for kind, names in names_of(context, kinds).items():
+        used = {name_key(one.name) for one in names.used}
+        users = catalogue.users(kind)
+        for key, (first, *_) in names.defined.items():
+            if key in used:
+                continue
+            raw = raw or _not_read(context.deck)
+            if key in raw:
+                continue
+            thing = kind.value.removeprefix("a ").removeprefix("an ")
+            by = f"name it in {' or '.join(f'*{keyword}' for keyword in users)}, or remove it" if users else "remove it"
+            severity = None if users else Severity.INFO
+            yield Problem(code, f"{thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
+
+
+def _not_read(deck: Deck) -> str:
+    """The lines that are not read, which may use names; a line end where there are none."""
+    lines = (raw_lines(block) for _, _, block in deck.every_block())
+    return "\n".join(folded(line) for own in lines for line in own) or "\n"
+
+
 _FREEDOMS = 6
 
 
@@ -46,16 +156,16 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
     Postprocessing has sets of its own beside those of the model.
     """
     own: dict[str, str] | None = None
-    for name, where in ((one.name, one.where) for one in names_used(context, Names.SET)):
+    for name, where in ((one.name, one.where) for one in context.once(every_name)[Names.SET].used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
         if section.name not in _OF_THE_MODEL and sets.find(name) is None:
             own = sets_of_postprocessing(context.deck) if own is None else own
-            if folded(bare(name)) in own or not context.deck.keywords():
+            if name_key(name) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(one.name) for one in names_used(context, Names.CURVE))
+    laws.referenced.update(folded(one.name) for one in context.once(every_name)[Names.CURVE].used)
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
@@ -65,7 +175,7 @@ def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
     """The sets that other sections than the model define, by their folded names."""
     sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
     names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
-    return {folded(bare(name)): bare(name) for name in names}
+    return {name_key(name): bare(name) for name in names}
 
 
 def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
@@ -87,7 +197,7 @@ def check_soil(context: Context, nodes: Numbered) -> None:
     """Every NODE= of soil springs against the nodes of the deck."""
     named = [
         (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
-        for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs)
+        for where, block in context.deck.blocks_with("soil_springs")
         for i, springs in enumerate(cast("LateralSoil", block).sets)
         for j, curve in enumerate(springs.curves)
     ]
@@ -96,13 +206,12 @@ def check_soil(context: Context, nodes: Numbered) -> None:
 
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     """Every node and element that a keyword names, but those that are looked at where nodes and sets are made."""
-    for i, section in enumerate(context.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is Opaque or not _names_idents(type(block)):
-                continue
-            for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
-                named = [(ident, Where(i, j, path)) for path, ident in idents_given(block, what)]
-                check(context, nodes if what is Names.NODE else elements, named)
+    for where, _, block in context.deck.every_block():
+        if type(block) is Opaque or not _names_idents(type(block)):
+            continue
+        for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
+            named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, what)]
+            check(context, nodes if what is Names.NODE else elements, named)
 
 
 @cache
@@ -248,7 +357,7 @@ def _is_no_freedom(freedom: object) -> bool:
 def check_lines(context: Context) -> None:
     """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
     blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
-    groups = {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
+    groups = {name_key(group.name): group.name for block in blocks for group in block.groups if group.name}
     for where, block in context.blocks("LINE PATH SECTIONS"):
         for index, path in enumerate(cast("LinePathSections", block).paths):
             place = where.inside("paths", index)
@@ -292,7 +401,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:
     """A name, given by a KEY for a thing that a keyword defines; `known` has the names by their folded form."""
     key, thing, keyword = what
-    if folded(bare(name)) in known:
+    if name_key(name) in known:
         return
     message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
     source = context.possible_definition(keyword[1:])

@@ -17,21 +17,27 @@ from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, l
 from mudline.language.codes import RUN001
 from mudline.language.codes.references import REF001
 from mudline.language.deck.evaluated import EvaluatedDeck
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import facts_of
 from mudline.language.keywords.text import suggestion
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
-from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import ElementTable
-from mudline.model.scene.names import CURVES, THINGS, undefined
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
-from mudline.model.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
-from mudline.model.scene.sets import Sets, set_key
+from mudline.model.scene.sections import (
+    SectionTable,
+    Surroundings,
+    mass_per_length,
+    read_surroundings,
+    submerged_weight,
+)
+from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -145,7 +151,7 @@ class ResolvedDeck:
     seabed: SeabedShape
     noticed: list[Problem]
 
-    @property
+    @cached_property
     def context(self) -> Context:
         """What was noticed on the way, and what could not be read."""
         return self.set_table.context
@@ -174,27 +180,27 @@ class ResolvedDeck:
         """The unit system: "metric", "imperial" or "user"."""
         return self.deck.units
 
-    @property
+    @cached_property
     def node_ids(self) -> Ids:
         """Node numbers (n,), in the order in which they first appear."""
         return self.nodes.ids
 
-    @property
+    @cached_property
     def coordinates(self) -> Floats:
         """Node coordinates (n, 3), X up."""
         return self.nodes.values
 
-    @property
+    @cached_property
     def element_ids(self) -> Ids:
         """Element numbers (m,)."""
         return self.table.numbered.ids
 
-    @property
+    @cached_property
     def element_nodes(self) -> Indices:
         """Indices (m, 2) of each element's nodes."""
         return self.table.nodes
 
-    @property
+    @cached_property
     def length(self) -> Floats:
         """Element lengths (m,) between the deck's coordinates."""
         return self.table.length
@@ -203,6 +209,11 @@ class ResolvedDeck:
     def diameter(self) -> Floats:
         """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
         return self.section_table.diameter
+
+    @cached_property
+    def surroundings(self) -> Surroundings:
+        """What the last `*OCEAN` says of the water, and gravity."""
+        return read_surroundings(self.deck)
 
     @cached_property
     def mass_per_length(self) -> Floats:
@@ -215,7 +226,7 @@ class ResolvedDeck:
 
         Where the seabed lies above the water that `*OCEAN` gives, as at a landfall, it is the weight in air.
         """
-        around, land = surroundings(self.deck), None
+        around, land = self.surroundings, None
         if self.seabed.kind is not SeabedKind.FLAT:
             land = on_land(self.seabed, around.depth, self.coordinates, self.element_nodes)
         return submerged_weight(self.section_table, around, land)
@@ -224,7 +235,7 @@ class ResolvedDeck:
     def sets(self) -> ByName[Ids]:
         """Element numbers (k,) of every set by its name, found without case; ALL included."""
         named = self.set_table.named.values()
-        return ByName("set", ((entry.name, read_only(self.element_ids[entry.elements])) for entry in named), set_key)
+        return ByName("set", ((entry.name, read_only(self.element_ids[entry.elements])) for entry in named), name_key)
 
     @cached_property
     def curves(self) -> ByName[ForceCurve]:

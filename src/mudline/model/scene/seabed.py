@@ -1,12 +1,14 @@
 """The shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points.
 
-Here is also the evaluator's shape of it, and how much of each element lies where it rises above the water.
+Here is also the evaluator's shape of it, how much of each element lies where it rises above the water, and where the
+survey of it ends.
 """
 
 from __future__ import annotations
 
 import math
 import re
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from importlib.util import find_spec
@@ -21,10 +23,11 @@ from mudline.basics.short_repr import counted, short_repr
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.text import shown
 from mudline.language.syntax.source import Source
+from mudline.model.contact.seabed import heading
 from mudline.model.scene.context import Context
 from mudline.model.scene.data_files import number_of
 from mudline.model.scene.deck_values import file_name, find_file, number
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import Surface
@@ -269,3 +272,96 @@ def _may_rise_above(seabed: SeabedShape, level: float) -> bool:
         return False
     column = {SeabedKind.PROFILE: 1, SeabedKind.SURFACE: 0}.get(seabed.kind)
     return column is None or bool((seabed.points[:, column] > level).any())
+
+
+REACH = 100.0
+"""Diameters above the level of the seabed beyond its end: a part of the line that hangs higher touches no seabed."""
+
+
+class Survey(ABC):
+    """The part of the seabed that is known.
+
+    Attributes:
+        end: what lies beyond it, as the words behind "node 3 lies".
+        consequence: what the evaluator takes there.
+    """
+
+    end: str
+    consequence = "no seabed holds the line there; give it as far as the line goes, or correct the coordinates"
+
+    @abstractmethod
+    def heights(self, places: Floats) -> Floats:
+        """Heights (n,) of `places` (n, 3) beyond the end above the level there, -inf at least; NaN within it."""
+
+    def left(self, places: Floats, diameter: float) -> Mask:
+        """Which of `places` (n, 3) lie beyond the end, and so low that the seabed matters there."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(self.heights(places) <= REACH * diameter)
+
+
+class _Profile(Survey):
+    def __init__(self, seabed: SeabedShape) -> None:
+        points = seabed.points[np.argsort(seabed.points[:, 0], kind="stable")]
+        (self._first, self._start), (self._last, self._stop) = points[0].tolist(), points[-1].tolist()
+        self._heading = heading(seabed.direction)
+        axis = "Y" if seabed.direction == 0.0 else "along it"
+        self.end = f"beyond the ends of the seabed profile ({axis} = {self._first:.6g} to {self._last:.6g})"
+        self.consequence = (
+            "it is taken as level there; give the profile as far as the line goes, or correct the coordinates"
+        )
+
+    def heights(self, places: Floats) -> Floats:
+        x, y, z = places.T
+        along = y * self._heading[0] + z * self._heading[1]
+        levels = np.where(along < self._first, self._start, np.where(along > self._last, self._stop, np.nan))
+        return np.asarray(x - levels)
+
+
+class _Surface(Survey):
+    def __init__(self, seabed: SeabedShape) -> None:
+        from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - only now is it needed
+
+        from mudline.model.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
+
+        try:
+            corners = ConvexHull(seabed.points[:, 1:]).vertices
+        except QhullError as error:
+            raise ValueError("the points lie on a line") from error
+        self._hull, self._top = ScatteredSeabed(seabed.points[corners]), float(seabed.points[:, 0].max())
+        self.end = f"outside of the hull of the seabed's {len(seabed.points)} points"
+
+    def heights(self, places: Floats) -> Floats:
+        x, y, z = places.T.copy()
+        return np.where(np.isnan(self._hull.elevation(y, z)), x - self._top, np.nan)
+
+
+class _Planes(Survey):
+    def __init__(self, seabed: SeabedShape) -> None:
+        self._seabed, self._shape = made_seabed(seabed), seabed
+        self.end = "outside of the bounds of all planes of the seabed"
+
+    def heights(self, places: Floats) -> Floats:
+        x, y, z = places.T.copy()
+        level = np.full(len(x), -np.inf)
+        for plane in self._shape.planes:  # at its place nearest to each node
+            y_min, y_max, z_min, z_max = plane.bounds
+            level = np.fmax(level, self._seabed.elevation(np.clip(y, y_min, y_max), np.clip(z, z_min, z_max)))
+        return np.where(np.isnan(self._seabed.elevation(y, z)), x - level, np.nan)
+
+
+def survey_of(seabed: SeabedShape) -> Survey | None:
+    """Return where a seabed ends; None for one without an end, or whose points are not known or make no seabed."""
+    surveys: dict[SeabedKind, type[_Profile | _Surface | _Planes]] = {
+        SeabedKind.PROFILE: _Profile,
+        SeabedKind.SURFACE: _Surface,
+        SeabedKind.PLANES: _Planes,
+    }
+    kind = surveys.get(seabed.kind)
+    if kind is None or seabed.missing or (kind is not _Planes and len(seabed.points) < 2):
+        return None
+    if kind is _Surface and find_spec("scipy") is None:
+        return None
+    try:
+        return kind(seabed)
+    except ValueError:  # other findings say what is wrong with it
+        return None

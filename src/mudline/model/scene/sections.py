@@ -112,7 +112,7 @@ class Surroundings(NamedTuple):
     depth: float
 
 
-def surroundings(deck: Deck) -> Surroundings:
+def read_surroundings(deck: Deck) -> Surroundings:
     """Those of the last `*OCEAN`, whose defaults are known in metric and imperial units; NaN without one."""
     oceans = [block for _, block in deck.blocks("OCEAN")]
     if not oceans:

@@ -11,7 +11,7 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
@@ -33,11 +33,6 @@ ALL = "all"
 LONGEST_NAME = 256
 """Characters of a name of a set that the language allows."""
 _NOTHING = np.zeros(0, dtype=np.intp)
-
-
-def set_key(name: str) -> str:
-    """Return the name of a set as names of sets compare: without case, blanks, quotes and braces."""
-    return folded(bare(name))
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -72,7 +67,7 @@ class Sets:
 
     def find(self, name: str) -> NamedSet | None:
         """The set that a SET= names; None when there is no such set, which `check` reports."""
-        return self.named.get(folded(bare(name)))
+        return self.named.get(name_key(name))
 
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place that is the name of no set."""
@@ -100,9 +95,6 @@ class _Reader:
         self.elements = elements
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
-        self.keys: dict[str, str] = {}
-        self.links: dict[str, str] = {}
-        """Sets that are given once, as one subset, by their keys with that of the subset."""
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -119,13 +111,6 @@ class _Reader:
                 self._expand(key)
         return self.sets
 
-    def _key(self, name: str) -> str:
-        """`set_key`, found once for each name: most are written twice or more."""
-        key = self.keys.get(name)
-        if key is None:
-            key = self.keys[name] = set_key(name)
-        return key
-
     def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
         """Note the sets of a block by their names."""
         for index, entry in enumerate(entries):
@@ -134,47 +119,28 @@ class _Reader:
             if name is None:
                 self.context.unread.add("ELEMENT SETS")
                 continue
-            key = self._key(name)
+            key = name_key(name)
             if key == ALL:
                 message = "set ALL is predefined and holds every element: choose another name"
                 self.context.report(REF009, message, where.inside("name"))
                 continue
-            known = self.definitions.get(key)
-            if known is None:
-                self.definitions[key] = [(entry, where)]
-                only = entry.members[0] if len(entry.members) == 1 else None
-                subset = known_name(cast("SetSubset", only).subset) if only and only.rule == "set_subset" else None
-                if subset is not None:
-                    self.links[key] = self._key(subset)
-            else:
-                known.append((entry, where))
-                self.links.pop(key, None)
+            self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
-        named, definitions, links = self.sets.named, self.definitions, self.links
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
             current = waiting[-1]
-            link = links.get(current)
-            if current in named:
+            if current in self.sets.named:
                 waiting.pop()
             elif current in unfinished:
                 waiting.pop()
                 unfinished.remove(current)
-                if link is not None and (found := named.get(link)):
-                    entry, where = definitions[current][0]
-                    is_open = found.open or is_partly_unknown(entry.members)
-                    named[current] = NamedSet(entry.name, found.elements, where, is_open)
-                else:
-                    self._settle(current)
+                self._settle(current)
             else:
                 unfinished.add(current)
-                if link in definitions and link not in unfinished:
-                    waiting.append(link)
-                else:
-                    self._await(current, waiting, unfinished)
+                self._await(current, waiting, unfinished)
 
     def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
         """Put the subsets that are to be expanded before a set on the stack; those that cannot be are reported."""
@@ -186,7 +152,7 @@ class _Reader:
                 name = known_name(cast("SetSubset", member).subset)
                 if name is None:
                     continue
-                other = self._key(name)
+                other = name_key(name)
                 if other in unfinished:
                     message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
                     self.context.report(REF008, message, where.inside("members", index, "subset"))
@@ -229,7 +195,7 @@ class _Reader:
 
     def _subset(self, given: str) -> tuple[Indices, bool]:
         name = known_name(given)
-        found = None if name is None else self.sets.named.get(self._key(name))
+        found = None if name is None else self.sets.named.get(name_key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:

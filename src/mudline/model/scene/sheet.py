@@ -14,7 +14,7 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, picked
 from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import ResolvedDeck
-from mudline.model.scene.sections import stiffnesses, surroundings
+from mudline.model.scene.sections import stiffnesses
 from mudline.model.scene.weights import attached, contents, left_out
 
 Value = str | int | float | None
@@ -140,7 +140,7 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
             heavy = SheetColumn(f"weight_load_case_{one.number}", f"weight,\n{case}", "F/L")
             others += [dense, heavy]
             found[dense.key] = one.density
-            found[heavy.key] = scene.submerged_weight + one.mass * surroundings(scene.deck).gravity
+            found[heavy.key] = scene.submerged_weight + one.mass * scene.surroundings.gravity
     return found, others
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 from functools import cached_property
 
@@ -12,23 +12,30 @@ import numpy as np
 from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF006, REF015
-from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import NoValueError, Parameters, bare, folded
+from mudline.language.deck.model import Deck, Opaque, raw_lines
+from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.keeping import is_read, kept_lines, kept_places
-from mudline.language.keywords.model import record_schema
+from mudline.language.keywords.keeping import is_read, kept_places
+from mudline.language.keywords.model import Path, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
 from mudline.language.syntax.fields import Field, Group, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
-from mudline.model.scene.names import CURVES, names_of
+from mudline.model.scene.deck_values import COMMENT, data_lines, file_name, find_file, not_found
 from mudline.model.scene.numbering import Numbered
-from mudline.model.scene.references import KEYWORD, check_label, sets_of_postprocessing, shows_nodes
+from mudline.model.scene.references import (
+    CURVES,
+    KEYWORD,
+    check_label,
+    every_name,
+    names_of,
+    sets_of_postprocessing,
+    shows_nodes,
+)
 from mudline.model.scene.sets import Sets
 
 _EQUATION = re.compile(r"=\[[^\[\]\r\n]*\]")
@@ -53,7 +60,7 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
     `nodes` are those of the deck, None where others are.
     """
     looking: _Looking | None = None
-    for where, keyword, line in unread_lines(context.written):
+    for where, keyword, line in unread_lines(context):
         holds = keyword == KEYWORD and is_of_vessels(context.written, where)
         if len(line) > _LONGEST or not (holds or _WORTH.search(line)):
             continue
@@ -71,19 +78,26 @@ def is_of_vessels(deck: Deck, where: Where) -> bool:
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 
-def unread_lines(deck: Deck) -> Iterator[tuple[Where, str, str]]:
+def unread_lines(context: Context) -> list[tuple[Where, str, str]]:
     """The lines of a deck itself that are not read, without comments: their place, keyword and text."""
-    for i, section in enumerate(deck.own_sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is Opaque:
-                lines = ((Where(i, j, ("lines", n)), line) for n, line in enumerate(block.lines))
-            elif is_read(block):
-                continue
-            elif isinstance(deck.origin, TextOrigin):
-                lines = ((Where(i, j, ("unread", n)), line) for n, line in enumerate(deck.origin.kept_lines(i, j)))
-            else:
-                lines = ((Where(i, j, path), line) for path, line in kept_places(block))
-            yield from ((where, block.keyword, line) for where, line in lines if [*data_lines([line])])
+    return context.once(_every_unread_line)
+
+
+def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
+    deck, found = context.written, list[tuple[Where, str, str]]()
+    for at, _, block in deck.alone.every_block():
+        lines: Iterable[tuple[Path, str]]
+        if type(block) is Opaque:
+            lines = ((("lines", n), line) for n, line in enumerate(block.lines))
+        elif is_read(block):
+            continue
+        elif isinstance(deck.origin, TextOrigin):
+            kept = deck.origin.kept_lines(at.section, at.block)
+            lines = ((("unread", n), line) for n, line in enumerate(kept))
+        else:
+            lines = kept_places(block)
+        found += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
+    return found
 
 
 def _uses_any_curve(line: str) -> bool:
@@ -108,8 +122,6 @@ class _Looking:
         self.context = context
         self.sets = sets
         self.parameters: Parameters | None = None
-        self.vessels: dict[str, str] | None = None
-        self.curves: dict[str, str] | None = None
         self.checks: dict[str, Callable[[Where, str, str], None]] = {
             Names.SET.name: self._set,
             Names.VESSEL.name: self._vessel,
@@ -188,7 +200,7 @@ class _Looking:
                 self._note(reason.problem)
 
     def _label(self, given: Field, where: Where) -> None:
-        if Label.match(given.text):
+        if given.text.startswith("{") and Label.match(given.text):
             check_label(self.context, REF006, given.text, where.inside(*given.span))
 
     def _number(self, given: Field, where: Where) -> None:
@@ -210,7 +222,7 @@ class _Looking:
             return
         of_results = self.context.written.sections[where.section].name in _OF_RESULTS
         own = self._sets_of_results if of_results else {}
-        if self.sets.find(name) is None and folded(bare(name)) not in own:
+        if self.sets.find(name) is None and name_key(name) not in own:
             hint = self.context.hint(name, self._set_names) or self.context.hint(name, own)
             message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS{_UNREAD}"
             self._note(Problem(REF001, message, None, Severity.WARNING, where, lacks=name))
@@ -238,29 +250,30 @@ class _Looking:
         definers = catalogue.definers(Names.VESSEL)
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
-        if self.vessels is None:
-            found = names_of(self.context, {Names.VESSEL}).get(Names.VESSEL)
-            self.vessels = {key: given[0].name for key, given in found.defined.items()} if found else {}
-        if self.vessels and folded(bare(name)) not in self.vessels:
-            from mudline.model.scene.rules.names import REF019  # noqa: PLC0415 - only for a finding
+        vessels = self.context.once(every_name)[Names.VESSEL].known
+        if vessels and name_key(name) not in vessels:
+            from mudline.model.scene.rules.fields import REF019  # noqa: PLC0415 - only for a finding
 
-            message = f"vessel {shown(name)} is not defined{self.context.hint(name, self.vessels)}{_UNREAD}"
+            message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}{_UNREAD}"
             self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))
 
     def _curve(self, where: Where, keyword: str, name: str) -> None:
         """A curve that a line of the model or of a load case uses; another line that is not read may define it."""
         if not self._is_of_model(where, keyword):
             return
-        if self.curves is None:
-            found = names_of(self.context, CURVES | {Names.CURVE}).values()
-            self.curves = {key: given[0].name for names in found for key, given in names.defined.items()}
-        key = folded(bare(name))
+        key = name_key(name)
         if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
             from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
 
             meant = self.context.hint(name, self.curves)
             message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it{_UNREAD}"
             self._note(Problem(REF002, message, None, Severity.WARNING, where, lacks=name))
+
+    @cached_property
+    def curves(self) -> dict[str, str]:
+        """The curves of all kinds that the deck defines, by their folded names."""
+        kinds = names_of(self.context, CURVES | {Names.CURVE}).values()
+        return {key: name for names in kinds for key, name in names.known.items()}
 
     @cached_property
     def _may_lack_curves(self) -> bool:
@@ -272,12 +285,11 @@ class _Looking:
     def _other_words(self) -> set[str]:
         """What stands in the lines that are not read and use no curve: a curve of this name may be defined there."""
         found: set[str] = set()
-        for section in self.context.deck.sections:
-            for block in section.blocks:
-                for line in data_lines(block.lines if isinstance(block, Opaque) else kept_lines(block)):
-                    if not _uses_any_curve(line):
-                        pieces = line.replace("=", ",").split(",")
-                        found.update(folded(bare(piece)) for each in pieces for piece in (each, *each.split()))
+        for _, _, block in self.context.deck.every_block():
+            for line in data_lines(raw_lines(block)):
+                if not _uses_any_curve(line):
+                    pieces = line.replace("=", ",").split(",")
+                    found.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
         return found
 
     def _file(self, where: Where, _: str, written: str) -> None:

@@ -8,17 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.language.deck.parameters import bare, folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, picked
-from mudline.model.scene.sections import surroundings
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
     from mudline.language.keywords.library.loads import InternalFluid
-    from mudline.language.keywords.library.mesh import Labels
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -94,17 +91,10 @@ def attached(scene: ResolvedDeck) -> Attached:
 
 def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
     """Yield each mass that is no rotary inertia, with the index of its node; None where that is not known."""
-    labels = {
-        folded(bare(line.label)): line.node.number
-        for _, block in scene.deck.blocks("LABEL")
-        for line in cast("Labels", block).labels
-        if line.node is not None and line.label
-    }
     for _, block in scene.deck.blocks("MASS"):
         for one in cast("Masses", block).masses:
             if one.type_ != "ROTARY INERTIA":
-                given = labels.get(folded(bare(one.node))) if isinstance(one.node, str) else one.node
-                known = scene.nodes.indices(np.array([given]))[0] if isinstance(given, int) else -1
+                known = scene.nodes.indices(np.array([one.node]))[0] if isinstance(one.node, int) else -1
                 yield one, int(known) if known >= 0 else None
 
 
@@ -117,9 +107,7 @@ def operating_weight(scene: ResolvedDeck) -> Floats:
     for one in contents(scene)[-1:]:
         mass = mass + one.mass
     with np.errstate(over="ignore", invalid="ignore"):
-        return (
-            scene.submerged_weight + mass * surroundings(scene.deck).gravity if mass.any() else scene.submerged_weight
-        )
+        return scene.submerged_weight + mass * scene.surroundings.gravity if mass.any() else scene.submerged_weight
 
 
 _WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS")

@@ -17,14 +17,14 @@ from mudline.checks.verdict import all_findings, errors_of
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.loading import coverage_of, extent, load_bytes
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import Parameters, bare, folded
+from mudline.language.deck.parameters import Parameters, folded, name_key
 from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded
 from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_curves import OF_SEABED, other_curves
+from mudline.model.scene.curves import OF_SEABED, other_curves
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.references import used_names
@@ -100,7 +100,7 @@ def _keywords(deck: Deck) -> Iterator[KeywordRow]:
 
 def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
-    used = {folded(bare(name)) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
+    used = {name_key(name) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
     # Lines that are not read may name sets.
     lines = (one.lines if type(one) is Opaque else kept_lines(one) for part in deck.sections for one in part.blocks)
     unread = "\n".join(line for own in lines for line in own).casefold()

@@ -26,7 +26,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
-from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses, surroundings
+from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
 from mudline.tools.exporting.held import End, read_held, report_inside
 from mudline.tools.exporting.report import Report, Status
 from mudline.tools.exporting.soil import Soil, Units, soils_of
@@ -158,7 +158,7 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     if units is None:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
     _require_elements(scene)
-    around, depth = surroundings(scene.deck), _depth(scene)
+    around, depth = scene.surroundings, _depth(scene)
     sections, of_element = _sections(scene, units)
     soils, soil_of = soils_of(scene, units)
     given = scene.coordinates if positions is None else positions
@@ -216,7 +216,7 @@ def _require_elements(scene: Scene) -> None:
 def _depth(scene: Scene) -> float:
     oceans = [block for _, block in scene.deck.blocks("OCEAN")]
     depth = number(oceans[-1], "depth") if oceans else math.nan
-    if not (depth > 0.0 and surroundings(scene.deck).gravity > 0.0):
+    if not (depth > 0.0 and scene.surroundings.gravity > 0.0):
         raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
     return depth
 
@@ -250,7 +250,7 @@ def _pipe(scene: Scene, units: Units, section: Section, pipe: Pipe, element: int
         raise scene.refusal(f"the section has no {what} above 0, which other programs need: give it", section.where)
     buoyancy = number(row, "db", outer)
     axial, bending, torsion = (0.0 if math.isnan(each) else each for each in stiffness)
-    contents, density = float(pipe.contents[element]), surroundings(scene.deck).density
+    contents, density = float(pipe.contents[element]), scene.surroundings.density
     drag, added = float(pipe.drag[element]), float(pipe.added_mass[element])
     along, axial_added = float(pipe.axial_drag_coefficient[element]), float(pipe.axial_added_mass[element])
     displaced = density * math.pi / 4.0 * buoyancy**2

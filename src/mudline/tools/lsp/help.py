@@ -11,7 +11,7 @@ from lsprotocol import types
 from mudline.basics.limits import MOST_HINTS
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text, usual_text
@@ -21,11 +21,10 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.model.results.summary import followers
-from mudline.model.scene.deck_curves import ENDS, DeckCurve, other_curves
+from mudline.model.scene.curves import ENDS, DeckCurve, SceneCurve, other_curves
 from mudline.model.scene.deck_values import find_file
-from mudline.model.scene.force_curves import SceneCurve
 from mudline.model.scene.model import Scene
-from mudline.model.scene.names import CURVES
+from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.model.scene.sets import NamedSet
 from mudline.tools.lsp.decks import Analysis, value_text
@@ -171,7 +170,7 @@ def named_help(analysis: Analysis, found: Site, name: str) -> str:
 
 
 def _same(one: str, other: str) -> bool:
-    return folded(bare(one)) == folded(bare(other))
+    return name_key(one) == name_key(other)
 
 
 def set_help(scene: Scene, name: str) -> str:

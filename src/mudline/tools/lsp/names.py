@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple, cast
 
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import bare, folded, list_items
+from mudline.language.deck.parameters import bare, folded, list_items, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
@@ -17,7 +17,6 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import first_key, read_line
 from mudline.language.syntax.tree import Kind
-from mudline.model.scene.sets import set_key
 
 KINDS = {
     Names.SET: Names.SET,
@@ -51,7 +50,7 @@ class Occurrence(NamedTuple):
 
 def thing(kind: Names, name: str) -> Thing:
     """A thing by its name as it is written."""
-    return Thing(kind, set_key(name) if kind is Names.SET else folded(bare(name)))
+    return Thing(kind, name_key(name))
 
 
 def occurrences(deck: Deck) -> list[Occurrence]:

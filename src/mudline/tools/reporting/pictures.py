@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from mudline.checks.output import visible
 from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
-from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import Report
 
 MOST_PICTURES = 20

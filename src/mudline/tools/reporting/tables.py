@@ -20,7 +20,7 @@ from mudline.model.results.summary_tables import (
     weight_note,
 )
 from mudline.model.results.totals import NOT_KNOWN, touchdown_words
-from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.sheet import Sheet
 from mudline.tools.touchdown_study.screen import TABLES as STUDY_TABLES
 from mudline.tools.touchdown_study.study import Study

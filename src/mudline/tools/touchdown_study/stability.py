@@ -14,7 +14,7 @@ from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawKind
 from mudline.model.curves import ForceCurve
 from mudline.model.results.stage_times import Timer, seconds_per_step
-from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.model import Scene
 from mudline.model.scene.oscillation import line_of, oscillations

@@ -8,6 +8,7 @@ from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import OLDER
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, record_schema
+from mudline.language.keywords.table import misfit
 from mudline.language.keywords.usual import (
     BENDING,
     MASS_WIDTH,
@@ -226,9 +227,11 @@ class GeometricSets(Block):
             given = [name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None]
             if given != [option.lower()]:
                 found = " and ".join(given) or "none"
-                raise ValueError(f"sets[{index}]: OPTION={option} needs the section {option.lower()!r}, found {found}")
+                message = f"OPTION={option} needs the section {option.lower()!r}, found {found}"
+                raise misfit(message, "sets", index)
             for slot in record_schema(GeometricSet).slots:
                 if slot.key in FORMATS_OF and option not in FORMATS_OF[slot.key] and getattr(entry, slot.name):
                     formats = " or ".join(FORMATS_OF[slot.key])
-                    raise ValueError(f"sets[{index}]: OPTION={option} takes no {slot.key}=, which is of {formats}")
+                    message = f"OPTION={option} takes no {slot.key}=, which is of {formats}"
+                    raise misfit(message, "sets", index, slot.json)
         return self

@@ -17,7 +17,7 @@ _ORDER = (
     "the order, which is that of .das decks: a page on theory lists tangential before normal added mass, and the lines "
     "of the keyword's own page were not seen"
 )
-_OTHERS = "other types (by Reynolds number, moonpools, buoys), whose lines are passed through unchanged"
+_OTHERS = "types by Reynolds number, of moonpools and buoys, whose lines are passed through unchanged"
 
 
 class ConstantCoefficients(Row):
@@ -65,9 +65,14 @@ class HydrodynamicSet(OpenRecord):
     rule = "hydrodynamic_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET, unique=True)] = Field(alias="set")
     type_: Annotated[
-        Literal["CONSTANT"] | Other | None,
+        Literal["CONSTANT", "REYNOLDS"] | Other | None,
         setting(
-            "TYPE", "what the coefficients depend on", default="CONSTANT", inline=True, inferred=_OTHERS, opaque=()
+            "TYPE",
+            "what the coefficients depend on",
+            default="CONSTANT",
+            inline=True,
+            inferred=_OTHERS,
+            opaque=("REYNOLDS",),
         ),
     ] = Field(default=None, alias="type")
     constant: Annotated[ConstantCoefficients | None, about("coefficients of CONSTANT")] = None

@@ -27,7 +27,7 @@ from mudline.model.results.plots.style import (
     style_of,
     zero_line,
 )
-from mudline.model.scene.deck_curves import OF_CURRENT, OF_SEABED
+from mudline.model.scene.curves import OF_CURRENT, OF_SEABED
 from mudline.model.scene.numbering import Indices, Mask
 
 _MARGIN = 0.15

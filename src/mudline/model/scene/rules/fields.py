@@ -1,7 +1,8 @@
-"""Values, files and sections that no deck should have: ranges of fields, missing files, pipes without a wall."""
+"""Values, names and files that no deck should have: ranges of fields, undefined names, pipes without a wall."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
@@ -12,12 +13,15 @@ from mudline.language.codes.references import REF015
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_have_no_length
+from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.ranges import range_faults, ranged_slots
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import missing_files, not_found
+from mudline.model.scene.references import THINGS, undefined
 from mudline.model.scene.sections import format_of
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
     from mudline.language.keywords.library.geometric_sets import GeometricSets
     from mudline.model.scene.resolved import ResolvedDeck
 
@@ -44,12 +48,11 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for i, section in enumerate(scene.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and ranged_slots(type(block)):
-                for path, message in range_faults(block):
-                    if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
-                        yield Problem(SBD010, message, where=Where(i, j, path))
+    for where, _, block in scene.deck.every_block():
+        if type(block) is not Opaque and ranged_slots(type(block)):
+            for path, message in range_faults(block):
+                if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
+                    yield Problem(SBD010, message, where=where._replace(path=path))
 
 
 @rule(REF015, blocks=True)
@@ -144,3 +147,51 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
         nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
         message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"
         yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)
+
+
+REF019 = Code("REF019", "undefined-name", Severity.ERROR)
+
+
+@rule(REF019, blocks=True)
+def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A vessel, a line, a vector or another thing with a name is used, and the deck does not define it.
+
+    Mostly the name is spelt differently in two places: case is ignored in names, spaces are not. Correct the name, or
+    define the thing. It is a warning where a line that was not read, or the deck that *RESTART continues, may define
+    it. Sets, curves, nodes and elements have rules of their own. The contact with the seabed does not depend on it.
+
+    Example:
+         $MODEL
+         *VESSEL
+          VESSEL=FPSO
+          INITIAL POSITION=1005.0, 0.0, 0.0
+         $LOAD CASE
+         *OFFSET
+        - VESSEL=FSPO
+        + VESSEL=FPSO
+          OFFSET=0.0, -8.0, 0.0
+
+    Finds: 7:9
+    """
+    yield from undefined(scene.context, THINGS, REF019)
+    yield from _cables(scene)
+
+
+def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The cables, which have numbers, that nodes lie on."""
+    blocks = scene.context.blocks("CABLE")
+    cables = {cable.cable for _, block in blocks for cable in block.cables}
+    doubt = any(not is_read(block) or scene.deck.lost(where) for where, block in blocks) or scene.context.restart
+    for where, block in scene.context.blocks("NODE,CURVILINEAR"):
+        for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
+            place = where.inside("entries", index)
+            if hasattr(entry, "nodes"):
+                rows = enumerate(entry.nodes.column(1).tolist())
+                used = [(cable, place.inside("nodes", row, 1)) for row, cable in rows]
+            else:
+                used = [(entry.cable, place.inside("cable"))]
+            for cable, at in used:
+                if isinstance(cable, int | float) and math.isfinite(cable) and cable not in cables:
+                    message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
+                    severity = Severity.WARNING if doubt else None
+                    yield Problem(REF019, message, None, severity, at, blocks=Blocks.NEVER, lacks=f"{cable:g}")

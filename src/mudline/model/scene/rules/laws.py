@@ -16,12 +16,12 @@ from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.laws import law_named
 from mudline.model.scene.laws import NOTHING, typed_blocks
-from mudline.model.scene.names import CURVES, names_used, undefined
+from mudline.model.scene.references import CURVES, every_name, undefined
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_curves import Embedment
     from mudline.language.keywords.library.seabed_properties import ElasticSurface
-    from mudline.model.scene.force_curves import SceneCurve
+    from mudline.model.scene.curves import SceneCurve
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -35,7 +35,7 @@ SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 def extends_rigid(scene: ResolvedDeck) -> bool:
     """Whether EXT001 says that the seabed is rigid: faults of laws that have no effect then are not reported."""
-    extension = any(True for _ in scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    extension = bool(scene.deck.blocks_with("extension"))
     return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
 
 
@@ -192,7 +192,7 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     if not first:
         return
     reading, types = scene.context, scene.laws.types
-    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or "SEABED PROPERTIES" in reading.misplaced
     if "RIGID" not in types and ("ELASTIC" in types or unread):
         return  # a type that could not be read is reported elsewhere
     for curve in first.values():
@@ -292,7 +292,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     unused = [name for key, name in names.items() if key not in scene.laws.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for name, where in ((one.name, one.where) for one in names_used(scene.context, Names.CURVE)):
+    for name, where in ((one.name, one.where) for one in scene.context.once(every_name)[Names.CURVE].used):
         if folded(name) in names:
             continue
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)

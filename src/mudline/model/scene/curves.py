@@ -1,13 +1,13 @@
 """Every curve of a deck, whatever keyword gives it: points over an abscissa, linear between them.
 
-Force-embedment curves are resolved in `force_curves`, as elements follow them; this is what all curves have in common.
+Force-embedment curves are resolved here too, as elements follow them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from math import inf
+from math import inf, isnan
 from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 import numpy as np
@@ -21,20 +21,150 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
+from mudline.language.keywords.unknown import known_name
 from mudline.language.keywords.values import Names
 from mudline.language.keywords.writer import field_text
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.force_curves import clashes_and_repeats
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
     from mudline.model.curves import ForceCurve
+
+
+_CODES = {code.code: code for code in (CRV001, CRV011)}
+_NOWHERE = np.zeros(0, dtype=np.intp)
+
+
+class SceneCurve(NamedTuple):
+    """A curve of the deck: its name (that of its set for `*EMBEDMENT`), its points as given, where it stands.
+
+    `points` (n, 2) leaves out rows that could not be read; `rows` (n,) are their places in the table. `curve` is made
+    of those that fit together, None when they make no curve; `whole` says that these are all. `named` says that the
+    name, or the set, could be read.
+    """
+
+    name: str
+    points: Floats
+    rows: Indices
+    where: Where
+    curve: ForceCurve | None
+    whole: bool
+    embedment: bool
+    named: bool
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+    def point(self, index: int) -> Where:
+        """Where a point of `points` stands."""
+        return self.where.inside("points", int(self.rows[index]))
+
+    @property
+    def usable(self) -> bool:
+        """Whether the curve is what the deck says."""
+        return self.curve is not None and self.whole
+
+    @property
+    def title(self) -> Where:
+        """Where its name stands: the value of CURVE= or SET=."""
+        return self.where.inside("set" if self.embedment else "name")
+
+
+def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
+    """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
+    named = [
+        _seabed_curve(context, known_name(entry.name), entry.points, where.inside("curves", index), embedment=False)
+        for where, block in context.blocks("SEABED STIFFNESS")
+        for index, entry in enumerate(cast("SeabedStiffness", block).curves)
+    ]
+    by_set = [
+        _seabed_curve(context, set_name(entry.set_name), entry.points, place, embedment=True)
+        for where, block in context.blocks("EMBEDMENT")
+        for index, entry in enumerate(cast("Embedment", block).curves)
+        for place in (where.inside("curves", index),)
+    ]
+    return named, by_set
+
+
+def set_name(name: str | None) -> str | None:
+    """The name that a SET= of a seabed law gives: ALL without a SET=, None where it could not be read."""
+    return "ALL" if name is None else known_name(name)
+
+
+def _seabed_curve(context: Context, name: str | None, table: Table, where: Where, *, embedment: bool) -> SceneCurve:
+    if name is None and not embedment:
+        context.unread.add("SEABED STIFFNESS")
+    points, rows = _points(table)
+    found = SceneCurve(name or "", points, rows, where, None, len(rows) == len(table), embedment, name is not None)
+    curve, whole = _made(context, found, OF_SEABED, ("ratio", "force"), where)
+    return found._replace(curve=curve, whole=whole)
+
+
+def _points(table: Table) -> tuple[Floats, Indices]:
+    """The points (n, 2) of a table, those that have two numbers, and their rows."""
+    values = table.values
+    full = values.shape[1] == 2 and (table.full or np.minimum.reduce(table.lengths, initial=2) == 2)
+    if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
+        return values.copy(), np.arange(len(values), dtype=np.intp)
+    points = np.column_stack((table.column(0), table.column(1)))
+    rows = ((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1]))).nonzero()[0]
+    return points[rows], rows
+
+
+def _made(
+    context: Context,
+    given: SceneCurve | DeckCurve,
+    kind: str,
+    axes: tuple[str, str],
+    title: Where,
+    blocks: Blocks | None = None,
+) -> tuple[ForceCurve | None, bool]:
+    """The curve of the points that fit together, if they make one, and whether these are all.
+
+    Reports curves that are none: too few points, two values at one abscissa, sections that cannot be held.
+    """
+    from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
+
+    clashing, _ = clashes_and_repeats(given.points)
+    whole, keep = given.whole and not clashing.size, np.arange(len(given.points), dtype=np.intp)
+    if clashing.size:
+        keep = np.setdiff1d(keep, clashing, assume_unique=True)
+    for index in clashing[: MOST_REPORTED + 1].tolist():
+        at, value = given.points[index].tolist()
+        message = f"a second {axes[1]} at {axes[0]} {at!r} ({value!r}): the slope there would be infinite; remove one"
+        context.note(Problem(CRV003, message, where=given.point(index), blocks=blocks))
+    try:
+        return ForceCurve(given.points[keep], given.name), whole
+    except CurveError as error:
+        if error.index >= 0:  # the message counts points, which holds only when none is left out
+            fault = str(error) if whole else "the slope to this point cannot be held by a float64"
+            place = given.point(int(keep[error.index]))
+            context.note(Problem(_CODES[error.code], f"{fault}: correct the point", where=place, blocks=blocks))
+        elif whole:
+            has = "one distinct point" if len(given.points) else "no point"
+            message = f"{kind} {shown(given.name)} has {has}: it needs at least two"
+            context.note(Problem(CRV001, message, where=title, blocks=blocks))
+    return None, whole
+
+
+def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
+    """Indices of points at the ratio of an earlier one: those with another force than the first there, and the same."""
+    if np.count_nonzero(points[1:, 0] > points[:-1, 0]) == max(len(points) - 1, 0):
+        return _NOWHERE, _NOWHERE
+    order = np.argsort(points[:, 0], kind="stable")
+    ratios, forces = points[order].T
+    begins: Mask = np.append(True, ratios[1:] != ratios[:-1])
+    starts = np.flatnonzero(begins)
+    first_force = np.repeat(forces[starts], np.diff(np.append(starts, len(ratios))))
+    other = forces != first_force
+    return np.sort(order[other]), np.sort(order[~other & ~begins])
+
 
 OF_SEABED = "force-embedment curve"
 """The kind of curve that elements on the seabed follow."""
 OF_CURRENT = "current profile"
-_CODES = {code.code: code for code in (CRV001, CRV011)}
 _DOWN = ("depth below surface", "L")
 _OF_OPTION = {"DESCEND": _DOWN, "DESCENDING": _DOWN, "XL": ("place over length", "-")}
 """Abscissa of a current profile and its unit, where OPTION= gives it another than the elevation."""
@@ -89,11 +219,10 @@ class DeckCurve(NamedTuple):
 
 def other_curves(deck: Deck) -> Iterator[DeckCurve]:
     """The curves of a deck but those of its seabed, in the order of the file."""
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and _has_curves(type(block)):
-                for curve in _curves(block, block.keyword, Where(i, j), "", Where(i, j)):
-                    yield _below_surface(deck, curve) if curve.kind == OF_CURRENT else curve
+    for where, _, block in deck.every_block():
+        if type(block) is not Opaque and _has_curves(type(block)):
+            for curve in _curves(block, block.keyword, where, "", where):
+                yield _below_surface(deck, curve) if curve.kind == OF_CURRENT else curve
 
 
 def _below_surface(deck: Deck, curve: DeckCurve) -> DeckCurve:
@@ -177,28 +306,6 @@ def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple
 
 
 def check_curves(context: Context) -> None:
-    """Report curves that are none: too few points, two values at one abscissa, sections that cannot be held."""
+    """Report what is wrong with the curves that are not those of the seabed."""
     for curve in other_curves(context.deck):
-        clashing, _ = clashes_and_repeats(curve.points)
-        for index in clashing[: MOST_REPORTED + 1].tolist():
-            at, value = curve.points[index].tolist()
-            message = f"a second {curve.axes[1]} at {curve.axes[0]} {at!r} ({value!r}): remove one"
-            context.note(Problem(CRV003, message, where=curve.point(index), blocks=Blocks.NEVER))
-        keep = np.setdiff1d(np.arange(len(curve.points)), clashing, assume_unique=True)
-        _check_points(context, curve, keep)
-
-
-def _check_points(context: Context, curve: DeckCurve, keep: Indices) -> None:
-    from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
-
-    try:
-        ForceCurve(curve.points[keep], curve.name)
-    except CurveError as error:
-        if error.index >= 0:
-            message = "the slope to this point cannot be held by a float64: correct the point"
-            place = curve.point(int(keep[error.index]))
-            context.note(Problem(_CODES[error.code], message, where=place, blocks=Blocks.NEVER))
-        elif curve.whole:
-            has = "one distinct point" if len(curve.points) else "no point"
-            message = f"{curve.kind} {shown(curve.name)} has {has}: it needs at least two"
-            context.note(Problem(CRV001, message, where=curve.title, blocks=Blocks.NEVER))
+        _made(context, curve, curve.kind, curve.axes, curve.title, Blocks.NEVER)
