@@ -230,6 +230,13 @@ def _held_nodes(context: LintContext) -> dict[str, list[int]]:
     return found
 
 
+def _between_axes(of: Numbers, _name: str, _value: float) -> float:
+    """The angle between two axes of a row in degrees; 0 where one has no length."""
+    first, second = (np.nan_to_num([of(f"{axis}{which}") for axis in "xyz"]) for which in (1, 2))
+    lengths = float(np.linalg.norm(first) * np.linalg.norm(second))
+    return math.degrees(math.acos(max(-1.0, min(float(first @ second) / lengths, 1.0)))) if lengths else 0.0
+
+
 # --------------------------------------------------------------------------------------------------- seabed and soil
 
 
@@ -370,6 +377,8 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "times the water depth": lambda of, _, value: over(value, max(of.depth, _SHALLOW * of.units.known)),
     "m from the nodes that it holds": lambda of, n, value: _from_nodes(of, n, value) if of.units.known else math.nan,
     "as heave in a wave of 40 s and longer": _long_heave,
+    "as the length of the vector": lambda of, *_: float(np.linalg.norm(np.nan_to_num([of(axis) for axis in "xyz"]))),
+    "degrees between the local x and y axes": _between_axes,
     "as steepness, 2 pi H / g T2": lambda of, _, value: _steepness(of, value),
     "diameters that the pipe sinks under its weight": _sinking,
     "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,

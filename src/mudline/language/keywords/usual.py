@@ -52,6 +52,8 @@ ANY = "no source says what is usual"
 OF_THE_RUN = "the run decides"
 OF_A_KIND = "a length or an angle, a force or a moment: the degree of freedom or the type decides"
 COMPONENT = "a component of a direction"
+LENGTH = Usual(low=1e-9, why="it gives a direction", of="as the length of the vector")
+AXES = Usual(89.9, 90.1, "axes are at right angles", of="degrees between the local x and y axes")
 POSITION = "a position: UNT006 compares coordinates with each other, and with the water depth"
 ALONG = "a place along a line"
 MODEL = "judged by rules of its keyword"
