@@ -138,38 +138,41 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
 
 
 def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
-    """Elements between two nodes at which a line turns back and forward again; nothing else ends at these nodes.
+    """Nodes at which a line turns back, and forward again at the next one or not; nothing else ends at these nodes.
 
     Nodes that are `far` from their neighbours are reported as such.
     """
-    ends, used = scene.element_nodes, None
-    for block in blocks_of(max(len(ends) - 2, 0)):
-        for element in _turned(scene, block):
-            used = _uses(scene) if used is None else used
-            one, other = ends[element].tolist()
-            if used[one] == used[other] == 2 and one not in far and other not in far:
-                ids = scene.node_ids
-                message = (
-                    f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
-                    "coordinates of one of them"
-                )
-                yield Problem(UNT006, message, where=scene.nodes.where(one))
+    turns = [element for block in blocks_of(max(len(scene.element_nodes) - 1, 0)) for element in _turned(scene, block)]
+    used, ids, sections = _uses(scene) if turns else None, scene.node_ids, scene.section_table.of_element
+    told = -1
+    for element in turns if used is not None else ():
+        one, other = scene.element_nodes[element].tolist()
+        if used[one] != 2 or one in far or element == told:
+            continue
+        message = f"the line turns back at node {ids[one]}, as no pipe bends: correct the coordinates beside it"
+        if element + 1 in turns:
+            told = element + 1
+            if used[other] != 2 or other in far or len(set(sections[element - 1 : element + 2].tolist())) > 1:
+                continue
+            message = (
+                f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
+                "coordinates of one of them"
+            )
+        yield Problem(UNT006, message, where=scene.nodes.where(one))
 
 
 def _turned(scene: Scene, block: slice) -> list[int]:
-    """Elements that run back, between two of their section that run forward; those before them are of the block."""
-    three = range(block.start, block.stop + 2)
-    ends = scene.element_nodes[three.start : three.stop]
+    """Elements that run back over the one before them, which is of the block."""
+    ends = scene.element_nodes[block.start : block.stop + 1]
     if _goes_forward(scene, ends):
         return []
-    sections = scene.section_table.of_element[three.start : three.stop]
-    joined = (ends[:-1, 1] == ends[1:, 0]) & (sections[:-1] == sections[1:]) & (ends[:-1] >= 0).all(axis=1)
-    chained = joined[:-1] & joined[1:] & (ends[2:] >= 0).all(axis=1)
-    if not chained.any():
+    joined = (ends[:-1, 1] == ends[1:, 0]) & (ends[:-1] >= 0).all(axis=1) & (ends[1:] >= 0).all(axis=1)
+    if not joined.any():
         return []
     steps = _directions(scene, ends)
-    back = np.sum(steps[:-1] * steps[1:], axis=1) < TURNED
-    found: list[int] = (np.flatnonzero(chained & back[:-1] & back[1:]) + 1 + block.start).tolist()
+    found: list[int] = (
+        np.flatnonzero(joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)) + 1 + block.start
+    ).tolist()
     return found
 
 
