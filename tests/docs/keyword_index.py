@@ -41,6 +41,16 @@ These are known by name, and their lines are kept unchanged. In another section 
 | --- | --- |
 {passing}
 
+They were looked for once more on 2026-11-28, in stored copies of the manual's public pages, by the name that the page of
+each would have (`kwd_loadcase_temperature` and the like):
+
+| outcome | keywords |
+| --- | --- |
+| page found, its lines are requests of plots from which nothing here is computed | `*SPECTRUM` and `*RAO` of postprocessing, `*TIMETRACE` of a load case (in part) |
+| named by pages about theory, without the form of their lines | `*COATINGS`, `*DAMPING`, `*IDENTIFY`, `*OUTPUT FILES`, `*PARA ANGLE TENSION`, `*PLOT`, `*SEASTATE FILES`, `*SLUGS`, `*SNAPSHOT`, `*STANDARD OUTPUT`, `*STATISTICS`, `*WAVE-PIERSON-MOSKOWITZ` |
+| nothing found | `*DAMPER`, `*EQUIVALENT`, `*FATIGUE DATA`, `*FLOATING BODY`, `*GUIDE`, `*PLASTIC HARDENING`, `*POINT BUOY`, `*POISSON`, `*S-N CURVE`, `*TAPER`, `*TEMPERATURE`, `*TOP TENSION`, `*WINCH`, `*WIND` |
+| no page of the manual, only a public reader of `.das` decks | `*DIRECTORY`, `*DRIFT-OFF LIMITS`, `*DRILLING MUD`, `*TIME,DISCONNECT`, `*TOP TENSION`, `*WAVE`, `*WIND` |
+
 ## Formats
 
 In the formats of the pages `[ ]` may be left out, `|` separates alternatives, and `...` means that a line, with the

@@ -126,22 +126,16 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
-        ratios = curve.points[:, 0]
-        if is_upside_down(curve):
-            continue
-        for index in (np.flatnonzero(ratios[1:] < ratios[:-1])[:1] + 1).tolist():
-            before, ratio = ratios[index - 1 : index + 1].tolist()
-            message = f"ratio {ratio!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            repair = sorting(context.text, curve) if context.text else None
-            yield Problem(CRV002, message, where=curve.point(index), repair=repair)
-    for other in other_curves(context.scene.deck):
-        over, name = other.points[:, 0], other.axes[0]
-        falls = np.flatnonzero(over[1:] < over[:-1])[:1] + 1
-        for index in falls.tolist() if (over[1:] > over[:-1]).any() else ():  # else it is written from its other end
+    curves, others = context.scene.laws.curves, other_curves(context.scene.deck)
+    seabed = ((curve, "ratio") for curve in curves if not is_upside_down(curve))
+    rising = ((other, other.axes[0]) for other in others if (np.diff(other.points[:, 0]) > 0.0).any())  # not all fall
+    for curve, name in chain(seabed, rising):
+        over = curve.points[:, 0]
+        for index in (np.flatnonzero(over[1:] < over[:-1])[:1] + 1).tolist():
             before, value = over[index - 1 : index + 1].tolist()
             message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            yield Problem(CRV002, message, where=other.point(index))
+            repair = sorting(context.text, curve) if context.text and isinstance(curve, SceneCurve) else None
+            yield Problem(CRV002, message, where=curve.point(index), repair=repair)
 
 
 @joint(CRV009, CRV010, CRV005)
@@ -268,22 +262,16 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
+    for curve in chain(context.scene.laws.curves, other_curves(context.scene.deck)):
         repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
-        rows = plain_rows(context.text, curve) if context.text and repeats else None
+        of_seabed = isinstance(curve, SceneCurve)
+        rows = plain_rows(context.text, curve) if of_seabed and context.text and repeats else None
         for index in repeats:
-            ratio, force = curve.points[index].tolist()
-            message = f"the point ({ratio!r}, {force!r}) is given twice and counts once: remove it"
-            row = int(curve.rows[index])
-            # A point further up is of another curve, if the line with the name of this one is missing.
-            is_next = bool((curve.points[index - 1] == curve.points[index]).all())
-            repair = removal(rows, row) if rows and is_next else None
-            yield Problem(CRV004, message, where=curve.point(index), repair=repair)
-    for other in other_curves(context.scene.deck):
-        for index in clashes_and_repeats(other.points)[1][:MOST_REPORTED].tolist():
-            over, value = other.points[index].tolist()
+            over, value = curve.points[index].tolist()
             message = f"the point ({over!r}, {value!r}) is given twice and counts once: remove it"
-            yield Problem(CRV004, message, where=other.point(index))
+            is_next = bool((curve.points[index - 1] == curve.points[index]).all())
+            repair = removal(rows, int(curve.rows[index])) if rows and is_next else None
+            yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
 class PlainRows(NamedTuple):
