@@ -78,7 +78,7 @@ def _beside(scene: Scene) -> tuple[Indices, Indices]:
     nodes, elements = ends[order].ravel(), np.repeat(order, 2)
     by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
     nodes, elements = nodes[by_node], elements[by_node]
-    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], np.full(min(len(nodes), 1), True)))
+    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], np.ones(min(len(nodes), 1), np.bool_)))
     longest, second = np.full((2, len(scene.node_ids)), -1, dtype=np.intp)
     longest[nodes[last]] = elements[last]
     shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
@@ -132,9 +132,11 @@ def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
     Nodes that are `far` from their neighbours are reported as such.
     """
     turns = [element for block in blocks_of(max(len(scene.element_nodes) - 1, 0)) for element in _turned(scene, block)]
-    used, ids, sections = _uses(scene) if turns else None, scene.node_ids, scene.section_table.of_element
+    if not turns:
+        return
+    used, ids, sections = _uses(scene), scene.node_ids, scene.section_table.of_element
     told = -1
-    for element in turns if used is not None else ():
+    for element in turns:
         one, other = scene.element_nodes[element].tolist()
         if used[one] != 2 or one in far or element == told:
             continue

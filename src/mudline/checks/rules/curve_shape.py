@@ -15,7 +15,7 @@ from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, 
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import line_spans, row_fields
-from mudline.model.scene.deck_curves import other_curves
+from mudline.model.scene.deck_curves import DeckCurve, other_curves
 from mudline.model.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
@@ -127,10 +127,12 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     curves, others = context.scene.laws.curves, other_curves(context.scene.deck)
+    seabed: Iterator[tuple[SceneCurve | DeckCurve, str]]
     seabed = ((curve, "ratio") for curve in curves if not is_upside_down(curve))
-    rising = ((other, other.axes[0]) for other in others if (np.diff(other.points[:, 0]) > 0.0).any())  # not all fall
-    for curve, name in chain(seabed, rising):
+    for curve, name in chain(seabed, ((other, other.axes[0]) for other in others)):
         over = curve.points[:, 0]
+        if name != "ratio" and not (over[1:] > over[:-1]).any():
+            continue  # it is written from its other end
         for index in (np.flatnonzero(over[1:] < over[:-1])[:1] + 1).tolist():
             before, value = over[index - 1 : index + 1].tolist()
             message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
@@ -262,10 +264,10 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in chain(context.scene.laws.curves, other_curves(context.scene.deck)):
+    curves: Iterator[SceneCurve | DeckCurve] = chain(context.scene.laws.curves, other_curves(context.scene.deck))
+    for curve in curves:
         repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
-        of_seabed = isinstance(curve, SceneCurve)
-        rows = plain_rows(context.text, curve) if of_seabed and context.text and repeats else None
+        rows = plain_rows(context.text, curve) if context.text and repeats and isinstance(curve, SceneCurve) else None
         for index in repeats:
             over, value = curve.points[index].tolist()
             message = f"the point ({over!r}, {value!r}) is given twice and counts once: remove it"
