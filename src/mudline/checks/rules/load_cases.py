@@ -82,7 +82,7 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:9
     """
-    waves = any(keyword.startswith("WAVE") for _, keyword in in_water(context.deck))
+    waves = any("WAVE" in keyword for _, keyword in in_water(context.deck))
     if not waves or not _analysis(context) & {*_DYNAMIC}:
         return
     moving = context.scene.deck.blocks_that(lambda declared: declared.facts.moves_vessels, "LOAD CASE")
