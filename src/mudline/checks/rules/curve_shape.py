@@ -131,7 +131,7 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     seabed = ((curve, "ratio") for curve in curves if not is_upside_down(curve))
     for curve, name in chain(seabed, ((other, other.axes[0]) for other in others)):
         over = curve.points[:, 0]
-        if name != "ratio" and not (over[1:] > over[:-1]).any():
+        if not isinstance(curve, SceneCurve) and not (over[1:] > over[:-1]).any():
             continue  # it is written from its other end
         for index in (np.flatnonzero(over[1:] < over[:-1])[:1] + 1).tolist():
             before, value = over[index - 1 : index + 1].tolist()
