@@ -13,7 +13,8 @@ from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import FieldSpec, fields_of
 from mudline.language.keywords.values import Kind
-from tests.checks.usual_slips import CONDUCTOR, FLOWLINE, LAZY_WAVE, PIPELINE, STEEL_LAZY_WAVE, UNEVEN_PIPELINE, Slip
+from tests.checks import usual_slips
+from tests.checks.usual_slips import Slip
 
 DECKS = Path(__file__).parents[1] / "data" / "usual"
 NUMBERS = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME, Kind.WHOLE_OR_LABEL)
@@ -58,7 +59,7 @@ MISSED = {"100, 45.0E6": "an info: the mass of a hull may be a point mass"}
 
 @pytest.mark.parametrize(
     "slip",
-    [*LAZY_WAVE, *PIPELINE, *CONDUCTOR, *FLOWLINE, *STEEL_LAZY_WAVE, *UNEVEN_PIPELINE],
+    [slip for slips in vars(usual_slips).values() if isinstance(slips, list) for slip in slips],
     ids=lambda slip: f"{slip.deck}: {slip.typed.strip()}",
 )
 def test_a_slip_is_found(slip: Slip) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.names_only import NAMES
@@ -41,6 +41,13 @@ These are known by name, and their lines are kept unchanged. In another section 
 | --- | --- |
 {passing}
 
+They were looked for once more on 2026-11-28, in stored copies of the manual's public pages, by the name that the page
+of each would have (`kwd_loadcase_temperature` and the like):
+
+| outcome | keywords |
+| --- | --- |
+{looked_up}
+
 ## Formats
 
 In the formats of the pages `[ ]` may be left out, `|` separates alternatives, and `...` means that a line, with the
@@ -50,10 +57,33 @@ our reading of what the language leaves open; each page ends with a list.
 """
 
 
+LOOKED_UP = {
+    "page found; its lines are requests of plots, from which nothing is computed here": (
+        *("SPECTRUM", "RAO", "TIMETRACE"),  # of postprocessing, and of a load case
+    ),
+    "named by pages about theory, without the form of their lines": (
+        *("COATINGS", "DAMPING", "IDENTIFY", "OUTPUT FILES", "PARA ANGLE TENSION", "PLOT", "SEASTATE FILES", "SLUGS"),
+        *("SNAPSHOT", "STANDARD OUTPUT", "STATISTICS", "WAVE-PIERSON-MOSKOWITZ"),
+    ),
+    "nothing found": (
+        *("DAMPER", "EQUIVALENT", "FATIGUE DATA", "FLOATING BODY", "GUIDE", "PLASTIC HARDENING", "POINT BUOY"),
+        *("POISSON", "S-N CURVE", "TAPER", "TEMPERATURE", "WINCH"),
+    ),
+    "no page of the manual, but a public reader of `.das` decks": (
+        *("DIRECTORY", "DRIFT-OFF LIMITS", "DRILLING MUD", "TIME,DISCONNECT", "TOP TENSION", "WAVE", "WIND"),
+    ),
+}
+"""What a search for the pages of the keywords that pass through has shown."""
+
+
 def keyword_index() -> str:
     """The whole page."""
     return _PAGE.format(
-        made=MADE, models=_by_subject(), kept=_rows(catalogue.opaque_keywords()), passing="\n".join(_passing())
+        made=MADE,
+        models=_by_subject(),
+        kept=_rows(catalogue.opaque_keywords()),
+        passing="\n".join(_passing()),
+        looked_up="\n".join(f"| {what} | {_listed(keywords)} |" for what, keywords in LOOKED_UP.items()),
     )
 
 
@@ -79,6 +109,10 @@ def _rows(declared: Sequence[Declared]) -> str:
         f"| [`{title(each)}`](keywords/{page_name(each)}.md) | {sections_of(each)} | {marked(each.summary)} |"
         for each in declared
     )
+
+
+def _listed(keywords: Iterable[str]) -> str:
+    return ", ".join(f"`*{keyword}`" for keyword in keywords)
 
 
 def _passing() -> Iterator[str]:

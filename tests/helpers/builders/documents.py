@@ -16,8 +16,8 @@ from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeS
 from mudline.language.keywords.library.floating_bodies import MatrixRow
 from mudline.language.keywords.library.geometric_sets import FORMATS_OF, GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
+from mudline.language.keywords.library.random_seas import JonswapSea, OchiHubbleSea, SpectrumByPoints, TorsethaugenSea
 from mudline.language.keywords.library.seabed_surface import SeabedProfile
-from mudline.language.keywords.library.waves import JonswapSea
 from mudline.language.keywords.model import FEWEST_POINTS, Block, FieldSpec, ListRow, Record, Row, Rows, record_schema
 from mudline.language.keywords.values import Kind
 from mudline.language.syntax.rows import spells_number
@@ -287,6 +287,18 @@ def _jonswap_sea(draw: st.DrawFn, _made: Values) -> Values:
     return {"frequency": frequency, "spec": spec, row_: draw(cell(slots[row_]))}
 
 
+def _sea_of(record: type[Record]) -> Callable[[Values], st.SearchStrategy[Values]]:
+    """The line of its frequencies, and what else it has."""
+    slots = {slot.json: slot for slot in record_schema(record).slots}
+
+    def line(made: Values, frequency: str) -> st.SearchStrategy[Values]:
+        slot = "area" if frequency == "AREA" else "progression"
+        rest = {key: value for key, value in made.items() if key not in ("area", "progression")}
+        return cell(slots[slot]).map(lambda row_: rest | {"frequency": frequency, slot: row_})
+
+    return lambda made: st.sampled_from(["AREA", "GP"]).flatmap(lambda frequency: line(made, frequency))
+
+
 def _each_once(made: Values) -> st.SearchStrategy[Values]:
     """One line for a kind of run."""
     kinds = {line["analysis"]: line for line in made.get("tolerances", [])}
@@ -310,6 +322,9 @@ ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "database": _database,
     "geometric_set": _geometric_set,
     "jonswap_sea": _jonswap_sea,
+    "ochi_hubble_sea": _sea_of(OchiHubbleSea),
+    "torsethaugen_sea": _sea_of(TorsethaugenSea),
+    "spectrum_by_points": _sea_of(SpectrumByPoints),
     "seabed_profile": _seabed_profile,
     "time": _time,
     "time_stepping": _time_stepping,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any, cast
+
 import pytest
 
 from mudline.language.deck.loading import dump
@@ -106,6 +108,18 @@ FAULTS = [
     ("wave_time_history|*WAVE-TIME-HISTORY\n FILE=a\n 0, 0, 0, 1\n", "2:1 SYN001"),
     ("wave_jonswap|*WAVE-JONSWAP\n FREQUENCY=AREA, SPEC=HSTP\n 4, 11, 0.01, 0.3, 80, 0\n", "4:24 SBD010"),
     ("wave_jonswap|*WAVE-JONSWAP\n FREQUENCY=GP, SPEC=HSTZ\n 4, 11, 0.01\n", "4:2 SYN003"),
+    ("wave_deans|*WAVE-DEANS\n 6, 12, 0, 0, 0\n", "3:15 SBD010"),
+    ("wave_deans|*WAVE-DEANS\n OPTION=SUPERPOSE\n 6, 12, 180, 0.5, 15, 100, 5, 3, 12\n", ""),
+    ("wave_ochi_hubble|*WAVE-OCHI-HUBBLE\n FREQUENCY=GP\n 3, 14, 3, 2, 8, 1.5, 0.35, x, 1\n", "4:29 SYN002"),
+    ("wave_torsethaugen|*WAVE-TORSETHAUGEN\n FREQUENCY=AREA\n 4, 11, 0.01, 0.35, 80\n", "4:2 SYN003"),
+    ("wave_user_defined|*WAVE-USER-DEFINED\n FREQUENCY=GP\n 1.05, 1\n 0.05, 0\n -0.1, 2\n", "6:2 SBD010"),
+    ("wave_user_defined|*WAVE-USER-DEFINED\n 1.05, 1\n", "3:2 SYN001"),
+    ("moonpool|*MOONPOOL\n VESSEL=a\n 90, 0, 0, 0, -9\n", "4:15 SBD010"),
+    ("vector|*VECTOR\n VECTOR=a\n 0, north\n", "4:5 SYN002"),
+    ("local_axis_system|*LOCAL AXIS SYSTEM\n NAME=a\n 0, 1, 0, 1, 0, 0, 5\n", "4:2 SYN003"),
+    ("axis_vector|*AXIS/VECTOR\n AXIS=a\n 10, LOCAL_X=11\n", "4:6 SYN004"),
+    ("collate_plot_axes|*COLLATE PLOT AXES\n Heading, north\n", "3:11 SYN002"),
+    ("collate|*COLLATE\n TITLE=a\n MIN=0, STDDEV=-1\n", "4:16 SBD010"),
     ("current|*CURRENT\n TYPE=PIECEWISE\n", "3:7 SYN005"),
     ("current|*CURRENT\n TYPE=UNIFORM\n 0.5, north\n", "4:7 SYN002"),
     ("current|*CURRENT\n TYPE=UNIFORM\n 0.5, 90\n 0.7, 90\n", "5:2 SYN001"),
@@ -181,6 +195,13 @@ def test_every_keyword_that_is_new_has_a_wrong_value() -> None:
         *("rigid_surface", "seabed_properties", "seabed_stiffness", "t_z", "variation"),
     }
     assert of_manual - tried == opaque | older
+
+
+def test_a_sea_keeps_its_frequencies_until_they_are_given_again() -> None:
+    lines = "*WAVE-TORSETHAUGEN\n FREQUENCY=GP\n 4, 11, 0.3, 1.05, 1\n 5, 12, 0.3, 1.05, 1\n"
+    first, second = cast("list[dict[str, Any]]", written("wave_torsethaugen", lines)["seas"])
+    assert first == {"frequency": "GP", "progression": first["progression"]}
+    assert second == {"progression": {"height": 5, "period": 12, "cutoff": 0.3, "factor": 1.05, "directions": 1}}
 
 
 def test_a_wave_of_many_periods() -> None:

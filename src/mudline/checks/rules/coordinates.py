@@ -70,36 +70,42 @@ def _elements(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
         yield Problem(UNT006, message, where=scene.nodes.where(node))
 
 
+def _beside(scene: Scene) -> tuple[Indices, Indices]:
+    """Elements (k,) whose length is known and above 0, and the longest other one (m, 2) at each end of all; else -1."""
+    ends, length = scene.element_nodes, scene.length
+    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
+    order = usable[np.argsort(length[usable], kind="stable")]
+    nodes, elements = ends[order].ravel(), np.repeat(order, 2)
+    by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
+    nodes, elements = nodes[by_node], elements[by_node]
+    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], np.ones(min(len(nodes), 1), np.bool_)))
+    longest, second = np.full((2, len(scene.node_ids)), -1, dtype=np.intp)
+    longest[nodes[last]] = elements[last]
+    shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
+    second[nodes[shared]] = elements[shared - 1]
+    found, of_usable = np.full(ends.shape, -1, dtype=np.intp), ends[usable]
+    found[usable] = np.where(longest[of_usable] == usable[:, None], second[of_usable], longest[of_usable])
+    return usable, found
+
+
 def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
     """Index of each node between two elements that are both over 25 times as long as those beyond them, and how many.
 
     All four must be of one section, and no other element may end at one of their nodes.
     """
-    ends, length = scene.element_nodes, scene.length
-    if len(length) < 4 or not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * np.fmin.reduce(length, initial=1):
-        return
-    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (ends[:, 0] != ends[:, 1]))
-    nodes, elements = ends[usable].ravel(), np.repeat(usable, 2)
-    order = np.argsort(nodes, kind="stable")
-    nodes, elements = nodes[order], elements[order]
-    starts = np.flatnonzero(np.append(True, nodes[1:] != nodes[:-1]))
-    double = starts[np.diff(np.append(starts, len(nodes))) == 2]
-    pair = np.full((len(scene.node_ids), 2), -1, dtype=np.intp)
-    pair[nodes[double]] = np.column_stack([elements[double], elements[double + 1]])
-    middle = nodes[double]
-    inner = pair[middle]
-    outer_nodes = ends[inner].sum(axis=2) - middle[:, None]
-    at_outer = pair[outer_nodes]
-    beyond = np.where(at_outer[:, :, 0] == inner, at_outer[:, :, 1], at_outer[:, :, 0])
-    complete = (at_outer >= 0).all(axis=(1, 2))
-    middle, inner, beyond = middle[complete], inner[complete], beyond[complete]
-    sections = scene.section_table.of_element
-    alike = (sections[beyond] == sections[inner][:, :1]).all(axis=1) & (sections[inner[:, 0]] == sections[inner[:, 1]])
-    farther = length[beyond].max(axis=1, initial=0.0)
-    shorter = length[inner].min(axis=1, initial=np.inf)
-    ratios = np.divide(shorter, farther, where=farther > 0.0, out=0.0 * farther)
-    apart = np.linalg.norm(np.diff(scene.coordinates[outer_nodes[complete]], axis=1)[:, 0], axis=1)
-    alike &= apart < shorter  # else the line goes on in two long elements
+    ends, length, sections = scene.element_nodes, scene.length, scene.section_table.of_element
+    usable, beside = _beside(scene)
+    one, side = np.repeat(usable, 2), np.tile([0, 1], len(usable))
+    middle, other = ends[one, side], beside[one, side]
+    one, side, middle, other = (values[one < other] for values in (one, side, middle, other))
+    turned = np.where(ends[other, 1] == middle, 1, 0)
+    outer = np.column_stack([ends[one, 1 - side], ends[other, 1 - turned]])
+    beyond = np.column_stack([beside[one, 1 - side], beside[other, 1 - turned]])
+    alike = (_uses(scene)[np.column_stack([middle, outer])] == 2).all(axis=1) & (beyond >= 0).all(axis=1)
+    alike &= (sections[np.column_stack([other, beyond])] == sections[one][:, None]).all(axis=1)
+    shorter = np.minimum(length[one], length[other])
+    alike &= np.linalg.norm(np.diff(scene.coordinates[outer], axis=1)[:, 0], axis=1) < shorter  # else the line goes on
+    ratios = shorter / length[beyond].max(axis=1, initial=0.0)
     found = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
     yield from zip(middle[found].tolist(), ratios[found].tolist(), strict=True)
 
@@ -109,28 +115,11 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
 
     All must be of one section, so that a tether or a rigid link beside a finely meshed pipe is not reported.
     """
-    ends, length = scene.element_nodes, scene.length
-    shortest = np.minimum.reduce(length, initial=np.inf)
-    if not shortest > 0.0:  # or not known
-        shortest = length.min(where=length > 0.0, initial=np.inf)
-    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * float(shortest):
-        return
-    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
-    order = usable[np.argsort(length[usable], kind="stable")]
-    nodes, elements = ends[order].ravel(), np.repeat(order, 2)
-    by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
-    nodes, elements = nodes[by_node], elements[by_node]
-    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], True))
-    longest, second = np.full((2, len(scene.node_ids)), -1, dtype=np.intp)
-    longest[nodes[last]] = elements[last]
-    shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
-    second[nodes[shared]] = elements[shared - 1]
-    found = order[(longest[ends[order]] == order[:, None]).all(axis=1)]
-    found = found[(second[ends[found]] >= 0).all(axis=1)]
-    neighbours = second[ends[found]]
     sections = scene.section_table.of_element
-    ratios = length[found] / length[neighbours].max(axis=1, initial=0.0)
-    odd = (sections[neighbours] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
+    usable, beside = _beside(scene)
+    found = usable[(beside[usable] >= 0).all(axis=1)]
+    ratios = scene.length[found] / scene.length[beside[found]].max(axis=1, initial=0.0)
+    odd = (sections[beside[found]] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
     yield from zip(found[odd].tolist(), ratios[odd].tolist(), strict=True)
 
 
@@ -138,38 +127,43 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
 
 
 def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
-    """Elements between two nodes at which a line turns back and forward again; nothing else ends at these nodes.
+    """Nodes at which a line turns back, and forward again at the next one or not; nothing else ends at these nodes.
 
     Nodes that are `far` from their neighbours are reported as such.
     """
-    ends, used = scene.element_nodes, None
-    for block in blocks_of(max(len(ends) - 2, 0)):
-        for element in _turned(scene, block):
-            used = _uses(scene) if used is None else used
-            one, other = ends[element].tolist()
-            if used[one] == used[other] == 2 and one not in far and other not in far:
-                ids = scene.node_ids
-                message = (
-                    f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
-                    "coordinates of one of them"
-                )
-                yield Problem(UNT006, message, where=scene.nodes.where(one))
+    turns = [element for block in blocks_of(max(len(scene.element_nodes) - 1, 0)) for element in _turned(scene, block)]
+    if not turns:
+        return
+    used, ids, sections = _uses(scene), scene.node_ids, scene.section_table.of_element
+    told = -1
+    for element in turns:
+        one, other = scene.element_nodes[element].tolist()
+        if used[one] != 2 or one in far or element == told:
+            continue
+        message = f"the line turns back at node {ids[one]}, as no pipe bends: correct the coordinates beside it"
+        if element + 1 in turns:
+            told = element + 1
+            if used[other] != 2 or other in far or len(set(sections[element - 1 : element + 2].tolist())) > 1:
+                continue
+            message = (
+                f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
+                "coordinates of one of them"
+            )
+        yield Problem(UNT006, message, where=scene.nodes.where(one))
 
 
 def _turned(scene: Scene, block: slice) -> list[int]:
-    """Elements that run back, between two of their section that run forward; those before them are of the block."""
-    three = range(block.start, block.stop + 2)
-    ends = scene.element_nodes[three.start : three.stop]
+    """Elements that run back over the one before them, which is of the block."""
+    ends = scene.element_nodes[block.start : block.stop + 1]
     if _goes_forward(scene, ends):
         return []
-    sections = scene.section_table.of_element[three.start : three.stop]
-    joined = (ends[:-1, 1] == ends[1:, 0]) & (sections[:-1] == sections[1:]) & (ends[:-1] >= 0).all(axis=1)
-    chained = joined[:-1] & joined[1:] & (ends[2:] >= 0).all(axis=1)
-    if not chained.any():
+    joined = (ends[:-1, 1] == ends[1:, 0]) & (ends[:-1] >= 0).all(axis=1) & (ends[1:] >= 0).all(axis=1)
+    if not joined.any():
         return []
     steps = _directions(scene, ends)
-    back = np.sum(steps[:-1] * steps[1:], axis=1) < TURNED
-    found: list[int] = (np.flatnonzero(chained & back[:-1] & back[1:]) + 1 + block.start).tolist()
+    found: list[int] = (
+        np.flatnonzero(joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)) + 1 + block.start
+    ).tolist()
     return found
 
 

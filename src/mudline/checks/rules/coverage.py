@@ -54,6 +54,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     count = len(scene.element_ids)
     given = scene.deck.blocks_with("gives")
+    told: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
     for keyword in dict.fromkeys(block.keyword for _, block in given):
         places = [(where, scene.set_table.find(entry.set_name)) for where, entry in _named(context, keyword)]
         known = [(where, set_) for where, set_ in places if set_ is not None and set_.elements.size]
@@ -62,8 +63,12 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
             if within(one, other, count) or within(other, one, count) or one.open or other.open:
                 continue
             which = first_of("element", scene.element_ids[elements.min()], elements.size)
-            message = f"*{keyword} also gives {which} the values of SET={shown(one.name)}: this line holds for them"
-            yield Problem(GEO013, f"{message}; correct the sets, if that is not meant", where=where.inside("set"))
+            words = f"{which} the values of SET={shown(one.name)}: this line holds for them"
+            pair = frozenset((one.name, other.name))
+            told.setdefault(pair, (words, where.inside("set"), []))[2].append(f"*{keyword}")
+    for words, where, keywords in told.values():
+        also = f"{' and '.join(dict.fromkeys(keywords))} also give{'s' * (len(set(keywords)) == 1)}"
+        yield Problem(GEO013, f"{also} {words}; correct the sets, if that is not meant", where=where)
 
 
 @rule(GEO014)

@@ -15,7 +15,7 @@ from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, 
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import line_spans, row_fields
-from mudline.model.scene.curves import SceneCurve, clashes_and_repeats, other_curves
+from mudline.model.scene.curves import DeckCurve, SceneCurve, clashes_and_repeats, other_curves
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 
@@ -125,22 +125,18 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
-        ratios = curve.points[:, 0]
-        if is_upside_down(curve):
-            continue
-        for index in (np.flatnonzero(ratios[1:] < ratios[:-1])[:1] + 1).tolist():
-            before, ratio = ratios[index - 1 : index + 1].tolist()
-            message = f"ratio {ratio!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            repair = sorting(context.text, curve) if context.text else None
-            yield Problem(CRV002, message, where=curve.point(index), repair=repair)
-    for other in other_curves(context.scene.deck):
-        over, name = other.points[:, 0], other.axes[0]
-        falls = np.flatnonzero(over[1:] < over[:-1])[:1] + 1
-        for index in falls.tolist() if (over[1:] > over[:-1]).any() else ():  # else it is written from its other end
+    curves, others = context.scene.laws.curves, other_curves(context.scene.deck)
+    seabed: Iterator[tuple[SceneCurve | DeckCurve, str]]
+    seabed = ((curve, "ratio") for curve in curves if not is_upside_down(curve))
+    for curve, name in chain(seabed, ((other, other.axes[0]) for other in others)):
+        over = curve.points[:, 0]
+        if not isinstance(curve, SceneCurve) and not (over[1:] > over[:-1]).any():
+            continue  # it is written from its other end
+        for index in (np.flatnonzero(over[1:] < over[:-1])[:1] + 1).tolist():
             before, value = over[index - 1 : index + 1].tolist()
             message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            yield Problem(CRV002, message, where=other.point(index))
+            repair = sorting(context.text, curve) if context.text and isinstance(curve, SceneCurve) else None
+            yield Problem(CRV002, message, where=curve.point(index), repair=repair)
 
 
 @joint(CRV009, CRV010, CRV005)
@@ -267,22 +263,16 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
+    curves: Iterator[SceneCurve | DeckCurve] = chain(context.scene.laws.curves, other_curves(context.scene.deck))
+    for curve in curves:
         repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
-        rows = plain_rows(context.text, curve) if context.text and repeats else None
+        rows = plain_rows(context.text, curve) if context.text and repeats and isinstance(curve, SceneCurve) else None
         for index in repeats:
-            ratio, force = curve.points[index].tolist()
-            message = f"the point ({ratio!r}, {force!r}) is given twice and counts once: remove it"
-            row = int(curve.rows[index])
-            # A point further up is of another curve, if the line with the name of this one is missing.
-            is_next = bool((curve.points[index - 1] == curve.points[index]).all())
-            repair = removal(rows, row) if rows and is_next else None
-            yield Problem(CRV004, message, where=curve.point(index), repair=repair)
-    for other in other_curves(context.scene.deck):
-        for index in clashes_and_repeats(other.points)[1][:MOST_REPORTED].tolist():
-            over, value = other.points[index].tolist()
+            over, value = curve.points[index].tolist()
             message = f"the point ({over!r}, {value!r}) is given twice and counts once: remove it"
-            yield Problem(CRV004, message, where=other.point(index))
+            is_next = bool((curve.points[index - 1] == curve.points[index]).all())
+            repair = removal(rows, int(curve.rows[index])) if rows and is_next else None
+            yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
 class PlainRows(NamedTuple):

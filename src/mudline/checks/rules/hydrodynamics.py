@@ -9,7 +9,7 @@ import numpy as np
 from mudline.checks.context import LintContext, entries_of_sets
 from mudline.checks.rules.geometry import without_sections
 from mudline.checks.rules.model_parts import lacks
-from mudline.checks.rules.references import WATER
+from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_position import first_of
 from mudline.checks.rules.vertical_restraint import in_another_pipe
 from mudline.language.diagnostics import Code, Problem, Severity
@@ -48,10 +48,8 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     Finds: 10:2
     """
     scene = context.scene
-    cases = (section for section in context.deck.sections if section.name == "LOAD CASE")
-    flows = any(WATER.fullmatch(block.keyword) for case in cases for block in case.blocks)
     blocks = context.blocks("HYDRODYNAMIC SETS")
-    if not flows or not lacks(context, "elements", "hydrodynamics"):
+    if not any(in_water(context.deck)) or not lacks(context, "elements", "hydrodynamics"):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in blocks:

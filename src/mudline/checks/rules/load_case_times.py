@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext
+from mudline.checks.rules.waves import by_height
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import StepLimits, TimeSpan
     from mudline.language.keywords.library.summary import SummaryTime
     from mudline.language.keywords.library.vessel_motions import Drift
-    from mudline.language.keywords.library.waves import StokesWave
 
 TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
 TIM002 = Code("TIM002", "step-limits-out-of-order", Severity.ERROR)
@@ -157,9 +157,9 @@ def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
 
 @rule(WAV001)
 def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
-    """A Stokes wave has the period of an equivalent Airy wave, but no amplitude for it.
+    """A Stokes or Dean wave has the period of an equivalent Airy wave, but no amplitude for it.
 
-    The Airy wave stands for the Stokes wave where a vessel responds to it; of an Airy wave without height the vessel
+    The Airy wave stands for it where a vessel responds to it; of an Airy wave without height the vessel
     feels nothing, and the manual forbids it. Give its amplitude, or leave out both values.
 
     Example:
@@ -170,8 +170,7 @@ def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:25
     """
-    for where, block in context.blocks("WAVE-STOKES", "LOAD CASE"):
-        wave = cast("StokesWave", block)
+    for where, wave in by_height(context):
         if wave.airy_period and not wave.airy_amplitude:
             message = "the equivalent Airy wave has a period and no amplitude: give both or neither"
             yield Problem(WAV001, message, where=where.inside("airy_period"))

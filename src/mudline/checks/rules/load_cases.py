@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext
+from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords import catalogue
@@ -25,7 +25,6 @@ TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
 
 _DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
 _FREQUENCY = "FREQUENCY"
-_WAVES = re.compile("WAVE.*")
 
 
 def _analysis(context: LintContext) -> set[str]:
@@ -83,7 +82,8 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:9
     """
-    if not _analysis(context) & {*_DYNAMIC} or not _has_waves(context):
+    waves = any("WAVE" in keyword for _, keyword in in_water(context.deck))
+    if not waves or not _analysis(context) & {*_DYNAMIC}:
         return
     moving = context.scene.deck.blocks_with("moves_vessels", "LOAD CASE")
     moved = {name_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
@@ -99,12 +99,6 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
                         "*VESSEL,INTEGRATED, or the operators in *RAO"
                     )
                     yield Problem(VES002, message, where=place.inside("vessel"))
-
-
-def _has_waves(context: LintContext) -> bool:
-    """Whether a load case has waves, of a kind that is read or not."""
-    sections = (section for section in context.deck.sections if section.name == "LOAD CASE")
-    return any(_WAVES.fullmatch(block.keyword) for section in sections for block in section.blocks)
 
 
 @rule(TIM005)

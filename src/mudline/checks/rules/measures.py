@@ -18,7 +18,7 @@ from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
 from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import WALL, YOUNG
+from mudline.language.keywords.usual import SEA_FREQUENCY, SEA_PERIOD, WALL, WAVE_PERIOD, YOUNG
 from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
@@ -159,6 +159,7 @@ CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
     "a metal": _metal,
     "a wall without an area of its own": lambda of: math.isnan(of("area")),
     "unknown units": lambda of: not of.units.known,
+    "a fluid without pressure": lambda of: not of("pressure") > 0.0,
     "a spreading exponent": lambda of: of("exponent") > 0.0,
     "waves in the time domain": _waves_in_time,
 }
@@ -222,12 +223,39 @@ def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
 def _held_nodes(context: LintContext) -> dict[str, list[int]]:
     """The nodes that each vessel holds, by its name."""
     found: dict[str, list[int]] = {}
+    labels = {
+        folded(f"{{{line.label}}}"): str(int(number(line.node, "number")))
+        for _, block in context.blocks("LABEL")
+        for line in block.labels
+        if number(line.node, "number") > 0.0
+    }
     for _, block in context.blocks("BOUNDARY", "LOAD CASE"):
         for line in kept_lines(block):
             node, _, vessel = line.partition(",")
-            if node.strip().isdecimal() and len(node) < _DIGITS:
+            node = labels.get(folded(node), node).strip()
+            if node.isdecimal() and len(node) < _DIGITS:
                 found.setdefault(folded(vessel.partition(",")[0]), []).append(int(node))
     return found
+
+
+def _shortest_period(context: LintContext) -> float:
+    """The shortest period of the waves of a load case, of random seas the peak; infinite without waves."""
+    placed = context.scene.context.placed.items()
+    blocks = (block for (_, keyword), found in placed if keyword.startswith("WAVE-") for _, block in found)
+    given = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
+    periods = (
+        1.0 / value if usual is SEA_FREQUENCY else value
+        for usual, value in given
+        if usual in (SEA_FREQUENCY, SEA_PERIOD, WAVE_PERIOD) and isinstance(value, float) and value > 0.0
+    )
+    return min(periods, default=math.inf)
+
+
+def _between_axes(of: Numbers, _name: str, _value: float) -> float:
+    """The angle between two axes of a row in degrees; 0 where one has no length."""
+    first, second = (np.nan_to_num([of(f"{axis}{which}") for axis in "xyz"]) for which in (1, 2))
+    lengths = float(np.linalg.norm(first) * np.linalg.norm(second))
+    return math.degrees(math.acos(max(-1.0, min(float(first @ second) / lengths, 1.0)))) if lengths else 0.0
 
 
 # --------------------------------------------------------------------------------------------------- seabed and soil
@@ -370,6 +398,9 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "times the water depth": lambda of, _, value: over(value, max(of.depth, _SHALLOW * of.units.known)),
     "m from the nodes that it holds": lambda of, n, value: _from_nodes(of, n, value) if of.units.known else math.nan,
     "as heave in a wave of 40 s and longer": _long_heave,
+    "times the shortest period of the waves": lambda of, _, value: over(value, of.context.once(_shortest_period)),
+    "as the length of the vector": lambda of, *_: float(np.linalg.norm(np.nan_to_num([of(axis) for axis in "xyz"]))),
+    "degrees between the local x and y axes": _between_axes,
     "as steepness, 2 pi H / g T2": lambda of, _, value: _steepness(of, value),
     "diameters that the pipe sinks under its weight": _sinking,
     "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,

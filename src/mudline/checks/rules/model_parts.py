@@ -13,7 +13,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.geometry import without_sections
-from mudline.checks.rules.seabed_position import first_of
+from mudline.checks.rules.seabed_position import first_of, held_nodes
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
@@ -228,29 +228,16 @@ def _named_nodes(context: LintContext) -> Mask:
     named = np.zeros(len(scene.node_ids), dtype=np.bool_)
     indices = scene.nodes.indices(np.array(sorted(numbers), dtype=np.int64)) if numbers else np.zeros(0, np.intp)
     named[indices[indices >= 0]] = True
+    for line in held_nodes(scene):  # those of a GEN= among them
+        named[line.nodes] = True
     return named
 
 
 def _of_block(block: Part) -> Iterator[int]:
-    """The numbers of nodes that a block gives, those of a GEN= and of kept lines among them."""
+    """The numbers of nodes that a block gives, those of kept lines among them."""
     if may_name(type(block), Names.NODE):
         yield from (ident for _, ident in idents_given(block, Names.NODE) if isinstance(ident, int))
-    for entry in _generated(block):
-        start, end = getattr(entry, "start", None), getattr(entry, "end", None)
-        if isinstance(start, int) and isinstance(end, int) and 0 <= end - start <= _LONGEST_RANGE:
-            yield from range(start, end + 1)
     yield from _whole(word for line in kept_lines(block) for word in line.replace("=", ",").split(","))
-
-
-_LONGEST_RANGE = 100_000
-"""Nodes of a GEN= of boundary conditions that are looked at one by one."""
-
-
-def _generated(part: Part) -> Iterator[object]:
-    for held in getattr(part, "types", None) or ():
-        for entry in getattr(held, "entries", None) or ():
-            if (values := getattr(entry, "generate", None)) is not None:
-                yield values
 
 
 def _whole(words: Iterator[str]) -> Iterator[int]:

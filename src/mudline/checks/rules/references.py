@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.checks.context import LintContext, entries_of_sets
 from mudline.checks.rules.style_lines import line_around
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
@@ -212,7 +213,15 @@ def _names(parameter: Parameter) -> list[str]:
     return [name]
 
 
-WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
+_WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
+
+
+def in_water(deck: Deck) -> Iterator[tuple[Where, str]]:
+    """The waves and currents of load cases, of kinds that are read or not: places and keywords."""
+    for i, section in enumerate(deck.sections):
+        for j, block in enumerate(section.blocks if section.name == "LOAD CASE" else ()):
+            if _WATER.fullmatch(block.keyword):
+                yield Where(i, j), block.keyword
 
 
 @rule(REF018)
@@ -242,9 +251,7 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "OCEAN" in context.keywords or not scene.element_ids.size or scene.context.possible_definition("OCEAN"):
         return
-    for i, section in enumerate(context.deck.own_sections):
-        for j, block in enumerate(section.blocks):
-            if section.name == "LOAD CASE" and WATER.fullmatch(block.keyword):
-                message = f"*{block.keyword} needs the depth of the water: give *OCEAN in $MODEL"
-                yield Problem(REF018, message, where=Where(i, j))
-                return
+    for where, keyword in in_water(context.deck):
+        if where.section < len(context.deck.own_sections):
+            yield Problem(REF018, f"*{keyword} needs the depth of the water: give *OCEAN in $MODEL", where=where)
+            return

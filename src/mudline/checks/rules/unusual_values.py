@@ -128,7 +128,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
     * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
     * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
     * an element over 25 times as long as each of the neighbours at its two ends, all of one section; a node that is
-      so far from both of its neighbours; a node at which a line turns back, and forward again at the next one; an
+      so far from both of its neighbours; a node at which a line turns back, as no pipe bends; an
       element that leaves out a node at which the next one begins, and ends where the line goes on;
     * a node row with one value more than the others, which fits its neighbours if two of them are a decimal comma;
     * nodes over three times as high above the seabed as the water is deep, and over 500 m above the sea.

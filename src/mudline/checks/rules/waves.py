@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, cast
+from itertools import chain
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import TimeSpan
     from mudline.language.keywords.library.currents import Current
-    from mudline.language.keywords.library.waves import RegularWaves, StokesWave
+    from mudline.language.keywords.library.waves import RegularWaves
 
 WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
 TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)
@@ -51,10 +52,14 @@ def waves(context: LintContext) -> list[_Wave]:
             place = where.inside("waves", index, "wave")
             height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
             found.append(_Wave(height, period, place.inside("amplitude")))
-    for where, block in context.blocks("WAVE-STOKES", "LOAD CASE"):
-        wave = cast("StokesWave", block)
+    for where, wave in by_height(context):
         found.append(_Wave(number(wave, "height"), number(wave, "period"), where.inside("height")))
     return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
+
+
+def by_height(context: LintContext) -> Iterator[tuple[Where, Any]]:
+    """The waves of a load case that are blocks of their own, with a height and an Airy wave for vessels."""
+    return chain(context.blocks("WAVE-STOKES", "LOAD CASE"), context.blocks("WAVE-DEANS", "LOAD CASE"))
 
 
 @rule(WAV002)

@@ -52,6 +52,8 @@ ANY = "no source says what is usual"
 OF_THE_RUN = "the run decides"
 OF_A_KIND = "a length or an angle, a force or a moment: the degree of freedom or the type decides"
 COMPONENT = "a component of a direction"
+LENGTH = Usual(low=1e-9, why="it gives a direction", of="as the length of the vector")
+AXES = Usual(89.9, 90.1, "axes are at right angles", of="degrees between the local x and y axes")
 POSITION = "a position: UNT006 compares coordinates with each other, and with the water depth"
 ALONG = "a place along a line"
 MODEL = "judged by rules of its keyword"
@@ -62,6 +64,7 @@ HEEL = Usual(-45.0, 45.0, "no vessel heels farther")
 VESSEL_SIZE = Usual(-500.0, 500.0, "the longest vessel, Prelude, has 488 m")
 
 WIDTH = Usual(high=60.0, why="the hull of a spar has 37 m", code="UNT006", meant=0.3, within=8.0)
+BORE = Usual(high=1.0, why="it is inside", of="/outer")
 PIPE_WALL = Usual(
     high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", code="UNT006", meant=0.3, within=8.0
 )
@@ -72,11 +75,15 @@ MASS_WIDTH = Usual(
     of="times the diameter of as much water as its mass",
     code="UNT006",
 )
+DENSE = Usual(low=0.28, why="lead has 0.3", of="times the diameter of as much water as its mass", remark=True)
 OTHER_WIDTH = Usual(high=25.0, why="floats are no wider", of="/do", code="UNT006")
+DRAG_WIDTH = Usual(high=8.0, why="else one is in another unit", of="/db", remark=True)
 BENDING = (
     Usual(high=1.0, why="a thin tube has 1/8", of="times EA Do2"),
     Usual(low=1e-4, why="flexible pipes have 1/100, steel 1.3", of="/gj", remark=True),
 )
+
+ROUND = Usual(0.01, 100.0, "most lines are round", of="/eiyy", remark=True)
 
 LEAST_BED = Usual(
     478.0, 2.1e11, "less carries no pipe, more is stiffer than steel", code="UNT002", meant=5e4, within=30.0
@@ -136,11 +143,16 @@ DIRECTIONS = Usual(low=2.0, why="one direction is not spread", when="a spreading
 EXPONENT = Usual(high=50.0, why="wind seas have 2 to 10", remark=True)
 AMPLITUDE = Usual(high=20.0, why="the highest waves that were measured have 30 m")
 HEIGHT = Usual(high=40.0, why="the highest waves that were measured have 30 m")
+STORED = Usual(high=0.5, why="a wave between two times is lost", of="times the shortest period of the waves")
 STEP = Usual(high=5.0, why="waves have periods of 2 to 30 s", when="waves in the time domain")
 
 DRAG = Usual(high=5.0, why="bluff bodies have up to 2.5", meant=1.0, within=3.0)
-ALONG_DRAG = Usual(high=3.0, why="along a line there is less drag than across it", meant=0.1, within=10.0)
-INERTIA = Usual(high=6.0, why="a cylinder has 2, at the seabed 3.3")
+ALONG_DRAG = (
+    Usual(high=3.0, why="along a line there is less drag than across it", meant=0.1, within=10.0),
+    Usual(high=3.0, why="along a line there is less drag than across it", of="/normal_drag"),
+    Usual(high=1.0, why="along a line there is less drag than across it", of="/normal_drag", remark=True),
+)
+INERTIA = Usual(1.0, 6.0, "1 and the added mass: a cylinder has 2, at the seabed 3.3")
 ADDED_MASS = Usual(high=5.0, why="a cylinder has 1, at the seabed 2.3")
 LIFT = Usual(-5.0, 5.0, "at the seabed it stays below 5")
 SHIFT_RAO = Usual(-10.0, 10.0, "metres per metre: in resonance 2 to 5", meant=0.7, within=3.0)
@@ -149,6 +161,8 @@ LONG_WAVE = Usual(0.5, 1.5, "a vessel rises and falls with long waves", of="as h
 VESSEL_HEIGHT = (
     Usual(high=400.0, why="no vessel is longer; X is the vertical", of="m from the nodes that it holds"),
     Usual(-150.0, 150.0, "X is the vertical, counted from the mudline", of="m above the water"),
+    Usual(high=150.0, why="lines hang nearer to its middle", of="m from the nodes that it holds", remark=True),
+    Usual(-60.0, 60.0, "a vessel floats", of="m above the water", remark=True),
 )
 VERTICAL_OFFSET = Usual(-30.0, 30.0, "X is the vertical: tide and draught alone move a vessel along it")
 OFFSET = (
@@ -211,5 +225,12 @@ SEA_DENSITY = Usual(
     meant=1025.0,
     within=1.08,
     also=(1.1, 1.31),
+)
+LIQUID = Usual(
+    low=400.0,
+    why="a liquid, or a gas that is not compressed",
+    when="a fluid without pressure",
+    remark=True,
+    also=(0.0, 10.0),
 )
 GRAVITY = Usual(9.614, 10.006, "9.81 on earth", code="UNT001", meant=9.81, within=1.02)

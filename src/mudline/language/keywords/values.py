@@ -197,6 +197,7 @@ class Names(Enum):
     LINE = "a line"
     SECTION_GROUP = "a group of line sections"
     VECTOR = "a vector"
+    AXIS = "an axis system"
     GUIDE = "a guide"
     MOMENT_CURVATURE = "a moment-curvature curve"
     FORCE_STRAIN = "a force-strain curve"

@@ -24,8 +24,9 @@ from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import TimeSpan
+    from mudline.language.keywords.library.random_seas import JonswapSeas
     from mudline.language.keywords.library.vessel_motions import Raos, VesselRao
-    from mudline.language.keywords.library.waves import JonswapSeas, RegularWaves, StokesWave
+    from mudline.language.keywords.library.waves import RegularWaves, StokesWave
 
 
 class TopMotion(NamedTuple):

@@ -50,7 +50,7 @@ CURVES = frozenset(
 THINGS = frozenset(
     {
         *(Names.VESSEL, Names.BODY, Names.AUXILIARY, Names.CABLE, Names.LINE, Names.SECTION_GROUP),
-        *(Names.VECTOR, Names.GUIDE),
+        *(Names.VECTOR, Names.AXIS, Names.GUIDE),
     }
 )
 """Kinds of things that have names and are no curves."""

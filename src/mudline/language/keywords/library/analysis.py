@@ -9,7 +9,7 @@ from mudline.language.keywords.common import require_one
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, STEP, Usual
+from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, STEP, STORED, Usual
 from mudline.language.keywords.values import Name, Names, Other, Real, Whole
 
 _PAGE = (
@@ -361,7 +361,7 @@ class Database(Block):
         Real | None,
         about("of SELECTED: first time", unit="T", default="the start of the run", at_least=0, usual=OF_THE_RUN),
     ] = None
-    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0, usual=OF_THE_RUN)] = None
+    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0, usual=STORED)] = None
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -11,12 +11,15 @@ from mudline.language.keywords.model import Block, Record, Row, record_schema
 from mudline.language.keywords.table import misfit
 from mudline.language.keywords.usual import (
     BENDING,
+    DENSE,
+    DRAG_WIDTH,
     MASS_WIDTH,
     MODEL,
     NOT_KNOWN,
     OTHER_WIDTH,
     OUTER_WIDTH,
     PIPE_WALL,
+    ROUND,
     SHEAR,
     WALL,
     WIDTH,
@@ -36,9 +39,9 @@ class FlexibleSection(Row):
     eiyy: Annotated[Real | None, about("bending stiffness about local y", unit="FL2", at_least=0, usual=BENDING)] = (
         Field(None, alias="EIyy")
     )
-    eizz: Annotated[Real | None, about("bending stiffness about local z", unit="FL2", at_least=0, usual=BENDING)] = (
-        Field(None, alias="EIzz")
-    )
+    eizz: Annotated[
+        Real | None, about("bending stiffness about local z", unit="FL2", at_least=0, usual=(*BENDING, ROUND))
+    ] = Field(None, alias="EIzz")
     gj: Annotated[Real | None, about("torsional stiffness", unit="FL2", at_least=0, usual=MODEL)] = Field(
         None, alias="GJ"
     )
@@ -54,10 +57,12 @@ class FlexibleSection(Row):
         ),
     ]
     di: Annotated[Real, about("internal diameter", unit="L", at_least=0, usual=WIDTH)] = Field(alias="Di")
-    dd: Annotated[Real, about("drag diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(alias="Dd")
-    db: Annotated[Real, about("buoyancy diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH, MASS_WIDTH))] = (
-        Field(alias="Db")
+    dd: Annotated[Real, about("drag diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH, DRAG_WIDTH))] = Field(
+        alias="Dd"
     )
+    db: Annotated[
+        Real, about("buoyancy diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH, MASS_WIDTH, DENSE))
+    ] = Field(alias="Db")
     do: Annotated[Real | None, about(_DO, unit="L", default="Dd", above=0, usual=(WIDTH, OUTER_WIDTH))] = Field(
         None, alias="Do"
     )

@@ -11,7 +11,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record
 from mudline.language.keywords.table import LARGEST_WHOLE
-from mudline.language.keywords.usual import ANY, NOT_KNOWN, OF_A_KIND, Usual
+from mudline.language.keywords.usual import ANY, LIQUID, NOT_KNOWN, OF_A_KIND, Usual
 from mudline.language.keywords.values import (
     Count,
     Equation,
@@ -183,7 +183,7 @@ class FluidSet(Record):
             "mass density",
             unit="M/L3",
             at_least=0,
-            usual=Usual(1.0, 2600.0, "from gas to heavy mud", meant=850.0, within=8.0),
+            usual=(Usual(1.0, 2600.0, "from gas to heavy mud", meant=850.0, within=8.0), LIQUID),
         ),
     ]
     pressure: Annotated[

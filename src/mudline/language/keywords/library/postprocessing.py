@@ -9,7 +9,7 @@ from mudline.language.keywords.common import Element
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, ListRow, Record, Row
-from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, WIDTH
+from mudline.language.keywords.usual import ANY, BORE, COUNT, OF_THE_RUN, WIDTH
 from mudline.language.keywords.values import Ident, Name, Names, Other, Real, Whole
 
 
@@ -77,7 +77,8 @@ class StressSection(Row):
         ),
     ] = None
     inner: Annotated[
-        Real | None, about("effective internal diameter", unit="L", default="of the section", at_least=0, usual=WIDTH)
+        Real | None,
+        about("effective internal diameter", unit="L", default="of the section", at_least=0, usual=(WIDTH, BORE)),
     ] = None
     area: Annotated[Real | None, about("cross-sectional area", unit="L2", default=_OF_SECTION, above=0, usual=ANY)] = (
         None

@@ -69,7 +69,14 @@ class SetSuction(Row):
     """Values of SUCTION=."""
 
     stiffness: Annotated[
-        Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS, usual=LEAST_SIDE)
+        Real,
+        about(
+            "suction stiffness",
+            unit="F/L2",
+            at_least=0,
+            inferred=_SUCTION_STIFFNESS,
+            usual=(LEAST_SIDE, Usual(high=1e8, why="soils yield sooner", remark=True)),
+        ),
     ]
     extent: Annotated[
         Real | None,

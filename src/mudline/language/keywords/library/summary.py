@@ -1,9 +1,10 @@
-"""Requests of summary postprocessing (`*PARA ...`), and the part of a run that is summarised."""
+"""Requests of summary postprocessing (`*PARA ...`), the part of a run that is summarised, and what is collated."""
 
 from typing import Annotated, Literal
 
+from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Row
+from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN
 from mudline.language.keywords.values import Ident, Name, Names, Real, Title, Whole
 
@@ -93,7 +94,7 @@ class ParaKinematic(SummaryRequest):
         Whole,
         setting("DATA3", "1 motion, 2 displacement, 3 velocity, 4 acceleration", at_least=1, at_most=4, usual=COUNT),
     ]
-    axis: Annotated[Name | None, setting("DATA4", AXIS, default="global")] = None
+    axis: Annotated[Name | None, setting("DATA4", AXIS, default="global", names=Names.AXIS)] = None
 
 
 class ParaReaction(SummaryRequest):
@@ -107,7 +108,7 @@ class ParaReaction(SummaryRequest):
     keyword: Literal["PARA REACTION"] = "PARA REACTION"
     node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
     dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6, usual=COUNT)]
-    axis: Annotated[Name | None, setting("DATA3", AXIS, default="global")] = None
+    axis: Annotated[Name | None, setting("DATA3", AXIS, default="global", names=Names.AXIS)] = None
 
 
 class ParaSeabed(SummaryRequest):
@@ -146,3 +147,55 @@ class SummaryTime(Block):
         ),
     ] = None
     end: Annotated[Real | None, setting("END", "time at which it ends", unit="T", usual=OF_THE_RUN)] = None
+
+
+class PlotAxis(Record):
+    """An axis."""
+
+    rule = "plot_axis"
+    name: Annotated[Name, about("name of the axis", unique=True)]
+    value: Annotated[Real, about("value of this run on it", usual=ANY)]
+
+
+class CollatePlotAxes(Block):
+    """The place of a run in plots."""
+
+    rule = "collate_plot_axes"
+    sections = ("SUMMARY POSTPROCESSING",)
+    subject = "post-processing"
+    page = "kwd_summarypostprocessing_collateplotaxes"
+    summary = "Where a run stands on the axes of plots over many runs: the name of each axis, and its value."
+    example = '*COLLATE PLOT AXES\n "Wave Period", 9.0\n Heading, 180.0\n'
+
+    keyword: Literal["COLLATE PLOT AXES"] = "COLLATE PLOT AXES"
+    axes: Records[PlotAxis] = Records()
+
+
+class CollatedOutput(Record):
+    """An output, and the runs that are left out."""
+
+    rule = "collated_output"
+    title: Annotated[Name, setting("TITLE", "title of the output in each run", unique=True)]
+    units: Annotated[Name | None, setting("UNITS", "unit of the output", default="of its kind", inline=True)] = None
+    least: Annotated[Real | None, setting("MIN", "runs with a smaller minimum are left out", usual=ANY)] = None
+    largest: Annotated[
+        Real | None, setting("MAX", "runs with a larger maximum are left out", inline=True, usual=ANY)
+    ] = None
+    deviation: Annotated[
+        Real | None,
+        setting("STDDEV", "runs with a larger standard deviation are left out", at_least=0, inline=True, usual=ANY),
+    ] = None
+
+
+class Collate(Block):
+    """Outputs that are collated."""
+
+    rule = "collate"
+    sections = ("SUMMARY COLLATE",)
+    subject = "post-processing"
+    page = "kwd_summarycollate_collate"
+    summary = "Outputs that are collated over many runs, and limits beyond which a run is left out; without it all are."
+    example = "*COLLATE\n TITLE=Tension, UNITS=kN\n MIN=0.0, MAX=2500.0\n TITLE=Clearance\n"
+
+    keyword: Literal["COLLATE"] = "COLLATE"
+    outputs: Records[CollatedOutput] = Records()

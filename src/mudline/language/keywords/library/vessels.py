@@ -1,4 +1,4 @@
-"""Vessels where they are at first, and bodies that are drawn."""
+"""Vessels where they are at first, their moonpools, and bodies that are drawn."""
 
 from typing import Annotated, Literal
 
@@ -109,6 +109,39 @@ class IntegratedVessels(OpenBlock):
 
     keyword: Literal["VESSEL,INTEGRATED"] = "VESSEL,INTEGRATED"
     vessels: Records[IntegratedVessel] = Records()
+
+
+class MoonpoolPlace(Row):
+    """Where a moonpool is at first."""
+
+    x: Annotated[Real, about("vertical coordinate of the centre of its lower face", unit="L", usual=VESSEL_HEIGHT[1])]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L", usual=POSITION)]
+    yaw: Annotated[Real, about("heading, anticlockwise from the global Y axis", unit="deg", usual=DIRECTION)]
+    width: Annotated[
+        Real, about("width of the square, and height of its transition", unit="L", above=0, usual=VESSEL_SIZE)
+    ]
+
+
+class Moonpool(Record):
+    """A moonpool."""
+
+    rule = "vessel_moonpool"
+    vessel: Annotated[Name, setting("VESSEL", "vessel that it moves with", names=Names.VESSEL, unique=True)]
+    place: Annotated[MoonpoolPlace, about("its place and width")]
+
+
+class Moonpools(Block):
+    """Moonpools."""
+
+    rule = "moonpool"
+    subject = "vessels"
+    page = "kwd_model_moonpool"
+    summary = "Moonpools of vessels, in which the water moves with the vessel: one a vessel, square."
+    example = "*MOONPOOL\n VESSEL=FPSO\n 990.0, 0.0, 0.0, 0.0, 9.0\n"
+
+    keyword: Literal["MOONPOOL"] = "MOONPOOL"
+    moonpools: Records[Moonpool] = Records()
 
 
 class Location(Row):
