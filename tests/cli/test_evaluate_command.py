@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 
 import pytest
 
@@ -181,7 +182,7 @@ def test_imperial_units(place: Place) -> None:
 
 
 def test_like_elements_are_told_together(place: Place) -> None:
-    nodes = "".join(f" {n}, {-0.1 - 0.001 * (n > 60) * n}, {n}.0\n" for n in range(1, 122))
+    nodes = "".join(f" {n}, {-0.1 - 0.002 * (n > 60) * n}, {n}.0\n" for n in range(1, 122))
     elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 121))
     rest = CLEAN.partition("*ELEMENT SETS")[2].replace(" 1, 2\n", " GEN=1, 120\n")
     deck = f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS{rest}"
@@ -212,6 +213,18 @@ def test_a_node_in_the_seabed_is_no_element_in_contact(place: Place) -> None:
     out = run("evaluate", place(CLEAN.replace(" 2, -0.1, ", " 2, 0.3, "))).out
     assert "No element is in contact in the mean of its nodes" in out
     assert " 2.502 " in out  # a quarter of element 1, whose ends are 0.1 m below and 0.3 m above
+
+
+def test_rows_that_differ_little_are_one_with_the_range(place: Place) -> None:
+    """Embedments that grow by two thousandths of the largest from node to node: three elements share a row."""
+    nodes = "".join(f" {n}, {-0.1 + 2e-4 * (n < 13) * n:.4f}, {n}.0\n" for n in range(1, 31))
+    elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 30))
+    rest = CLEAN.partition("*ELEMENT SETS")[2].replace(" 1, 2\n", " GEN=1, 29\n")
+    table = run("evaluate", place(f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS{rest}")).out.splitlines()
+    rows = [re.split(r" {2,}", line.strip()) for line in table if "curve:Clay" in line][1:]
+    assert [row[0] for row in rows] == ["1 to 3", "4 to 6", "7 to 9", "10 to 11", "12", "13 to 29"]
+    assert rows[0][2:5] == ["0.0993 to 0.0997", "0.1986 to 0.1994", "1493 to 1497"]
+    assert rows[-1][2:5] == ["0.1", "0.2", "1500"]
 
 
 def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> None:
