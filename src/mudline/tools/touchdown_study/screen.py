@@ -9,6 +9,7 @@ import numpy as np
 
 from mudline.basics.quantities import headed, shown, unit_names
 from mudline.basics.short_repr import cut
+from mudline.model.results.summary_tables import weight_note
 from mudline.model.scene.load_case import in_words
 from mudline.tools.touchdown_study.accuracy import StepRow
 from mudline.tools.touchdown_study.stability import axial_period
@@ -55,8 +56,17 @@ def description(found: Study) -> str:
     return (
         f"Touchdown zone laid down and lifted: {length:.3g}{units.behind('length')} on {law} at {force}, "
         f"{_motion(zone, units.behind('length'))}, {scheme.name} ({values}, {given}). "
+        f"{_weight(zone, units.behind('line_force'))} "
         f"Mass {_short(sum(masses))}{mass_unit}: {parts}{assumed}.{reference}"
     )
+
+
+def _weight(zone: Zone, unit: str) -> str:
+    """Submerged weight with contents, and empty where that differs."""
+    filled, empty = (f"{shown(each, 4)}{unit}" for each in (zone.beam.weight, zone.empty_weight))
+    weights = filled if filled == empty else f"{filled} with contents, {empty} empty"
+    note = weight_note(zone.weights_without)
+    return f"Submerged weight {weights}{f' ({note})' if note else ''}."
 
 
 def _motion(zone: Zone, unit: str) -> str:

@@ -170,6 +170,8 @@ def _model(zone: Zone) -> dict[str, Any]:
         "tension": zone.beam.tension,
         "lying_length": cast("Catenary", zone.line.catenary).lying[-1][1],
         "weight": zone.beam.weight,
+        "empty_weight": zone.empty_weight,
+        "weights_without": tuple(zone.weights_without),
         "mass": float(zone.pipe.mass[own] + zone.pipe.contents[own]),
         "added_mass": float(zone.pipe.added_mass[own]),
         "bending_stiffness": zone.beam.bending,

@@ -20,6 +20,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.time_stepping import Scheme, scheme_of
+from mudline.model.scene.weights import left_out
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, Run, Solved, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
@@ -91,6 +92,16 @@ class Zone:
     def own(self) -> int:
         """Index of the element whose section the zone has."""
         return int(self.elements[self.node - 1])
+
+    @property
+    def empty_weight(self) -> float:
+        """Submerged weight per unit length of that element without contents; `beam.weight` is that with them."""
+        return float(self.scene.submerged_weight[self.own]) * self.line.seabed.upright
+
+    @property
+    def weights_without(self) -> list[str]:
+        """Keywords of the deck that weigh or lift, and have no part in these weights."""
+        return left_out(self.scene, with_masses=False)
 
     @property
     def length(self) -> float:
