@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.basics.display import DisplayColumn, DisplayTable
 from mudline.basics.files import suffix_of
 from mudline.basics.quantities import csv_lines
 from mudline.checks.engine import naming_causes
@@ -21,7 +20,7 @@ from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
 from mudline.model.scene.model import resolve
-from mudline.tools.touchdown_study.screen import TABLES, ScreenTable, description, sentences
+from mudline.tools.touchdown_study.screen import TABLES, description, sentences
 from mudline.tools.touchdown_study.study import PARTS, Study, study
 
 if TYPE_CHECKING:
@@ -119,9 +118,8 @@ def _print(found: Study, printer: Printer) -> None:
             _paragraph(printer, text, style)
             printer.line("")
     for part in found.parts:
-        table = TABLES[part](found)
-        if table is not None:
-            _print_table(table, printer)
+        if table := TABLES[part](found):
+            printer.table(table)
         said = sentences(found, part)
         for text in said:
             _paragraph(printer, text, "dim")
@@ -133,8 +131,3 @@ def _paragraph(printer: Printer, text: str, style: str = "") -> None:
     width = min(printer.width, _WIDTH)
     for line in textwrap.wrap(printer.visible(text), width, break_on_hyphens=False):
         printer.line((line, style), fold=False)
-
-
-def _print_table(table: ScreenTable, printer: Printer) -> None:
-    columns = [DisplayColumn(head, at, left=head in table.left) for at, head in enumerate(table.heads)]
-    printer.table(DisplayTable(table.title, columns, table.rows, table.note))

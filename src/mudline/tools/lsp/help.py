@@ -312,7 +312,7 @@ def _node(scene: Scene, number: int) -> Iterator[str]:
         yield f"node {number} is not defined here"
         return
     x, y, z = scene.coordinates[index].tolist()
-    yield _with_unit(f"node **{number}**: X {x:g}, Y {y:g}, Z {z:g}", 0, "").removesuffix(" 0")
+    yield f"node **{number}**: X {x:g}, Y {y:g}, Z {z:g}"
     ends = scene.element_ids[(scene.element_nodes == index).any(axis=1)].tolist()
     if ends:
         yield f"of {'element' if len(ends) == 1 else 'elements'} {listed(ends)}"

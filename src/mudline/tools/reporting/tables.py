@@ -251,18 +251,8 @@ def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str
 
 
 def study_tables(found: Study) -> list[Table]:
-    """The tables of the screen of a study."""
-    screens = [screen for part in found.parts if (screen := STUDY_TABLES[part](found))]
-    return [
-        Table(
-            screen.title,
-            [head.replace("\n", " ") for head in screen.heads],
-            screen.rows,
-            screen.note,
-            numeric=[at for at, head in enumerate(screen.heads) if head not in screen.left],
-        )
-        for screen in screens
-    ]
+    """Return the tables of the screen of a study."""
+    return [on_page(table, longest=LONGEST) for part in found.parts if (table := STUDY_TABLES[part](found))]
 
 
 def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
