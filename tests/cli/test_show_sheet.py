@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -95,6 +96,13 @@ def test_contents_by_load_case(place: Place) -> None:
         assert row["weight_load_case_1"] == empty
         assert (row["contents_load_case_2"], row["weight_load_case_2"]) == pytest.approx((1025.0, empty + flooded))
         assert row["filled_weight"] == pytest.approx(filled)
+
+
+def test_rows_of_static_embedment_with_contents_are_those_of_elements_that_are_full(place: Place) -> None:
+    place(HALVES + FILLED)
+    found = run("show", "deck.keyxm", "--output-format", "json").json()["static_embedment"]
+    assert [(row["filled"], row["element"]) for row in found] == [(False, 1), (True, 1)]
+    assert found[1]["weight"] == pytest.approx(348.178 + 1025.0 * 9.81 * math.pi / 4 * 0.46**2, rel=1e-5)
 
 
 def test_masses_at_labelled_nodes_and_without_weight(place: Place) -> None:

@@ -58,7 +58,8 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
     for name in [name for name in SECTIONS if name in tables]:
         kinds = ["inputs" if name == "inputs" and one == tables[name][0] else "rows" for one in tables[name]]
         parted = [(one, MOST_BEFORE_APPENDIX[kind]) for one, kind in zip(tables[name], kinds, strict=True)]
-        details[name] = [*(one for one, most in parted if len(one.rows) > most), *details.get(name, ())]
+        if long := [one for one, most in parted if len(one.rows) > most]:
+            details[name] = [*long, *details.get(name, ())]
         tables[name] = [one.first(most, f"more-{name}") if len(one.rows) > most else one for one, most in parted]
     if report.study is not None:
         tables["study"] = study_tables(report.study)

@@ -197,10 +197,11 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 
 
 def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    masses = "" if any(one.startswith("*MASS") for one in found["weights_without"]) else " and masses"
     figures = [
         (labelled("total reaction", names.force), _known(found["reaction"])),
         (
-            labelled("submerged weight of the elements in contact, with contents and masses", names.force),
+            labelled(f"submerged weight of the elements in contact, with contents{masses}", names.force),
             found["weight"],
         ),
         (labelled("the same, empty", names.force), found["empty_weight"]),
