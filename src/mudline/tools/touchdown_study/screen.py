@@ -52,9 +52,9 @@ def description(found: Study) -> str:
 
 def _weight(zone: Zone, unit: str) -> str:
     """Submerged weight with contents, and empty where that differs."""
-    filled, empty = (f"{shown(each, 4)}{unit}" for each in (zone.beam.weight, zone.empty_weight))
+    filled, empty = (f"{shown(each, 4)}{unit}" for each in zone.weights[:2])
     weights = filled if filled == empty else f"{filled} with contents, {empty} empty"
-    note = weight_note(zone.weights_without)
+    note = weight_note(zone.weights.without)
     return f"Submerged weight {weights}{f' ({note})' if note else ''}."
 
 

@@ -52,6 +52,14 @@ class Measures(NamedTuple):
     moment_range: float
 
 
+class Weights(NamedTuple):
+    """Submerged weight per unit length with contents and empty; `without`: keywords that weigh and are in neither."""
+
+    with_contents: float
+    empty: float
+    without: list[str]
+
+
 class Variant(NamedTuple):
     """The zone otherwise than it is: elements in parts, their matrix, factor of the soil, one law, period."""
 
@@ -94,14 +102,10 @@ class Zone:
         return int(self.elements[self.node - 1])
 
     @property
-    def empty_weight(self) -> float:
-        """Submerged weight per unit length of that element without contents; `beam.weight` is that with them."""
-        return float(self.scene.submerged_weight[self.own]) * self.line.seabed.upright
-
-    @property
-    def weights_without(self) -> list[str]:
-        """Keywords of the deck that weigh or lift, and have no part in these weights."""
-        return left_out(self.scene, with_masses=False)
+    def weights(self) -> Weights:
+        """The submerged weights of that element."""
+        empty = float(self.scene.submerged_weight[self.own]) * self.line.seabed.upright
+        return Weights(self.beam.weight, empty, left_out(self.scene, with_masses=False))
 
     @property
     def length(self) -> float:
