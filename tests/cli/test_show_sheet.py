@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -95,6 +96,34 @@ def test_contents_by_load_case(place: Place) -> None:
         assert row["weight_load_case_1"] == empty
         assert (row["contents_load_case_2"], row["weight_load_case_2"]) == pytest.approx((1025.0, empty + flooded))
         assert row["filled_weight"] == pytest.approx(filled)
+
+
+def test_rows_of_static_embedment_with_contents_are_those_of_elements_that_are_full(place: Place) -> None:
+    place(HALVES + FILLED)
+    found = run("show", "deck.keyxm", "--output-format", "json").json()["static_embedment"]
+    assert [(row["filled"], row["element"]) for row in found] == [(False, 1), (True, 1)]
+    assert found[1]["weight"] == pytest.approx(348.178 + 1025.0 * 9.81 * math.pi / 4 * 0.46**2, rel=1e-5)
+
+
+def test_masses_at_labelled_nodes_and_without_weight(place: Place) -> None:
+    """Half of a mass belongs to each element at its node; the end of the line has one element."""
+    masses = "*LABEL\n TYPE=NODE\n 3, LABEL=Top\n*MASS\n 2, 100.0\n {Top}, 40.0, TYPE=NO WEIGHT MASS\n"
+    found = rows(
+        place(
+            HALVES.replace("*SEABED PROPERTIES", masses + "*SEABED PROPERTIES").replace(
+                "SET=Pipe\n ST", "SET=Half\n ST"
+            )
+        )
+    )
+    assert [one["masses_at_nodes"] for one in found] == [50.0, 90.0]
+
+
+def test_gaps_stand_out(place: Place) -> None:
+    bare = HALVES.replace(" SET=Pipe\n 207", " SET=Half\n 207").replace("SET=Pipe\n STIFFNESS", "SET=Half\n STIFFNESS")
+    pipe = run("show", place(bare), "--sheet").out.partition("Sheet: mass")[0]
+    assert [line.split()[:2] for line in pipe.splitlines()[-3:-1]] == [["1", "none"], ["2", "Half"]]
+    colored = run("show", "deck.keyxm", "--sheet", "--color", "always").out
+    assert colored.count("\x1b[1;33mnone") == 6  # a section and a law of one, Cd and Ca of both
 
 
 def test_what_the_weights_leave_out(place: Place) -> None:

@@ -25,6 +25,7 @@ JSON = {
     "lint": ("lint samples", "lint samples/flowline-gen.keyxm", "lint samples/missing.yaml"),
     "validate": ("validate samples",),
     "show": tuple(f"show samples/{deck.name}" for deck in (ROOT / "samples").glob("*.keyx?")),
+    "sheet": tuple(f"show --sheet samples/{deck.name}" for deck in (ROOT / "samples").glob("*.keyx?")),
     "curves": (
         "curves samples/legacy-flowline.keyxm --at -1 --at 0.2 --at 3 --weight 400",
         "curves samples/flowline-gen.keyxm",
@@ -42,6 +43,8 @@ JSON = {
         "diff samples/parametric.keyxm samples/variations.keyxm",
         "diff samples/variations.keyxm samples/variations.keyxm",
         "diff samples docs/examples",
+        "diff samples/scr-soil.keyxm samples/scr-touchdown.keyxm samples/scr-vessel.keyxm --matrix",
+        "diff samples/scr-soil.keyxm samples/scr-soil.keyxm --matrix",
     ),
     "export": (
         "export -q samples/legacy-flowline.keyxm --to moordyn -o model.txt",

@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Iterator
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from mudline.basics.short_repr import cut
 
@@ -269,6 +269,17 @@ def shown(value: float | None, digits: int = 6) -> str:
 def finite(value: float | None) -> float | None:
     """A number that JSON can hold; None for what overflowed or is none."""
     return value if value is not None and math.isfinite(value) else None
+
+
+def as_json(value: Any) -> Any:  # noqa: ANN401 - values of several kinds
+    """A value as JSON can hold it: named tuples as objects, others as lists, None for a number that overflowed."""
+    if isinstance(value, dict):
+        return {name: as_json(each) for name, each in value.items()}
+    if hasattr(value, "_asdict"):
+        return as_json(value._asdict())
+    if isinstance(value, list | tuple):
+        return [as_json(each) for each in value]
+    return finite(value) if isinstance(value, float) else value
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> Iterator[str]:

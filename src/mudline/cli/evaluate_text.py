@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 
@@ -39,13 +39,15 @@ from mudline.model.scene.numbering import Floats, Mask
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-Cells = tuple[str, ...]
+Cells = tuple[str | float, ...]
 _MORE_OF = {
     "elements": "more lines, farther from touchdown: --table elements shows all, -o writes all",
     "nodes": "more lines: -v shows all, -o writes all",
 }
 _DIGITS = 4
 """Of the largest number of a column; the others have as many decimals."""
+_ALIKE = 0.005
+"""Of the largest number of a column: by how much rows differ at most that are shown as one, with the range."""
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
@@ -172,10 +174,10 @@ def _touching(
     found = {column.name: column for each in table.columns(first) for column in each.flat()}
     chosen = [found[name] for name in headings if name not in lacking]
     columns = [number(headings[one.name], at, one.unit, left=bool(one.names)) for at, one in enumerate(chosen)]
-    return columns, zip(*(_texts(one, acts, every=every) for one in chosen), strict=True)
+    return columns, zip(*(_cells(one, acts, every=every) for one in chosen), strict=True)
 
 
-def _texts(column: Column, acts: Mask, *, every: bool) -> list[str]:
+def _cells(column: Column, acts: Mask, *, every: bool) -> list[str | float]:
     """The cells of a column, with all digits where `every` row is shown, else with those that matter in the column."""
     values = column.cut(0, 1)[0, acts].tolist()
     if column.names:
@@ -184,7 +186,7 @@ def _texts(column: Column, acts: Mask, *, every: bool) -> list[str]:
     if sizes and not every:
         decimals = _DIGITS - 1 - math.floor(math.log10(max(sizes)))
         values = [round(value, decimals) + 0.0 if isinstance(value, float) else value for value in values]
-    return [str(value) if isinstance(value, int) else shown(value) for value in values]
+    return list(values)
 
 
 def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
@@ -199,18 +201,39 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
 
 
-def _joined(rows: Iterable[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float]]:
-    """Rows that show the same, with numbers one after the other, as one row; with the least of their distances."""
-    first, last, least = 0, 0, math.inf
-    same: Cells | None = None
-    for (own, *rest), distance in zip(rows, near, strict=True):
-        if same != tuple(rest) or int(own) != last + 1:
-            if same is not None:
-                yield (_span(first, last), *same), least
-            first, same, least = int(own), tuple(rest), math.inf
-        last, least = int(own), min(least, distance)
-    if same is not None:
-        yield (_span(first, last), *same), least
+def _joined(rows: Sequence[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float]]:
+    """Rows that show nearly the same, with numbers one after the other, as one row; with the least of their distances.
+
+    Numbers that differ in such a row are shown from the least to the largest.
+    """
+    apart = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
+    runs: list[tuple[list[Cells], list[float]]] = []
+    for row, distance in zip(rows, near, strict=True):
+        same = runs[-1][0] if runs else []
+        if not same or row[0] != float(same[-1][0]) + 1 or not all(map(_alike, row[1:], same[0][1:], apart[1:])):
+            same = []
+            runs.append((same, []))
+        same.append(row)
+        runs[-1][1].append(distance)
+    for same, distances in runs:
+        numbers, *columns = zip(*same, strict=True)
+        yield (_span(int(numbers[0]), int(numbers[-1])), *map(_range, columns)), min(distances)
+
+
+def _is_number(cells: Cells) -> TypeGuard[tuple[float, ...]]:
+    return not isinstance(cells[0], str)
+
+
+def _alike(one: str | float, other: str | float, apart: float) -> bool:
+    return one == other or (not isinstance(one, str) and not isinstance(other, str) and abs(one - other) <= apart)
+
+
+def _range(cells: Cells) -> str:
+    """The cells of a run of rows as one: their value, or the least and the largest."""
+    if not _is_number(cells):
+        return str(cells[0])
+    least, most = shown(min(cells)), shown(max(cells))
+    return least if least == most else f"{least} to {most}"
 
 
 def _span(first: int, last: int) -> str:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.basics.display import DisplayColumn, DisplayTable
 from mudline.basics.files import suffix_of
 from mudline.basics.quantities import csv_lines
 from mudline.cli import DONE, options
@@ -20,7 +19,7 @@ from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
 from mudline.commands import study
-from mudline.tools.touchdown_study.screen import TABLES, ScreenTable, description, sentences
+from mudline.tools.touchdown_study.screen import TABLES, description, sentences
 from mudline.tools.touchdown_study.study import PARTS, Study
 
 if TYPE_CHECKING:
@@ -114,9 +113,8 @@ def _print(found: Study, printer: Printer) -> None:
             _paragraph(printer, text, style)
             printer.line("")
     for part in found.parts:
-        table = TABLES[part](found)
-        if table is not None:
-            _print_table(table, printer)
+        if table := TABLES[part](found):
+            printer.table(table)
         said = sentences(found, part)
         for text in said:
             _paragraph(printer, text, "dim")
@@ -128,8 +126,3 @@ def _paragraph(printer: Printer, text: str, style: str = "") -> None:
     width = min(printer.width, _WIDTH)
     for line in textwrap.wrap(printer.visible(text), width, break_on_hyphens=False):
         printer.line((line, style), fold=False)
-
-
-def _print_table(table: ScreenTable, printer: Printer) -> None:
-    columns = [DisplayColumn(head, at, left=head in table.left) for at, head in enumerate(table.heads)]
-    printer.table(DisplayTable(table.title, columns, table.rows, table.note))

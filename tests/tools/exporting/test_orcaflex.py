@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
+from mudline.basics.quantities import shown
 from mudline.language.diagnostics import DeckError
 from mudline.tools.exporting import orcaflex
 from mudline.tools.exporting.line_model import LineModel
@@ -45,11 +46,15 @@ def test_segments_are_the_elements_where_these_are_of_one_length(place: str, los
 
 
 def test_a_line_on_a_linear_seabed() -> None:
-    found = written(model_of(text()))
+    model = model_of(text())
+    found = written(model)
     sea = found["Environment"]
     assert sea["WaterDepth"] == pytest.approx(100.05)  # the underside touches where the axis does in the deck
     assert sea["SeabedNormalStiffness"] == pytest.approx(200.0)  # kN/m/m2
     assert sea["SeabedShearStiffness"] == pytest.approx(max(0.3 * WEIGHT / 0.01, 0.5 * WEIGHT / 0.02) / 0.1 / 1e3)
+    (shear,) = (entry for entry in model.report.lost if entry.target == "one SeabedShearStiffness")
+    along, across = (shown(share * WEIGHT / 1e3, 4) for share in (0.3 / 0.01, 0.5 / 0.02))
+    assert shear.effect == f"the stiffer of {along} kN/m2 along and {across} kN/m2 across"
     (pipe,), (line,) = found["LineTypes"], found["Lines"]
     assert (pipe["MassPerUnitLength"], pipe["EA"], pipe["OD"]) == (0.05, 1e5, 0.1)
     assert (pipe["SeabedAxialFrictionCoefficient"], pipe["SeabedLateralFrictionCoefficient"]) == (0.3, 0.5)

@@ -10,6 +10,7 @@ from typing import Any
 
 from mudline.cli import DONE
 from tests.cli.runner import run
+from tests.helpers.samples import SAMPLES
 
 NO_STUDY = "verdict,findings,inputs,model,curves,contact,plan"
 ACTING = {"script", "iframe", "object", "embed", "base", "form", "link", "a:http"}
@@ -51,6 +52,22 @@ ON_SOIL = """$MODEL
  PEAK=1.3, 0.03
  RESIDUAL=0.6, 0.5
 """
+
+
+def long_deck() -> str:
+    """The riser on a vessel on thirty curves, a set each, with thirty warnings and thirty findings that inform."""
+    text = (SAMPLES / "scr-vessel.keyxm").read_text(encoding="utf-8")
+    sets, laws, curves = "", "", ""
+    for number in range(1, 31):
+        first = 3 * number - 2 + 2 * number // 3
+        sets += f" SET=Zone {number:02d}\n GEN={first}, {first + 2}\n SET=zone {number:02d}\n {first + 2}\n"
+        laws += f" SET=Zone {number:02d}\n STIFFNESS=Clay {number:02d}\n FRICTION=0.25, 0.8, 0.0027, 0.1365\n"
+        curves += f" CURVE=Clay {number:02d}\n 0.0, 0.0\n 0.05, {500 + 5 * number}\n 0.5, {1400 + 9 * number}\n"
+    seabed = f"*SEABED PROPERTIES\n TYPE=ELASTIC\n{laws}*SEABED STIFFNESS\n{curves}"
+    unknown = "".join(f"*UNHEARD OF {number}\n 1.0\n" for number in range(30))
+    before, _, rest = text.partition("*SEABED PROPERTIES\n")
+    after = rest[rest.index("$LOAD CASE") :]
+    return before.replace("*ELEMENT SETS\n", f"*ELEMENT SETS\n{sets}") + seabed + unknown + after
 
 
 class Page(HTMLParser):

@@ -12,6 +12,7 @@ import pytest
 from tests.cli.runner import run
 from tests.helpers.samples import SAMPLES
 from tests.tools.reporting.browser import program, seen
+from tests.tools.reporting.pages import long_deck
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -48,8 +49,16 @@ def test_pages_are_shown_as_they_are_meant(browser: Browser, pages: list[Path], 
     page = browser.new_page()
     page.goto(pages[-1].as_uri())
     assert page.pdf(path=tmp_path / "page.pdf", format="A4").startswith(b"%PDF")
-    page.add_style_tag(content="#appendix { display: none }")
-    assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) <= 6
+
+
+def test_a_page_is_short_before_its_appendix(browser: Browser, pages: list[Path], tmp_path: Path) -> None:
+    (tmp_path / "long.keyxm").write_text(long_deck(), encoding="utf-8")
+    run("report", str(tmp_path / "long.keyxm"), "-o", str(tmp_path / "long.html"), "-q")
+    for path in (pages[-1], tmp_path / "long.html"):
+        page = browser.new_page()
+        page.goto(path.as_uri())
+        page.add_style_tag(content="#appendix { display: none }")
+        assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) <= 6
 
 
 def test_the_index_shows_the_decks_of_a_verdict(browser: Browser, pages: list[Path]) -> None:

@@ -11,7 +11,7 @@ import pytest
 from mudline.cli import DONE, FOUND, WRONG_USAGE
 from tests.cli.runner import run
 from tests.helpers.samples import FAULTY, SAMPLES
-from tests.tools.reporting.pages import CSP, NO_STUDY, ON_SOIL, Page, checked, content, made, row_of
+from tests.tools.reporting.pages import CSP, NO_STUDY, ON_SOIL, Page, checked, content, long_deck, made, row_of
 
 CHOSEN = ("broken.keyxm", "scr-vessel.keyxm", "scr-soil.keyxm", "lines-deck.keyxm", "imperial-riser.keyxi")
 
@@ -143,6 +143,23 @@ def test_nothing_of_a_deck_becomes_markup(tmp_path: Path, name: str) -> None:
     assert "F49" not in page.text
 
 
+def test_what_is_long_stands_in_the_appendix_behind_a_summary(tmp_path: Path) -> None:
+    (tmp_path / "deck.keyxm").write_text(long_deck(), encoding="utf-8")
+    text = made(tmp_path, str(tmp_path / "deck.keyxm"))
+    page = checked(text)
+    first, _, appendix = text.partition('<section id="appendix">')
+    at = long_deck().splitlines().index(" SET=zone 01") + 1
+    lines = ", ".join(str(at + 4 * number) for number in range(4))
+    rule = "A set is defined twice: it holds the elements of both definitions."
+    assert row_of(first, "warning") == f"warning | REF016 | {rule} | 30 | {lines} ..."
+    assert 'id="finding-1"' not in first
+    assert 'id="finding-1"' in appendix
+    for number, part in (("02", first), ("02", appendix), ("30", appendix)):
+        assert row_of(part, f"curve:Clay {number}").split(" | ")[1] == f"Zone {number}"
+    assert "Clay 30" not in first
+    assert {"#more-findings", "#more-inputs", "#more-model", "#more-curves", "#more-contact"} <= {*page.references}
+
+
 @pytest.mark.covered
 def test_very_many_findings_and_curves_are_cut_and_counted(tmp_path: Path) -> None:
     slips = "".join(f" CURVE=<b>{'n' * 200} {number}\n 0, 0\n x, {'y' * 900}\n" for number in range(1500))
@@ -162,7 +179,7 @@ def test_very_many_findings_and_curves_are_cut_and_counted(tmp_path: Path) -> No
     assert outcome.code in {DONE, FOUND}
     page = checked(text)
     assert sum(one.startswith("picture-") for one in page.ids) == 20
-    assert "380 more pictures" in page.text
+    assert "381 more pictures" in page.text
     assert "350 more curves" in page.text
     assert len(content(str(deck), sections="curves")["sections"]["curves"]["curves"]) == 400
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 from pathlib import Path
 
 import pytest
 
 import mudline
 from tests.cli.runner import ROOT, SAMPLES, run
-from tests.tools.touchdown_study.decks import Riser
+from tests.tools.touchdown_study.decks import WAVES, Riser
 
 jsonschema = pytest.importorskip("jsonschema")
 
@@ -70,6 +71,22 @@ def test_the_motion_of_the_top_may_be_given(deck: Path) -> None:
     outcome = run("study", deck, "--only", "accuracy", "--heave", "2.5", "--period", "9", "--output-format", "json")
     model = outcome.json()["model"]
     assert (model["heave"], model["surge"], model["period"]) == (2.5, 0.0, 9.0)
+
+
+def test_the_empty_weight_stands_beside_that_with_contents(tmp_path: Path) -> None:
+    masses = "*MASS\n 20, 500.0\n"
+    (tmp_path / "riser.keyxm").write_text(
+        Riser(loads=f"*INTERNAL FLUID\n SET=ALL\n 800.0, 820.0, 0.0\n{WAVES}", model=masses).text(), "utf-8"
+    )
+    steel, inside, outside = (math.pi / 4.0 * area for area in (0.3239**2 - 0.2827**2, 0.2827**2, 0.3239**2))
+    empty = 9.81 * (7850.0 * steel - 1025.0 * outside)
+    filled = empty + 9.81 * 820.0 * inside
+    text = " ".join(run("study", tmp_path / "riser.keyxm", "--only", "accuracy").out.split())
+    assert f"Submerged weight {filled:.4g} N/m with contents, {empty:.4g} N/m empty (weights without *MASS)." in text
+    found = run("study", tmp_path / "riser.keyxm", "--only", "accuracy", "--output-format", "json").json()
+    weights = {"with_contents": pytest.approx(filled), "empty": pytest.approx(empty), "without": ["*MASS"]}
+    assert found["submerged_weight"] == weights
+    assert found["model"]["weight"] == pytest.approx(filled)
 
 
 def test_a_refused_deck_names_the_cause_as_evaluate_does(deck: Path) -> None:

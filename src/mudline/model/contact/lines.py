@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import finite
+from mudline.basics.quantities import as_json
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact.arrays import FloatArray, IndexArray
 
@@ -181,12 +181,5 @@ class LineSummary:
 
     def row(self) -> dict[str, object]:
         """The line as JSON has it."""
-        found: dict[str, object] = {name: _bounded(getattr(self, name)) for name in self.__slots__}
-        return found | {"touchdown": [_bounded(point) for point in self.touchdown]}
-
-
-def _bounded(value: object) -> object:
-    """A value as JSON can hold it: None for what overflowed."""
-    if isinstance(value, TouchdownPoint | ElementForce):
-        return {name: _bounded(each) for name, each in value._asdict().items()}
-    return finite(value) if isinstance(value, float) else value
+        found: dict[str, object] = as_json({name: getattr(self, name) for name in self.__slots__})
+        return found

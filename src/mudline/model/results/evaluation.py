@@ -96,9 +96,7 @@ class Evaluation:
     @cached_property
     def weights_without(self) -> list[str]:
         """What weighs in the deck and has no part in weights here; a resting shape has no masses at its nodes."""
-        found = left_out(self.scene)
-        masses = self.source == "rest shape" and "MASS" in self.scene.deck.keywords()
-        return [*found, "*MASS"] if masses and "*MASS (in part)" not in found else found
+        return left_out(self.scene, with_masses=self.source != "rest shape")
 
     @cached_property
     def nodes(self) -> Indices:

@@ -203,8 +203,8 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
 
     `element` is the first of them; of a row for a node, the first that ends there.
     `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
-    Where the last load case fills pipes there are rows without and with the contents (`filled`). Of a curve that does
-    so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
+    Where the last load case fills pipes there are rows of all without contents, and of those with some (`filled`). Of a
+    curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
     the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
     """
     weights = [scene.submerged_weight]
@@ -215,7 +215,7 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     arrays, zones = scene.law_arrays(), _Zones.of(smoothing, len(scene.element_ids))
     rows = []
     for filled, weight in enumerate(weights):
-        known = np.flatnonzero((weight > 0.0) & own)
+        known = np.flatnonzero((weight > 0.0) & own & ((weight != weights[0]) | (not filled)))
         rows += [
             _of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known, filled=bool(filled))
         ]

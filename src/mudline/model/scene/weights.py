@@ -114,14 +114,19 @@ _WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MU
 """Keywords whose weight or lift no figure has: what public pages say of them is not enough."""
 
 
-def left_out(scene: ResolvedDeck) -> list[str]:
-    """Return what the deck has that weighs or lifts, and that has no part in `operating_weight`, as `*NAME`."""
+def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:
+    """Return what the deck has that weighs or lifts, and that has no part in `operating_weight`, as `*NAME`.
+
+    `with_masses` is False for weights without the masses at nodes.
+    """
     deck, unread = scene.deck, scene.context.unread
     given = deck.keywords() | deck.keywords("LOAD CASE")
     found = [f"*{name}" for name in _WEIGHING if name in given]
     found += [f"*{name} (in part)" for name in ("MASS", "INTERNAL FLUID") if name in unread]
     if "*MASS (in part)" not in found and any(node is None for _, node in _masses(scene)):
         found.append("*MASS (in part)")
+    if not with_masses and "MASS" in given:
+        found = [*(one for one in found if one != "*MASS (in part)"), "*MASS"]
     before = {base.deck.file for base in deck.bases if "INTERNAL FLUID" in base.deck.keywords("LOAD CASE")}
     if before and "INTERNAL FLUID" not in given:
         found.append("*INTERNAL FLUID of the deck that it continues")

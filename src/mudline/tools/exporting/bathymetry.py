@@ -178,20 +178,14 @@ class _GridError(ValueError):
 
 def _floats(words: list[str], line: int) -> Floats:
     """Return the numbers of a line; raises _GridError for a word that is none."""
-    try:
-        return np.array(words, dtype=np.float64)
-    except ValueError:
-        word = next(word for word in words if not _is_number(word))
-        comma = ": write a point for the decimal comma" if "," in word else ""
-        raise _GridError(line, f"{word!r} is not a number{comma}") from None
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
+    found = np.empty(len(words))
+    for at, word in enumerate(words):
+        try:
+            found[at] = float(word)
+        except ValueError:
+            comma = ": write a point for the decimal comma" if "," in word else ""
+            raise _GridError(line, f"{word!r} is not a number{comma}") from None
+    return found
 
 
 def thinned(points: Floats, within: float) -> Indices:

@@ -21,6 +21,7 @@ from mudline.tools.exporting.soil import (
     Soil,
     distance,
     governing,
+    kilo,
     report_friction,
     report_governing,
     report_resistance,
@@ -245,6 +246,11 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
     report_governing(report, others, soil, at_touchdown=model.at_touchdown)
     report_stiffness(report, others, "SeabedNormalStiffness x D:", [per_area * each.diameter for each in others])
     report_friction(report, model.soils, "friction of line types", [(each.axial, each.lateral) for each in model.soils])
+    if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
+        springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
+        report.add(
+            soil.friction_at, Status.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
+        )
     report_resistance(report, "none")
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):

@@ -24,6 +24,7 @@ from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, DeckCurve, SceneCurve, other_curves
 from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.model.scene.sets import NamedSet
@@ -183,19 +184,15 @@ def set_help(scene: Scene, name: str) -> str:
         words.append(listed(scene.element_ids[found.elements].tolist()))
         lengths = scene.length[found.elements]
         words.append(_with_unit("total length", float(np.nansum(lengths)), unit_names(scene.units).length))
-    if diameters := diameters_of(scene, found):
+    if diameters := _diameters(scene, scene.diameter[found.elements]):
         words.append(diameters)
     if found.open:
         words.append("it may have more elements, which this deck does not show")
     return "\n\n".join(words)
 
 
-def diameters_of(scene: Scene, found: NamedSet) -> str:
-    """The external diameters of a set's elements, or ""."""
-    return _diameters(scene, scene.diameter[found.elements])
-
-
-def _diameters(scene: Scene, given: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
+def _diameters(scene: Scene, given: Floats) -> str:
+    """External diameters, as those of a set's elements, from the least to the largest; "" where none is known."""
     sizes = np.unique(given[~np.isnan(given)])
     if not len(sizes):
         return ""
@@ -212,28 +209,16 @@ def _with_unit(what: str, value: float, unit: str) -> str:
 # -------------------------------------------------------------------------------------------------------------- curves
 
 
-def curve_at(analysis: Analysis, found: Site) -> tuple[int, SceneCurve, int] | None:
-    """The curve that a value is a point of: its index, the curve, the row."""
-    path = found.where.path
-    scene = analysis.scene
-    if scene is None or len(path) < 4 or path[0] != "curves" or path[2] != "points":
-        return None
-    for index, entry in enumerate(scene.laws.curves):
-        if entry.where == found.where._replace(path=path[:2]):
-            return index, entry, int(path[3])
-    return None
-
-
 def segment_help(analysis: Analysis, found: Site) -> str:
     """Slope and stiffness of a curve on both sides of the point that a value belongs to."""
-    point = curve_at(analysis, found)
-    if point is None or analysis.scene is None:
+    path, scene = found.where.path, analysis.scene
+    if scene is None or len(path) < 4 or path[0] != "curves" or path[2] != "points":
         return ""
-    index, entry, row = point
-    at = np.flatnonzero(entry.rows == row)
-    if entry.curve is None or not at.size:
+    where, curves = found.where._replace(path=path[:2]), scene.laws.curves
+    index, entry = next(((at, one) for at, one in enumerate(curves) if one.where == where), (-1, None))
+    at = np.flatnonzero(entry.rows == int(path[3])) if entry else np.zeros(0)
+    if entry is None or entry.curve is None or not at.size:
         return ""
-    scene = analysis.scene
     ratio = float(entry.points[int(at[0]), 0])
     ratios, forces = entry.curve.ratios, entry.curve.forces
     number = int(np.searchsorted(ratios, ratio))
@@ -246,7 +231,7 @@ def segment_help(analysis: Analysis, found: Site) -> str:
     return "\n\n".join(lines)
 
 
-def _slope_text(scene: Scene, slope: float, sizes: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
+def _slope_text(scene: Scene, slope: float, sizes: Floats) -> str:
     """A slope and the stiffness that it is for the diameters of the elements which follow the curve."""
     names = unit_names(scene.units)
     known = np.unique(sizes[~np.isnan(sizes)])
@@ -311,7 +296,7 @@ def _node(scene: Scene, number: int) -> Iterator[str]:
         yield f"node {number} is not defined here"
         return
     x, y, z = scene.coordinates[index].tolist()
-    yield _with_unit(f"node **{number}**: X {x:g}, Y {y:g}, Z {z:g}", 0, "").removesuffix(" 0")
+    yield f"node **{number}**: X {x:g}, Y {y:g}, Z {z:g}"
     ends = scene.element_ids[(scene.element_nodes == index).any(axis=1)].tolist()
     if ends:
         yield f"of {'element' if len(ends) == 1 else 'elements'} {listed(ends)}"

@@ -172,6 +172,11 @@ class Navigator:
             raise failed(f"{word} {shown(named.name)} is an item of a list: rename it by hand")
         return named
 
+    def prepared(self, offset: int) -> types.PrepareRenamePlaceholder:
+        """The same as the editor asks for it before it asks for a new name."""
+        named = self.renamed(offset)
+        return types.PrepareRenamePlaceholder(self.analysis.document.range(named.span), named.name)
+
     def rename(self, offset: int, name: str) -> types.WorkspaceEdit:
         """The changes that rename the thing at an offset in every deck of a chain; raises JsonRpcException."""
         named = self.renamed(offset)

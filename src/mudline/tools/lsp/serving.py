@@ -6,32 +6,74 @@ import io
 import logging
 import re
 import sys
+from collections.abc import Callable
 from copy import copy
-from typing import BinaryIO, Protocol
+from typing import Any, BinaryIO
 
 from lsprotocol import types
 
 from mudline.tools.lsp import colours, completion, findings, structure
+from mudline.tools.lsp.decks import Analysis
 from mudline.tools.lsp.help import hints, hover
 from mudline.tools.lsp.navigation import Navigator
 from mudline.tools.lsp.server import DeckServer
 
+Ask = Callable[[Analysis, Any], object]
+"""What answers a request about a deck, from its analysis and the parameters of the request."""
+AskAt = Callable[[Navigator, int, Any], object]
+"""What answers one about a place of a deck, from its offset and the parameters."""
 
-class AtPosition(Protocol):
-    """The parameters of a request about a place."""
-
-    text_document: types.TextDocumentIdentifier
-    position: types.Position
+_ABOUT_DECKS: dict[str, tuple[Ask, object]] = {
+    types.TEXT_DOCUMENT_HOVER: (lambda found, asked: hover(found, found.document.offset(asked.position)), None),
+    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda found, _: structure.outline(found), []),
+    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda found, _: structure.folding(found), []),
+    types.TEXT_DOCUMENT_FORMATTING: (lambda found, _: structure.formatting(found), []),
+    types.TEXT_DOCUMENT_INLAY_HINT: (lambda found, asked: hints(found, asked.range), []),
+}
+"""The answers, and what is answered where no deck is open."""
+_ABOUT_PLACES: dict[str, tuple[AskAt, object]] = {
+    types.TEXT_DOCUMENT_DEFINITION: (lambda deck, at, _: deck.definition(at), []),
+    types.TEXT_DOCUMENT_REFERENCES: (
+        lambda deck, at, asked: deck.references(at, declaration=asked.context.include_declaration),
+        [],
+    ),
+    types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: (lambda deck, at, _: deck.highlights(at), []),
+    types.TEXT_DOCUMENT_PREPARE_RENAME: (lambda deck, at, _: deck.prepared(at), None),
+    types.TEXT_DOCUMENT_RENAME: (lambda deck, at, asked: deck.rename(at, asked.new_name), None),
+}
+"""The same about places, of which nothing is said in a file that is no keyword text."""
+_OPTIONS = {types.TEXT_DOCUMENT_RENAME: types.RenameOptions(prepare_provider=True)}
 
 
 def register(server: DeckServer) -> None:
     """Register every request that is answered."""
     _watch(server)
     _fixes(server)
-    _help(server)
-    _navigation(server)
-    _rename(server)
-    _layout(server)
+    _completion(server)
+    for method, (ask, nothing) in _ABOUT_DECKS.items():
+        _answer(server, method, ask, nothing)
+    for method, (ask_at, nothing) in _ABOUT_PLACES.items():
+        _answer(server, method, _at_place(server, ask_at, nothing), nothing)
+
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, colours.LEGEND)
+    async def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        document = copy(server.decks.documents.get(params.text_document.uri))  # as it is now
+        return await server.aside(lambda: colours.tokens(document)) if document else types.SemanticTokens([])
+
+
+def _answer(server: DeckServer, method: str, ask: Ask, nothing: object) -> None:
+    @server.feature(method, _OPTIONS.get(method))
+    async def answered(params: Any) -> object:  # noqa: ANN401 - of each request others
+        found = await server.analysis(params.text_document.uri)
+        return nothing if found is None else ask(found, params)
+
+
+def _at_place(server: DeckServer, ask: AskAt, nothing: object) -> Ask:
+    def answered(found: Analysis, params: Any) -> object:  # noqa: ANN401 - as above
+        at = found.document.offset(params.position)
+        return nothing if found.origin is None else ask(Navigator(server.decks, found), at, params)
+
+    return answered
 
 
 def _watch(server: DeckServer) -> None:
@@ -68,12 +110,7 @@ def _fixes(server: DeckServer) -> None:
         return action
 
 
-def _help(server: DeckServer) -> None:
-    @server.feature(types.TEXT_DOCUMENT_HOVER)
-    async def hovered(params: types.HoverParams) -> types.Hover | None:
-        found = await server.analysis(params.text_document.uri)
-        return hover(found, found.document.offset(params.position)) if found else None
-
+def _completion(server: DeckServer) -> None:
     options = types.CompletionOptions(trigger_characters=completion.TRIGGERS, resolve_provider=True)
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, options)
@@ -88,75 +125,6 @@ def _help(server: DeckServer) -> None:
     @server.feature(types.COMPLETION_ITEM_RESOLVE)
     def resolved(item: types.CompletionItem) -> types.CompletionItem:
         return completion.resolved(item)
-
-
-async def _navigator(server: DeckServer, params: AtPosition) -> tuple[Navigator, int] | None:
-    """What answers about a place, and the offset of that."""
-    found = await server.analysis(params.text_document.uri)
-    if found is None or found.origin is None:
-        return None
-    return Navigator(server.decks, found), found.document.offset(params.position)
-
-
-def _navigation(server: DeckServer) -> None:
-    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
-    async def definition(params: types.DefinitionParams) -> list[types.Location]:
-        asked = await _navigator(server, params)
-        return asked[0].definition(asked[1]) if asked else []
-
-    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
-    async def references(params: types.ReferenceParams) -> list[types.Location]:
-        asked = await _navigator(server, params)
-        return asked[0].references(asked[1], declaration=params.context.include_declaration) if asked else []
-
-    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
-    async def highlights(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
-        asked = await _navigator(server, params)
-        return asked[0].highlights(asked[1]) if asked else []
-
-
-def _rename(server: DeckServer) -> None:
-    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
-    async def prepare(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
-        asked = await _navigator(server, params)
-        if asked is None:
-            return None
-        named = asked[0].renamed(asked[1])
-        return types.PrepareRenamePlaceholder(asked[0].analysis.document.range(named.span), named.name)
-
-    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
-    async def rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
-        asked = await _navigator(server, params)
-        return asked[0].rename(asked[1], params.new_name) if asked else None
-
-
-def _layout(server: DeckServer) -> None:
-    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-    async def symbols(
-        params: types.DocumentSymbolParams,
-    ) -> list[types.DocumentSymbol]:
-        found = await server.analysis(params.text_document.uri)
-        return structure.outline(found) if found else []
-
-    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
-    async def folding(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
-        found = await server.analysis(params.text_document.uri)
-        return structure.folding(found) if found else []
-
-    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
-    async def formatting(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
-        found = await server.analysis(params.text_document.uri)
-        return structure.formatting(found) if found else []
-
-    @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
-    async def inlay_hints(params: types.InlayHintParams) -> list[types.InlayHint]:
-        found = await server.analysis(params.text_document.uri)
-        return hints(found, params.range) if found else []
-
-    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, colours.LEGEND)
-    async def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
-        document = copy(server.decks.documents.get(params.text_document.uri))  # as it is now
-        return await server.aside(lambda: colours.tokens(document)) if document else types.SemanticTokens([])
 
 
 # ---------------------------------------------------------------------------------------------------------- the process

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import finite
+from mudline.basics.quantities import as_json, finite
 from mudline.basics.version import __version__
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, joined_problems, named_causes
@@ -136,7 +136,7 @@ def report_on(
     for name in of_scene:
         why = missing
         try:
-            found[name] = None if made.scene is None else _as_json(_section(name, made.scene, made))
+            found[name] = None if made.scene is None else as_json(_section(name, made.scene, made))
         except DeckError as error:
             found[name], why = None, _reason(error)
         if why:
@@ -155,7 +155,7 @@ def _figures(made: Report, contact: dict[str, Any] | None, missing: str) -> dict
     """The five numbers of the contact that stand beside the verdict; `missing` says why there are none."""
     if contact is None and made.scene is not None:
         try:
-            contact = _as_json(_contact(made.scene, made))
+            contact = as_json(_contact(made.scene, made))
         except DeckError as error:
             missing = _reason(error)
     if contact is None:
@@ -193,15 +193,6 @@ def _without_folders(value: Any, given: Given) -> Any:  # noqa: ANN401 - whateve
         return each
 
     return plain(value)
-
-
-def _as_json(value: Any) -> Any:  # noqa: ANN401 - whatever JSON holds
-    """A value without numbers that JSON cannot hold: None for what overflowed."""
-    if isinstance(value, dict):
-        return {key: _as_json(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_as_json(each) for each in value]
-    return finite(value) if isinstance(value, float) else value
 
 
 def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:

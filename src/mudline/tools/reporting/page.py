@@ -12,23 +12,29 @@ import jinja2
 from jinja2.sandbox import SandboxedEnvironment
 from markupsafe import Markup
 
+from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
+from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
-from mudline.tools.reporting.content import Look, LookError, Report
+from mudline.tools.reporting.content import SECTIONS, Look, LookError, Report
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
     LONGEST,
     TABLES,
+    Table,
     figure_table,
     four_digits,
     input_tables,
+    on_page,
     study_tables,
 )
 from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
+MOST_BEFORE_APPENDIX = {"rows": 8, "inputs": 16, "findings": 6, "inferred": 20}
+"""Rows of a table, of that of the inputs, findings and deductions that stand before the appendix, which has all."""
 _LONGEST_LINE = 160
 """Characters of a line of the deck that a page shows."""
 _AROUND = 1
@@ -47,6 +53,14 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
     if found := sections.get("inputs"):
         tables["inputs"] = list(input_tables(found, report.sheet, given["deck"], given["units"]))
     figures = given.get("figures")
+    findings = _groups(report, "reported", lambda severity: severity != "info")
+    hidden = _groups(report, "hidden")
+    for name in [name for name in SECTIONS if name in tables]:
+        kinds = ["inputs" if name == "inputs" and one == tables[name][0] else "rows" for one in tables[name]]
+        parted = [(one, MOST_BEFORE_APPENDIX[kind]) for one, kind in zip(tables[name], kinds, strict=True)]
+        if long := [one for one, most in parted if len(one.rows) > most]:
+            details[name] = [*long, *details.get(name, ())]
+        tables[name] = [one.first(most, f"more-{name}") if len(one.rows) > most else one for one, most in parted]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(
@@ -59,9 +73,11 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
         head=_css_text(_head_words(given)),
         hash=_css_text(f"SHA-256 {given['sha256'][:_SHORT_HASH]}"),
         study_texts=_study_texts(report),
-        findings=_groups(report, "reported", lambda severity: severity != "info"),
+        findings=findings,
         infos=_groups(report, "reported", lambda severity: severity == "info"),
-        hidden=_groups(report, "hidden"),
+        hidden=hidden,
+        by_rule={"findings": _by_rule(report, findings), "hidden": _by_rule(report, hidden)},
+        most_inferred=MOST_BEFORE_APPENDIX["inferred"],
         rules=report.named,
         pictures=[one._replace(markup=Markup(one.markup)) for one in pictures],  # noqa: S704 - made from our figures
         pictures_left=left_out,
@@ -172,6 +188,27 @@ def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _:
         if wanted(one["severity"])
     ]
     return [(name, list(group)) for name, group in groupby(rows, key=lambda one: str(one.found["section"]))]
+
+
+def _by_rule(report: Report, groups: Sequence[tuple[str, Sequence[Shown]]]) -> Table | None:
+    """Many findings as a table of the rules behind them, errors first; None for findings that are few."""
+    found = [one.found for _, group in groups for one in group]
+    if len(found) <= MOST_BEFORE_APPENDIX["findings"]:
+        return None
+    codes = sorted({(SEVERITIES.index(one["severity"]), one["code"]) for one in found})
+    lines = [(at, code, [one["line"] for one in found if one["code"] == code]) for at, code in codes]
+    columns = (
+        text("severity", lambda row: SEVERITIES[row[0]]),
+        text("code", 1),
+        text("rule", lambda row: report.named[row[1]] or "The file cannot be read as a deck."),
+        number("findings", lambda row: len(row[2])),
+        text("lines", lambda row: ", ".join(map(str, row[2][:_FEW])) + (" ..." if len(row[2]) > _FEW else "")),
+    )
+    return on_page(DisplayTable("By rule", columns, lines), 2 * MOST_BEFORE_APPENDIX["rows"], longest=LONGEST)
+
+
+_FEW = 4
+"""Lines of findings that are named."""
 
 
 def _lines(report: Report, line: int) -> list[tuple[int, str]]:

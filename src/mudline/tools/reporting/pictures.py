@@ -19,6 +19,8 @@ from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import Report
 
 MOST_PICTURES = 20
+MOST_SINGLE, _MOST_TOGETHER = 2, 12
+"""Curves of the seabed that have pictures of their own before the appendix; curves of the one picture of more."""
 MOST_BYTES = 600_000
 """Of all pictures of a page, which is to be sent by mail."""
 _LARGEST_SVG = 120_000
@@ -63,9 +65,16 @@ def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]
     if study is not None and study.drawable:
         words = "Error of the touchdown zone against run time, with the deck's own time step"
         yield "study", words, study.figure
-    for row in (found.get("curves") or {}).get("curves", ()):
+    rows = (found.get("curves") or {}).get("curves", ())
+    of_seabed = [row for row in rows if row["kind"] == OF_SEABED]
+    if several := len(of_seabed) > MOST_SINGLE:
+        followed = {law["law"] for law in found["curves"]["laws"] if law["elements"]}
+        of_seabed.sort(key=lambda row: f"curve:{row['name']}" not in followed)
+        words = f"{min(_MOST_TOGETHER, len(of_seabed))} of {len(of_seabed)} force-embedment curves"
+        yield "curves", words, partial(curves_figure, of_seabed[:_MOST_TOGETHER], scene.units)
+    for row in rows:
         words = f"The {row['kind']} {visible(row['name'])}: {row['axes'][1]} over {row['axes'][0]}"
-        section = "curves" if row["kind"] == OF_SEABED else "appendix"
+        section = "curves" if row["kind"] == OF_SEABED and not several else "appendix"
         yield section, words, partial(curves_figure, [row], scene.units)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from mudline.basics.display import Cell, DisplayTable, number, text
@@ -33,9 +33,10 @@ LONGEST, LONGEST_NAME = 600, 80
 
 
 class Table(NamedTuple):
-    """A table on a page: its caption, heads and rows; what it says of rows that are left out; anchors.
+    """A table on a page: its caption, heads and rows; a note; anchors.
 
-    Columns of which `numeric` has the place are set to the right also where their cells are texts.
+    Columns of which `numeric` has the place are set to the right. `more` says how many
+    rows are not on the page, `whole` is the anchor of the section with those that are not here.
     """
 
     caption: str
@@ -45,22 +46,28 @@ class Table(NamedTuple):
     anchors: Sequence[str] = ()
     anchor: str = ""
     numeric: Collection[int] = ()
+    more: str = ""
+    whole: str = ""
+
+    def first(self, most: int, whole: str) -> Table:
+        """The first rows, without their anchors; `whole` is the anchor of the section with more of them."""
+        return self._replace(rows=self.rows[:most], anchors=(), more="", whole=whole)
 
 
-def _on_page(
+def on_page(
     table: DisplayTable,
     most: int = SHOWN_ROWS,
     anchors: str = "",
     longest: int = LONGEST_NAME,
-    numeric: Collection[int] = (),
 ) -> Table:
-    """A table of at most so many rows, of which each has an anchor if wanted; longer texts are cut."""
+    """Return a table of at most so many rows, of which each has an anchor if wanted; longer texts are cut."""
     table = table.filled()
     rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
-    note = " ".join(filter(None, (_more(len(rows) - most, "row"), table.note)))
+    more = _more(len(rows) - most, "row")
+    numeric = [at for at, one in enumerate(table.columns) if not one.left]
     names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
     heads = [one.head.replace("\n", " ") for one in table.columns]
-    return Table(table.title, heads, rows[:most], note, names, numeric=numeric)
+    return Table(table.title, heads, rows[:most], table.note, names, numeric=numeric, more=more)
 
 
 def _more(count: int, what: str) -> str:
@@ -73,8 +80,7 @@ _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shap
 
 def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
     """Return the five numbers beside the verdict as a table of one row."""
-    places = [float(four_digits(place)) for place in found["touchdown"]]
-    words = touchdown_words(places, found["contact_length"], found["length"], _MOST_TOUCHDOWNS)
+    words = _touchdown(found["touchdown"], found["contact_length"], found["length"])
     doubt = f"warnings about these numbers: {', '.join(found['warnings'])}" if found["warnings"] else ""
     notes = filter(
         None,
@@ -88,7 +94,7 @@ def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
         number("reaction over submerged weight", "ratio"),
     )
     table = DisplayTable("Contact in five numbers", columns, [found], "; ".join(notes))
-    return _on_page(table, numeric=range(5))
+    return on_page(table)
 
 
 def four_digits(value: float | None) -> str:
@@ -108,33 +114,36 @@ def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: s
         text("values", "values"),
         text("line", lambda one: str(one["line"]) if one["file"] == deck else f"{one['line']} of {one['file']}"),
     )
-    yield _on_page(
+    yield on_page(
         DisplayTable("Water, conditions, loads, vessels and times", columns, found["inputs"]),
         MOST_CURVES,
         longest=LONGEST,
     )
     for table in () if sheet is None else sheet_tables(sheet, units):
-        yield _on_page(table, 2 * SHOWN_ROWS)
+        yield on_page(table, 2 * SHOWN_ROWS)
 
 
 def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    yield _on_page(static_table(found["static_embedment"], names, found["weights_without"], first=False))
+    rows = sorted(
+        found["static_embedment"], key=lambda row: int(row["element"])
+    )  # empty and with contents side by side
+    yield on_page(static_table(rows, names, found["weights_without"], first=False))
 
 
 def _model_details(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
     counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
-    yield _on_page(DisplayTable("Size", _FIGURES, counts), numeric={1})
-    yield _on_page(set_table(found["sets"], names), MOST_CURVES, numeric={1})
-    yield _on_page(diameter_table(found["diameters"], names))
+    yield on_page(DisplayTable("Size", _FIGURES, counts))
+    yield on_page(set_table(found["sets"], names), MOST_CURVES)
+    yield on_page(diameter_table(found["diameters"], names))
     keywords = [(section["name"], one) for section in found["keywords"] for one in section["keywords"]]
     columns = (
         text("section", lambda row: f"${row[0]}"),
         text("keyword", lambda row: f"*{row[1]['keyword']}"),
         text("lines", lambda row: _extent(row[1])),
     )
-    yield _on_page(DisplayTable("Keywords", columns, keywords), 4 * SHOWN_ROWS)
+    yield on_page(DisplayTable("Keywords", columns, keywords), 4 * SHOWN_ROWS)
 
 
 _FIGURES = (text("what", 0), number("value", 1))
@@ -154,7 +163,7 @@ def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     )
     note = OPEN if any(one["open"] for one in found["laws"]) else ""
     laws = DisplayTable("Laws and resistance by set", columns, found["laws"], note)
-    yield _on_page(laws, MOST_CURVES, "law", LONGEST, numeric={2})
+    yield on_page(laws, MOST_CURVES, "law", LONGEST)
 
 
 def _curve_points(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
@@ -168,10 +177,10 @@ def _curve_points(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         own = ["", names.line_force] if of_seabed else [one.replace("-", "") for one in row.get("units", ["", ""])]
         slope = [number("slope to the next", 2, own[1])] if of_seabed else []
         of_points = (number(over, 0, own[0]), number(value, 1, own[1]), *slope)
-        yield _on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
+        yield on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
             anchor=f"curve-{place}"
         )
-    yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
+    yield Table("", (), (), more=_more(len(found["curves"]) - MOST_CURVES, "curve"))
 
 
 def _values(values: dict[str, Any]) -> str:
@@ -188,10 +197,11 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 
 
 def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    masses = "" if any(one.startswith("*MASS") for one in found["weights_without"]) else " and masses"
     figures = [
         (labelled("total reaction", names.force), _known(found["reaction"])),
         (
-            labelled("submerged weight of the elements in contact, with contents and masses", names.force),
+            labelled(f"submerged weight of the elements in contact, with contents{masses}", names.force),
             found["weight"],
         ),
         (labelled("the same, empty", names.force), found["empty_weight"]),
@@ -201,14 +211,14 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
     notes = [weight_note(found["weights_without"]), *found["notes"]]
-    yield _on_page(
+    yield on_page(
         DisplayTable(f"Equilibrium of {_SHAPES[found['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes)))
     )
-    yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
+    yield on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
         text("elements", lambda one: f"{one['first_element']} to {one['last_element']}"),
-        number("touchdown at arc length", _touchdown, names.length),
+        number("touchdown at arc length", _touchdown_of_line, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest force", lambda one: (one["largest_force"] or {}).get("force"), names.line_force),
         number("reaction", lambda one: _known(one["reaction"]), names.force),
@@ -216,46 +226,41 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
     ]
-    yield _on_page(DisplayTable("Touchdown", columns, found["lines"], weight_note(found["weights_without"])))
+    touchdown = DisplayTable("Touchdown", columns, found["lines"], weight_note(found["weights_without"]))
+    yield on_page(touchdown)
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = found["warnings"][:SHOWN_ROWS]
-    yield _on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
+    yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
 def _states(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
-    yield _on_page(DisplayTable("States", columns, found["states"]))
+    yield on_page(DisplayTable("States", columns, found["states"]))
 
 
 def _known(reaction: float | None) -> float | str:
     return NOT_KNOWN if reaction is None else reaction
 
 
-def _touchdown(line: dict[str, Any]) -> str:
+def _touchdown_of_line(line: dict[str, Any]) -> str:
     places = [point["arc_length"] for point in line["touchdown"]]
-    return touchdown_words(places, line["contact_length"], line["length"], _MOST_TOUCHDOWNS)
+    return _touchdown(places, line["contact_length"], line["length"])
+
+
+def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str:
+    return touchdown_words([float(four_digits(each)) for each in places], in_contact, length, _MOST_TOUCHDOWNS)
 
 
 def study_tables(found: Study) -> list[Table]:
-    """The tables of the screen of a study."""
-    screens = [screen for part in found.parts if (screen := STUDY_TABLES[part](found))]
-    return [
-        Table(
-            screen.title,
-            [head.replace("\n", " ") for head in screen.heads],
-            screen.rows,
-            screen.note,
-            numeric=[at for at, head in enumerate(screen.heads) if head not in screen.left],
-        )
-        for screen in screens
-    ]
+    """Return the tables of the screen of a study."""
+    return [on_page(table, longest=LONGEST) for part in found.parts if (table := STUDY_TABLES[part](found))]
 
 
 def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     stages = found["stages"]
     columns = (text("stage", "stage"), text("in or out", lambda one: "in" if one["active"] else "left out"))
     table = DisplayTable(f"Stages of the evaluation, {found['steps']}", [*columns, text("why", "why")], stages)
-    yield _on_page(table, len(stages), longest=LONGEST)
+    yield on_page(table, len(stages), longest=LONGEST)
 
 
 TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {

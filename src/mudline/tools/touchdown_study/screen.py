@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
-
 import numpy as np
 
-from mudline.basics.quantities import headed, shown, unit_names
+from mudline.basics.display import DisplayTable, number, text
+from mudline.basics.quantities import shown, unit_names
 from mudline.basics.short_repr import cut
+from mudline.model.results.stage_times import StageRow
+from mudline.model.results.summary_tables import weight_note
 from mudline.model.scene.load_case import in_words
 from mudline.tools.touchdown_study.accuracy import StepRow
 from mudline.tools.touchdown_study.stability import axial_period
@@ -21,16 +21,6 @@ _NAME, _WHY = 44, 90
 _DIGITS = 3
 _MASS = {"metric": "kg/m", "imperial": "slug/ft"}
 _KILO = 1e3
-
-
-class ScreenTable(NamedTuple):
-    """A table: its title, heads, rows, which of its columns are texts, and a note below it."""
-
-    title: str
-    heads: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    left: Sequence[str]
-    note: str = ""
 
 
 def description(found: Study) -> str:
@@ -55,8 +45,17 @@ def description(found: Study) -> str:
     return (
         f"Touchdown zone laid down and lifted: {length:.3g}{units.behind('length')} on {law} at {force}, "
         f"{_motion(zone, units.behind('length'))}, {scheme.name} ({values}, {given}). "
+        f"{_weight(zone, units.behind('line_force'))} "
         f"Mass {_short(sum(masses))}{mass_unit}: {parts}{assumed}.{reference}"
     )
+
+
+def _weight(zone: Zone, unit: str) -> str:
+    """Submerged weight with contents, and empty where that differs."""
+    filled, empty = (f"{shown(each, 4)}{unit}" for each in zone.weights[:2])
+    weights = filled if filled == empty else f"{filled} with contents, {empty} empty"
+    note = weight_note(zone.weights.without)
+    return f"Submerged weight {weights}{f' ({note})' if note else ''}."
 
 
 def _motion(zone: Zone, unit: str) -> str:
@@ -71,14 +70,22 @@ def _short(value: float) -> str:
     return f"{value:.0f}" if value >= 100.0 or value == 0.0 else f"{value:.3g}"
 
 
-def steps_table(found: Study) -> ScreenTable | None:
+def steps_table(found: Study) -> DisplayTable | None:
     """Return a row for each step, and one for the mesh; None without any."""
     if not found.steps:
         return None
     seconds = "ms" if found.milliseconds(1.0).endswith("ms") else ""
     length = unit_names(found.units).length
-    heads = [headed("step", seconds), headed("touch-\ndown rms", length), "of\ntravel", "range of\nmoment"]
-    heads += ["largest\nsoil force", "iterations\nmean", "\nmost", headed("run time", f"{seconds} per s".strip())]
+    columns = (
+        text("step", 0, seconds),
+        number("touch-\ndown rms", 1, length),
+        number("of\ntravel", 2),
+        number("range of\nmoment", 3),
+        number("largest\nsoil force", 4),
+        number("iterations\nmean", 5),
+        number("\nmost", 6),
+        number("run time", 7, f"{seconds} per s".strip()),
+    )
     rows = [_step_cells(found, row) for row in found.steps]
     if found.mesh is not None:
         unit = unit_names(found.units).behind("length")
@@ -88,7 +95,7 @@ def steps_table(found: Study) -> ScreenTable | None:
         shares = found.mesh.changes or (None, None, None)
         rows.append([row, "", *(_share(each) for each in shares), "", "", ""])
     title = "Errors of the time step, and of the elements"
-    return ScreenTable(title, heads, rows, heads[:1], _mesh_note(found))
+    return DisplayTable(title, columns, rows, _mesh_note(found))
 
 
 def _step_cells(found: Study, row: StepRow) -> list[str]:
@@ -119,20 +126,22 @@ def _mesh_note(found: Study) -> str:
     return f"With the resistance integrated along each element the verdict is: {verdict}."
 
 
-def extremes_table(found: Study) -> ScreenTable | None:
+def extremes_table(found: Study) -> DisplayTable | None:
     """Return a row for each stiff or extreme case; None without any."""
     if not found.extremes:
         return None
-    heads = ["case", "result", "iterations,\nmost", "line\nsearches", "range of\nmoment", "largest\nsoil force"]
-    rows = []
-    for row in found.extremes:
-        result = "converges" if row.converged else row.message or "does not converge"
-        counts = ["" if each is None else str(each) for each in (row.iterations, row.searches)]
-        rows.append([cut(row.case, _NAME), result, *counts, _share(row.range_change), _share(row.force_change)])
+    columns = (
+        text("case", lambda row: cut(row.case, _NAME)),
+        text("result", lambda row: "converges" if row.converged else row.message or "does not converge"),
+        number("iterations,\nmost", "iterations"),
+        number("line\nsearches", "searches"),
+        number("range of\nmoment", lambda row: _share(row.range_change)),
+        number("largest\nsoil force", lambda row: _share(row.force_change)),
+    )
     step = found.milliseconds(found.extremes[0].step)
     if found.own is not None and found.extremes[0].step > found.own.largest:
         step += f", as {found.milliseconds(found.own.largest)} would take long"
-    return ScreenTable(f"Stiff and extreme: {step}, and what half of it changes", heads, rows, heads[:2])
+    return DisplayTable(f"Stiff and extreme: {step}, and what half of it changes", columns, found.extremes)
 
 
 def stability_sentences(found: Study) -> list[str]:
@@ -142,15 +151,17 @@ def stability_sentences(found: Study) -> list[str]:
     stiff = min(found.friction, key=lambda row: row.stick_period, default=None)
     if stiff is not None:
         period = found.milliseconds(float(f"{stiff.stick_period:.4g}"))
-        text = f"Axial friction, not in this model: a node that sticks swings in {period} (line {stiff.deck_line})"
+        friction = f"Axial friction, not in this model: a node that sticks swings in {period} (line {stiff.deck_line})"
         if own is not None:
             tenth = "within" if own <= 0.1 * stiff.stick_period else "more than"
-            text += f"; the deck's step is {tenth} a tenth of that"
+            friction += f"; the deck's step is {tenth} a tenth of that"
         axial = None if found.zone is None else axial_period(found.zone)
         if axial:
-            text += f". Axial waves pass an element in {found.milliseconds(axial)}: no practical step resolves them, "
-            text += "friction is quasi-static"
-        said.append(f"{text}.")
+            friction += (
+                f". Axial waves pass an element in {found.milliseconds(axial)}: no practical step resolves them, "
+            )
+            friction += "friction is quasi-static"
+        said.append(f"{friction}.")
     if found.evaluator is not None:
         said.append(
             f"The evaluator itself: error {found.evaluator.error:.1g} of a force, "
@@ -159,24 +170,28 @@ def stability_sentences(found: Study) -> list[str]:
     return said
 
 
-def stages_table(found: Study) -> ScreenTable | None:
+def stages_table(found: Study) -> DisplayTable | None:
     """Return a row for each stage of the evaluation; None where they were not measured."""
     pruning = found.stages
     if pruning is None:
         return None
-    cells = []
-    for row in pruning.rows:
-        share = "" if row.share is None else f"{100.0 * row.share:.0f} %"
-        optional = row.stage not in {"floor", "normal law"} and row.time is not None
-        without = _time(pruning.step - row.time) if optional and row.time is not None else ""
+
+    def without(row: StageRow) -> str:
         if row.cost_if_added is not None:
-            without = f"+ {_time(row.cost_if_added)} a node"
-        why = cut(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)
-        line = "" if row.deck_line is None else str(row.deck_line)
-        cells.append((row.stage, "yes" if row.active else "no", line, share, without, why))
-    heads = ("stage", "in", "deck line", "share", "without it", "why")
+            return f"+ {_time(row.cost_if_added)} a node"
+        optional = row.stage not in {"floor", "normal law"} and row.time is not None
+        return _time(pruning.step - row.time) if optional and row.time is not None else ""
+
+    columns = (
+        text("stage", "stage"),
+        text("in", lambda row: "yes" if row.active else "no"),
+        number("deck line", "deck_line"),
+        number("share", lambda row: "" if row.share is None else f"{100.0 * row.share:.0f} %"),
+        number("without it", without),
+        text("why", lambda row: cut(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)),
+    )
     title = f"What the deck needs: a step of {pruning.elements} elements takes {_time(pruning.step)}"
-    return ScreenTable(title, heads, cells, ("stage", "in", "why"))
+    return DisplayTable(title, columns, pruning.rows)
 
 
 def _time(seconds: float) -> str:

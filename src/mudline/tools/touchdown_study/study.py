@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.quantities import finite, shown, time_unit, unit_names
+from mudline.basics.quantities import as_json, finite, shown, time_unit, unit_names
 from mudline.model.contact import ContactInput
 from mudline.model.results.evaluation import require_elements
 from mudline.model.results.stage_times import CLOCK, Pruning, Timer, pruned
@@ -95,13 +95,14 @@ class Study:
             "units": self.units,
             "advice": self.advice._asdict(),
             "model": None if self.zone is None else _model(self.zone),
+            "submerged_weight": None if self.zone is None else as_json(self.zone.weights),
             "static": self.static,
             "steps": [row.json() for row in rows],
             "mesh": None if self.mesh is None else self.mesh.json(),
-            "extremes": [_plain(row._asdict()) for row in self.extremes],
-            "friction": [_plain(row._asdict()) for row in self.friction],
-            "evaluator": None if self.evaluator is None else _plain(self.evaluator._asdict()),
-            "stages": None if self.stages is None else [_plain(row._asdict()) for row in self.stages.rows],
+            "extremes": as_json(self.extremes),
+            "friction": as_json(self.friction),
+            "evaluator": as_json(self.evaluator),
+            "stages": None if self.stages is None else as_json(self.stages.rows),
         }
 
     def milliseconds(self, seconds: float) -> str:
@@ -150,15 +151,6 @@ class Study:
         return bool(np.isfinite(self.errors).any())
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401 - values of several kinds
-    """A value as JSON can hold it."""
-    if isinstance(value, dict):
-        return {name: _plain(each) for name, each in value.items()}
-    if isinstance(value, tuple):
-        return [_plain(each) for each in value]
-    return finite(value) if isinstance(value, float) else value
-
-
 def _model(zone: Zone) -> dict[str, Any]:
     """The model as JSON has it."""
     ids, own, scheme = zone.scene.element_ids, zone.own, zone.scheme
@@ -183,9 +175,7 @@ def _model(zone: Zone) -> dict[str, Any]:
         "drag": float(zone.pipe.drag_coefficient[own]),
     }
     names = ("name", "rho", "alpha", "alpha_f", "alpha_m")
-    return {name: _plain(value) for name, value in found.items()} | {
-        "scheme": {name: getattr(scheme, name) for name in names}
-    }
+    return {**as_json(found), "scheme": {name: getattr(scheme, name) for name in names}}
 
 
 def study(

@@ -20,6 +20,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.time_stepping import Scheme, scheme_of
+from mudline.model.scene.weights import left_out
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, Run, Solved, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
@@ -49,6 +50,14 @@ class Measures(NamedTuple):
     largest_force: float
     largest_moment: float
     moment_range: float
+
+
+class Weights(NamedTuple):
+    """Submerged weight per unit length with contents and empty; `without`: keywords that weigh and are in neither."""
+
+    with_contents: float
+    empty: float
+    without: list[str]
 
 
 class Variant(NamedTuple):
@@ -91,6 +100,12 @@ class Zone:
     def own(self) -> int:
         """Index of the element whose section the zone has."""
         return int(self.elements[self.node - 1])
+
+    @property
+    def weights(self) -> Weights:
+        """The submerged weights of that element."""
+        empty = float(self.scene.submerged_weight[self.own]) * self.line.seabed.upright
+        return Weights(self.beam.weight, empty, left_out(self.scene, with_masses=False))
 
     @property
     def length(self) -> float:
