@@ -156,11 +156,16 @@ def _as_error(problem: Problem, blocks: Blocks) -> Problem:
 
 
 def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
-    """Make errors of the misspelt names in a deck of which nothing can be judged, as no keyword in it is read."""
+    """Make errors of misspelt names for which a deck is refused: what it lacks may stand there, or nothing is read."""
     misspelt = [one for one in found if one.repair and one.code in _MISSPELT]
-    coverage = coverage_of(context.deck) if misspelt else None
-    if coverage is None or coverage.read or coverage.partly:
+    if not misspelt:
         return found
+    coverage, scene = coverage_of(context.deck), context.scene
+    if coverage.read or coverage.partly:
+        hiding = {one.maybe_defined_by for one in scene.blocking("cut")} - {""}
+        places = [scene.context.misplaced_place(keyword)[1] for keyword in hiding]
+        lines = {context.deck.place(Problem(SYN009, "", where=place)).line for place in places}
+        misspelt = [one for one in misspelt if context.deck.place(one).line in lines]
     return [_as_error(one, Blocks.ALWAYS) if one in misspelt else one for one in found]
 
 
@@ -202,6 +207,16 @@ def naming_causes(deck: Deck) -> Iterator[None]:
         from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
 
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+
+
+def errors_beside(deck: Deck) -> list[Diagnostic]:
+    """Return the errors of a deck that can be evaluated: of what contact does not depend on, or where one value holds."""
+    from mudline.checks.registry import rules  # noqa: PLC0415 - as above
+
+    found = joined_problems(LintContext(deck), rules(), suppress=False)
+    return deck.diagnose(
+        [one for one in found if one.weight is Severity.ERROR and one.blocking is not Blocks.WITH_TENSION]
+    )
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
