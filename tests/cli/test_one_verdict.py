@@ -35,7 +35,18 @@ OUTPUT = "*DATABASE\n TIME=ALL\n"
         (f"{CLEAN}$LOAD CASE\n{2 * OUTPUT}", 1),  # of what contact does not depend on
         (LONE_NAMES, 1),
     ],
-    ids=["clean", "warning", "error", "no-curve", "no-diameter", "no-nodes", "no-curve-nor-rows", "label", "of-output", "nothing-read"],
+    ids=[
+        "clean",
+        "warning",
+        "error",
+        "no-curve",
+        "no-diameter",
+        "no-nodes",
+        "no-curve-nor-rows",
+        "label",
+        "of-output",
+        "nothing-read",
+    ],
 )
 def test_all_commands_agree_on_whether_a_deck_has_errors(
     deck: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

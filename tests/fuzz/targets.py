@@ -28,6 +28,7 @@ from mudline.language.syntax.source import Source
 from mudline.model.scene.data_files import fault_of, has_uneven_times
 from mudline.model.scene.seabed import read_profile
 from tests.cli.runner import Outcome, run
+from tests.fuzz import agreement
 from tests.helpers.samples import SAMPLES
 
 ROOT = Path(__file__).parents[2]
@@ -268,6 +269,12 @@ TARGETS = {
     "read": Target(_read, decks),
     "lint": Target(_lint, decks),
     "fix": Target(_fix, decks),
+    "fixes": Target(agreement.fixes, decks),
+    "verdicts": Target(agreement.verdicts, decks),
+    "line-ends": Target(agreement.line_ends, decks),
+    "forms": Target(agreement.forms, decks),
+    "messages": Target(agreement.messages, decks),
+    "expansion": Target(agreement.expansion, decks),
     "format": Target(_format, decks),
     "convert": Target(_convert, decks),
     "comments": Target(_comments, decks),

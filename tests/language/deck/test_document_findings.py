@@ -120,10 +120,11 @@ def test_raw_lines_of_a_keyword_with_a_model_are_read() -> None:
 
 def test_faults_and_doubts_of_raw_lines_are_told_at_their_line() -> None:
     lines = ["C a", " 1x", " 2"]
-    found = refused(made(section({"keyword": "OCEAN", "lines": lines})))
-    assert [(one.code, one.message.partition(":")[0]) for one in found] == [
-        ("DOC002", "sections[0].blocks[0].lines[1]"),
-        ("DOC002", "sections[0].blocks[0].lines[2]"),
+    document = made(section({"keyword": "OCEAN", "lines": lines}))
+    text = json.dumps(document, indent=1).splitlines()
+    assert [(one.code, text[one.line - 1].strip(" ,")) for one in told(document)] == [
+        ("SYN002", '" 1x"'),
+        ("SYN001", '" 2"'),
     ]
     (doubt,) = told(made(section({"keyword": "NODE", "lines": [" 1, 0, 0", "Cold", " 2, 0, 1"]})))
     assert doubt.code == "SYN013"

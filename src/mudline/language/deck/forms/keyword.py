@@ -9,6 +9,7 @@ import numpy as np
 
 from mudline.language.codes import DOC002
 from mudline.language.deck.faults import document_path
+from mudline.language.deck.faulty_blocks import raw_places, with_raw_lines
 from mudline.language.deck.meaning import first_difference, meaning, numbered
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
@@ -37,6 +38,7 @@ def _require_survival(deck: Deck) -> None:
     light = sampled(deck)
     text = canonical_text(light)
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
+    again, _ = with_raw_lines(again, raw_places(deck))
     if change := _first_difference(light, again):
         where, reason = change
         message = f"{path_text(document_path(where))} cannot be written as keyword text: {reason}"
