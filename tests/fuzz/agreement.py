@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from difflib import SequenceMatcher
 from itertools import zip_longest
 
@@ -115,12 +115,14 @@ def _lines(data: bytes) -> list[str]:
     return Source.from_bytes(data, NAME).unified.split("\n")
 
 
-def _origins(old: list[str], new: list[str]) -> list[range]:
-    """For each line of a new text the lines of the old one that it may come from, from 1."""
-    found: list[range] = []
+def _origins(old: list[str], new: list[str]) -> list[Sequence[int]]:
+    """For each line of a new text the lines of the old one that it may come from, from 1; of equal ones any."""
+    equal: dict[str, list[int]] = {}
+    for number, line in enumerate(old, 1):
+        equal.setdefault(line, []).append(number)
+    found: list[Sequence[int]] = []
     for _, first, last, start, end in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
-        same = old[first:last] == new[start:end]
-        found += [range(first + n + 1, first + n + 2) if same else range(first, last + 2) for n in range(end - start)]
+        found += [equal.get(line) or range(first, last + 2) for line in new[start:end]]
     return found
 
 
