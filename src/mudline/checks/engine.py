@@ -158,17 +158,19 @@ def _as_error(problem: Problem, blocks: Blocks) -> Problem:
 
 
 def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
-    """Make errors of misspelt names for which a deck is refused: what it lacks may stand there, or nothing is read."""
-    misspelt = [one for one in found if one.repair and one.code in _MISSPELT]
-    if not misspelt:
+    """Make errors of unknown names for which a deck is refused: what it lacks may stand there, or nothing is read."""
+    unknown = [one for one in found if one.code in _MISSPELT]
+    if not unknown:
         return found
     coverage, scene = coverage_of(context.deck), context.scene
     if coverage.read or coverage.partly:
         hiding = {one.maybe_defined_by for one in scene.blocking("cut")} - {""}
         places = [scene.context.misplaced_place(keyword)[1] for keyword in hiding]
         lines = {context.deck.place(Problem(SYN009, "", where=place)).line for place in places}
-        misspelt = [one for one in misspelt if context.deck.place(one).line in lines]
-    return [_as_error(one, Blocks.ALWAYS) if one in misspelt else one for one in found]
+        unknown = [one for one in unknown if context.deck.place(one).line in lines]
+    else:
+        unknown = [one for one in unknown if one.repair]
+    return [_as_error(one, Blocks.ALWAYS) if one in unknown else one for one in found]
 
 
 def may_recover(deck: Deck) -> bool:
@@ -199,6 +201,17 @@ def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rul
         if one.blocking is Blocks.ALWAYS or (one.blocking is Blocks.WITH_TENSION and one.code.code in codes)
     ]
     return context.deck.diagnose(reported) or list(refused)
+
+
+def unreadable_causes(deck: Deck) -> list[Diagnostic]:
+    """Return why a deck cannot be read, in the words of lint: with the cause in the place of what follows from it."""
+    from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
+
+    context = LintContext(deck)
+    found = joined_problems(context, rules(), suppress=False)
+    return context.deck.diagnose(
+        [one for one in found if one.weight is Severity.ERROR and one.code.code.startswith("SYN")]
+    )
 
 
 @contextmanager

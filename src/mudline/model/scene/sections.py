@@ -190,8 +190,9 @@ def stiffnesses(deck: Deck, section: Section) -> Stiffnesses:
             _modulus(deck, section, number(row, "gj"), "gj_curve"),
         )
     outer, inner = number(row, "do"), number(row, "di", 0.0)
-    area = number(row, "area", math.pi / 4 * (outer**2 - inner**2))
-    second = number(row, "second_moment", math.pi / 64 * (outer**4 - inner**4))
+    outer, inner = outer * outer, inner * inner  # a power would raise where this is infinite
+    area = number(row, "area", math.pi / 4 * (outer - inner))
+    second = number(row, "second_moment", math.pi / 64 * (outer * outer - inner * inner))
     young = _modulus(deck, section, number(row, "e"), "e_curve")
     return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
 
