@@ -10,7 +10,7 @@ from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
 from mudline.language.deck.faulty_blocks import with_raw_lines
 from mudline.language.deck.loading import dump, load_bytes
-from mudline.language.deck.model import Deck
+from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import DeckError, Diagnostic, Severity
 from tests.helpers.builders.decks import CLEAN
 
@@ -98,3 +98,27 @@ def test_lines_beside_what_keyword_text_cannot_say_are_refused() -> None:
     document = carried(MISPLACED, "json").replace('"set": "Pipe"', '"set": "Pipe, line"')
     with pytest.raises(DeckError, match=r"sections\[0\].blocks\[1\].lines\[2\]: '1O.0' is not a number"):
         load_bytes(document.encode(), "deck.json")
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_what_reading_would_refuse_is_refused_when_it_is_written(form: str) -> None:
+    deck = load_bytes(CLEAN.replace(" 100.0, 1025.0, 9.81", " -100.0, 1025.0, 9.81").encode(), "deck.keyxm")
+    with pytest.raises(
+        DeckError, match=r"deck.keyxm:2:1: DOC002 sections\[0\].blocks\[0\].depth: -100.0 is out of range"
+    ):
+        dump(deck, form)
+    deck = load_bytes(CLEAN.encode(), "deck.keyxm")
+    deck.sections[0].blocks.append(Opaque(keyword="TITLE", lines=["x", "*y"]))
+    with pytest.raises(DeckError, match=r"blocks\[7\].lines\[1\]: a line that begins with \*"):
+        dump(deck, form)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_comments_stay_where_they_stood(form: str) -> None:
+    lines = [line for number, line in enumerate(CLEAN.splitlines()) for line in (f"C {number}", line)]
+    text = "\n".join([*lines, "C at the end", ""])
+    deck = load_bytes(text.encode(), "deck.keyxm")
+    again = dump(load_bytes(dump(deck, form).encode(), f"deck.{form}"), "keyword")
+    numbers = [n for n, line in enumerate(text.splitlines()) if line.startswith("C ")]
+    assert [again.splitlines()[n] for n in numbers] == [text.splitlines()[n] for n in numbers]
+    assert len(again.splitlines()) == len(text.splitlines())

@@ -15,6 +15,7 @@ from mudline.language.deck import MARK
 from mudline.language.deck.document_text import read_as_text
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
 from mudline.language.deck.faulty_blocks import is_faulty
+from mudline.language.deck.forms.keyword import sampled
 from mudline.language.deck.likeness import RawLines
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import Findings
@@ -24,8 +25,9 @@ from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.ranges import is_refused
 from mudline.language.keywords.reader import read_block
-from mudline.language.keywords.table import AS_TABLES
+from mudline.language.keywords.table import AS_TABLES, Listing
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
 from mudline.language.keywords.writer import block_lines
@@ -40,8 +42,37 @@ Document = dict[str, Any]
 def to_document(deck: Deck) -> Document:
     """The deck as dicts and lists, its tables as listings; empty things are left out.
 
-    A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes.
+    A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes. Raises DeckError for what reading
+    would refuse: a value out of range, a raw line that opens a block.
     """
+    _require_readable(deck)
+    return _document(deck)
+
+
+def _require_readable(deck: Deck) -> None:
+    """Read the document of a deck, with few rows in the tables of blocks that have no value out of range."""
+
+    def locate(path: DocumentPath) -> Range:
+        numbers = [part for part in path[:4] if isinstance(part, int)]
+        return deck.place(Problem(DOC002, "", where=Where(*numbers[:2])))
+
+    light = sampled(deck)
+    for one, whole in zip(light.sections, deck.sections, strict=True):
+        pairs = zip(one.blocks, whole.blocks, strict=True)
+        one.blocks = [block if is_refused(block) else each for each, block in pairs]
+    _Reader(_plain(_document(light)), deck.file, locate).read()
+
+
+def _plain(value: Any) -> Any:
+    """A document with its tables as lists."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, Listing):
+        return value.rows()
+    return [_plain(item) for item in value] if isinstance(value, list) else value
+
+
+def _document(deck: Deck) -> Document:
     source = deck.source.encode("utf-8", "backslashreplace").decode()
     document: Document = {"format": FORMAT, "source": source, "units": deck.units}
     if deck.preamble:
