@@ -11,6 +11,7 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
+from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
@@ -211,6 +212,8 @@ def _modulus(deck: Deck, section: Section, given: float, *curves: str) -> float:
         for entry in block.curves:
             if names and folded(str(entry.curve)) == folded(str(names[0])):
                 points = cast("Table", entry.points)
+                if len(points) < FEWEST_POINTS:
+                    return math.nan
                 order = np.argsort(points.column(1), kind="stable")
                 loads, strains = points.column(0)[order], points.column(1)[order]
                 at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
