@@ -19,7 +19,7 @@ from mudline.checks.registry import UnknownRule, rules
 from mudline.checks.settings import merged_settings
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.deck.forms.json import to_json
-from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.diagnostics import DeckError, Severity

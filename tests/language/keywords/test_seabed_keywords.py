@@ -11,7 +11,7 @@ import pytest
 
 from mudline.editing.formatting.document import formatted
 from mudline.language.deck.document import FORMAT
-from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import DeckError
 from mudline.language.keywords.library.seabed_lateral import Centreline, SeabedTrench, TrenchSet

@@ -15,7 +15,7 @@ from mudline.language.deck import MARK
 from mudline.language.deck.document_text import read_as_text
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
 from mudline.language.deck.faulty_blocks import is_faulty
-from mudline.language.deck.forms.keyword import sampled
+from mudline.language.deck.keyword_text import sampled
 from mudline.language.deck.likeness import RawLines
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import Findings

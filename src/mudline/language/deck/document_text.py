@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import cast
 
 from mudline.language.deck.faulty_blocks import raw_places
-from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.model import START, Deck, Origin, Range
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Where
