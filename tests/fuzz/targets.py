@@ -29,15 +29,11 @@ from mudline.model.scene.data_files import fault_of, has_uneven_times
 from mudline.model.scene.seabed import read_profile
 from tests.cli.runner import Outcome, run
 from tests.fuzz import agreement
+from tests.fuzz.agreement import NAME, BrokenPromiseError
 from tests.helpers.samples import SAMPLES
 
 ROOT = Path(__file__).parents[2]
-NAME = "deck.keyxm"
 _CODES = {0, 1, 2}
-
-
-class BrokenPromiseError(AssertionError):
-    """A promise that does not hold; the message says which."""
 
 
 class Target(NamedTuple):

@@ -25,6 +25,13 @@ def test_inputs_are_many_and_repeatable() -> None:
     assert len({*made} - {*seeds}) > 200
 
 
+@pytest.mark.parametrize("name", ["verdicts", "fixes", "line-ends", "forms", "messages", "expansion"])
+def test_answers_agree(name: str) -> None:
+    mutator = Mutator([seed for seed in TARGETS[name].seeds() if len(seed) < 2000], 3)
+    for _ in range(20):
+        TARGETS[name].check(mutator.made())
+
+
 @pytest.mark.parametrize("name", ["read", "lint", "format", "convert", "document", "configuration", "data", "csv"])
 def test_a_target_takes_inputs(name: str) -> None:
     mutator = Mutator(TARGETS[name].seeds(), 2)
