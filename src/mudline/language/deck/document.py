@@ -53,8 +53,8 @@ def _require_readable(deck: Deck) -> None:
     """Read the document of a deck, with few rows in the tables of blocks that have no value out of range."""
 
     def locate(path: DocumentPath) -> Range:
-        numbers = [part for part in path[:4] if isinstance(part, int)]
-        return deck.place(Problem(DOC002, "", where=Where(*numbers[:2])))
+        section, block, *_ = (*(part for part in path[:4] if isinstance(part, int)), -1, -1)
+        return deck.place(Problem(DOC002, "", where=Where(section, block)))
 
     light = sampled(deck)
     for one, whole in zip(light.sections, deck.sections, strict=True):

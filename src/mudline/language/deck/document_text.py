@@ -31,7 +31,9 @@ class LinesOrigin(TextOrigin):
         if span is None and where is not None and where._replace(path=()) in self.raw:
             span = self.span(where)
         if span is not None:
-            where = self._line(span.start)
+            line = self._line(span.start)
+            own = where is not None and where.path and where[:2] == line[:2] and not line.path
+            where = where if own else line
         return START if where is None else self.document.place(replace(problem, span=None, where=where))
 
     def _line(self, offset: int) -> Where:
@@ -39,10 +41,10 @@ class LinesOrigin(TextOrigin):
         line = self.source.position(offset)[0]
         found, first = Where(path=("preamble", line - 1)), 0
         for i, section in enumerate(self.tree.sections):
-            for j, block in enumerate([section, *section.blocks], -1):
-                head = self.source.position(block.head.span.start)[0] if block.head else 0
-                if first < head <= line:
-                    found, first = Where(i, j), head
+            for j, head in enumerate([section.head, *(block.head for block in section.blocks)], -1):
+                at = self.source.position(head.span.start)[0] if head else 0
+                if first < at <= line:
+                    found, first = Where(i, j), at
         if found in self.raw and line > first:
             return found.inside("lines", line - first - 1)
         return found
