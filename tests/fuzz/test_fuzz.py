@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.fuzz.agreement import BrokenPromiseError
 from tests.fuzz.mutation import Mutator
-from tests.fuzz.targets import TARGETS, BrokenPromiseError
+from tests.fuzz.targets import TARGETS
 
 FOUND = sorted((Path(__file__).parent / "found").glob("*"))
 

@@ -190,10 +190,10 @@ def stiffnesses(deck: Deck, section: Section) -> Stiffnesses:
             _modulus(deck, section, number(row, "eiyy"), "eiyy_curve", "ei_curve"),
             _modulus(deck, section, number(row, "gj"), "gj_curve"),
         )
-    outer, inner = number(row, "do"), number(row, "di", 0.0)
-    outer, inner = outer * outer, inner * inner  # a power would raise where this is infinite
-    area = number(row, "area", math.pi / 4 * (outer - inner))
-    second = number(row, "second_moment", math.pi / 64 * (outer * outer - inner * inner))
+    outer, inner = np.float64(number(row, "do")), np.float64(number(row, "di", 0.0))
+    with np.errstate(over="ignore", invalid="ignore"):  # a float would raise where a power is infinite
+        area = number(row, "area", float(math.pi / 4 * (outer**2 - inner**2)))
+        second = number(row, "second_moment", float(math.pi / 64 * (outer**4 - inner**4)))
     young = _modulus(deck, section, number(row, "e"), "e_curve")
     return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
 
