@@ -13,6 +13,7 @@ from mudline.checks.engine import LintSettings, lint_bytes
 from mudline.checks.fixing import FixState, Reader
 from mudline.checks.registry import rules
 from mudline.language.codes import all_codes
+from mudline.language.deck.faulty_blocks import with_raw_lines
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.forms.yaml import to_yaml
 from mudline.language.deck.loading import load_bytes
@@ -102,12 +103,13 @@ MEANING = [
 
 @pytest.mark.parametrize("given", MEANING, ids=lambda given: given.code.code)
 def test_a_fault_of_meaning_is_found_in_json_and_yaml_too(given: Rule) -> None:
-    deck = load_bytes(given.page.bad_bytes, given.page.file)
-    for text, name in ((to_json(deck), "deck.json"), (to_yaml(deck), "deck.yaml")):
+    for write, name in ((to_json, "deck.json"), (to_yaml, "deck.yaml")):
+        deck = load_bytes(given.page.bad_bytes, given.page.file)
         if given.code.code in OF_MODELS:
             with pytest.raises(DeckError, match="DOC002"):
-                load_bytes(text.encode(), name)
-            continue
+                write(deck)
+            deck, _ = with_raw_lines(deck)
+        text = write(deck)
         found = lint_bytes(text.encode(), name, [given], folder=NOWHERE, dialect=given.page.dialect)
         assert [one.code for one in found] == [given.code.code]
         assert found[0].line > 1 or given.code.code == "SYN019"  # of the whole file

@@ -324,3 +324,17 @@ def test_fixing_never_fails_and_twice_is_once(lines: list[str], fixing: Fixing) 
     once = fix_bytes(data, "deck.keyxm", settings)
     if once.changed is not None:
         assert fix_bytes(once.changed, "deck.keyxm", settings).changed is None
+
+
+@pytest.mark.parametrize(
+    ("written", "slip"),
+    [
+        (" 1, 1, 2\n", " 1, n 1, 2\n"),  # {n 1} is a label that nothing defines
+        (" 0.5, ", " 0.-5, "),  # 0.E-5 is the ratio of the point above
+    ],
+)
+def test_an_unsafe_fix_puts_no_error_in_the_place_of_another(written: str, slip: str) -> None:
+    assert written in DECK
+    result = fix(DECK.replace(written, slip, 1), *rules(), fixing=Fixing.UNSAFE)
+    assert (result.changed, result.fixed) == (None, ())
+    assert "not " in result.note

@@ -12,7 +12,8 @@ from mudline.checks.joining import joined_findings
 from mudline.language.codes.fields import SYN002, SYN003
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.loading import load_bytes
-from mudline.language.diagnostics import Blocks, Code, Problem, Repair, Severity, Span
+from mudline.language.deck.model import Deck
+from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Repair, Severity, Span
 
 ROWS = [f" {number}, {number}.5, 7\n" for number in range(1, 10)]
 TEXT = "$MODEL\n*NODE\n" + "".join(ROWS)
@@ -83,6 +84,16 @@ def test_uses_of_a_name_that_nothing_defines_are_one_in_any_case_of_letters() ->
     assert joined(*uses[:2]) == [(2, "no Clay; the same in line 6", 1)]
     assert joined(*uses) == [(2, "no Clay; the same in 2 more lines, the last of them line 9", 2)]
     assert len(joined(uses[0], at(5, "no Sand", NAMED, lacks="Sand"))) == 2
+
+
+def test_that_there_are_more_is_said_of_no_row() -> None:
+    more = Problem(SYN002, MORE, Span(TEXT.index(ROWS[3]), TEXT.index(ROWS[3]) + 1))
+    assert [row for row, _, _ in joined(at(1), at(2), at(3), more)] == [1, 4]
+
+
+def test_a_deck_that_has_no_text_keeps_its_findings() -> None:
+    problems = [Problem(SYN002, "bad"), Problem(SYN002, "bad"), Problem(SYN002, "bad")]
+    assert joined_findings(LintContext(Deck("made by a program")), problems) == problems
 
 
 # ------------------------------------------------------------------------------------------------------ one of several

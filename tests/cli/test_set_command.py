@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -139,4 +141,15 @@ def test_a_file_that_may_not_be_written_keeps_all_from_being_written() -> None:
     Path("in/b.keyxm").chmod(0o444)
     ran = run("set", "OCEAN.depth=1", "in")
     assert ran.code == 2
+    assert text("in/a.keyxm") == CLEAN
+
+
+@pytest.mark.usefixtures("decks")
+def test_what_cannot_be_written_is_not_counted_as_changed(monkeypatch: pytest.MonkeyPatch) -> None:
+    full = OSError(errno.ENOSPC, "No space left on device")
+    monkeypatch.setattr("mudline.cli.inputs.write_atomically", Mock(side_effect=full))
+    ran = run("set", "OCEAN.depth=200.0", "in")
+    assert ran.code == 2
+    assert "mudline: in/a.keyxm: cannot be written: no space left on device\n" in ran.err
+    assert ran.err.endswith("3 decks: 2 not written, 1 without it\n")
     assert text("in/a.keyxm") == CLEAN

@@ -85,6 +85,42 @@ def _edge(by: Mutator, lines: list[bytes], at: int) -> None:
         lines[at] = lines[at][:start] + by.random.choice(EDGES) + lines[at][end:]
 
 
+_SLIPS: tuple[tuple[bytes, tuple[bytes, ...]], ...] = (
+    (rb"[0-9]", (b"", b"0", b"7", b"O", b"33")),
+    (rb"(?<![A-Za-z0-9])-?(?=[0-9.])", (b"-", b"")),
+    (rb",", (b"", b" ", b";", b",,", b".")),
+    (rb"\.", (b",", b"", b"..")),
+    (rb"(?m)^[*$]", (b"", b"C ", b"**", b" *", b"$", b"*")),
+    (rb"=", (b"", b" ", b"==", b":")),
+    (rb"\b[A-Z]{2,}", (b"ALL", b"X")),
+)
+"""What a hand slips on: a piece of text, and what stands there then."""
+
+
+def _slip(by: Mutator, data: bytes) -> bytes:
+    pattern, others = by.random.choice(_SLIPS)
+    places = [found.span() for found in re.finditer(pattern, data)]
+    if not places:
+        return data
+    start, end = by.random.choice(places)
+    return data[:start] + by.random.choice(others) + data[end:]
+
+
+@_of_lines
+def _other_case(by: Mutator, lines: list[bytes], at: int) -> None:
+    lines[at] = by.random.choice((bytes.lower, bytes.upper, bytes.swapcase))(lines[at])
+
+
+@_of_lines
+def _misspelt(by: Mutator, lines: list[bytes], at: int) -> None:
+    """Two letters change places, or one is doubled or lost, as in a keyword."""
+    words = [at for at, line in enumerate(lines) if line[:1] in b"*$" and len(line.strip()) > 3] or [at]
+    at = by.random.choice(words)
+    line, place = lines[at], by.random.randrange(1, max(len(lines[at]) - 2, 2))
+    one, two = line[place : place + 1], line[place + 1 : place + 2]
+    lines[at] = line[:place] + by.random.choice((two + one, one + one + two, two)) + line[place + 2 :]
+
+
 def _byte(by: Mutator, data: bytes) -> bytes:
     at = by.random.randrange(len(data) + 1)
     kind = by.random.randrange(3)
@@ -101,6 +137,7 @@ def _other_ends(by: Mutator, data: bytes) -> bytes:
 
 
 _CHANGES = (
+    *(_slip, _slip, _slip, _slip, _other_case, _misspelt),
     *(_edge, _edge, _edge, _doubled, _cut, _moved, _from_another, _byte, _byte),
     *(_swallowed_end, _broken_off, _other_ends),
 )

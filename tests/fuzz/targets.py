@@ -19,7 +19,7 @@ from mudline.checks.registry import UnknownRule, rules
 from mudline.checks.settings import merged_settings
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.deck.forms.json import to_json
-from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.diagnostics import DeckError, Severity
@@ -28,15 +28,12 @@ from mudline.language.syntax.source import Source
 from mudline.model.scene.data_files import fault_of, has_uneven_times
 from mudline.model.scene.seabed import read_profile
 from tests.cli.runner import Outcome, run
+from tests.fuzz import agreement
+from tests.fuzz.agreement import NAME, BrokenPromiseError
 from tests.helpers.samples import SAMPLES
 
 ROOT = Path(__file__).parents[2]
-NAME = "deck.keyxm"
 _CODES = {0, 1, 2}
-
-
-class BrokenPromiseError(AssertionError):
-    """A promise that does not hold; the message says which."""
 
 
 class Target(NamedTuple):
@@ -268,6 +265,12 @@ TARGETS = {
     "read": Target(_read, decks),
     "lint": Target(_lint, decks),
     "fix": Target(_fix, decks),
+    "fixes": Target(agreement.fixes, decks),
+    "verdicts": Target(agreement.verdicts, decks),
+    "line-ends": Target(agreement.line_ends, decks),
+    "forms": Target(agreement.forms, decks),
+    "messages": Target(agreement.messages, decks),
+    "expansion": Target(agreement.expansion, decks),
     "format": Target(_format, decks),
     "convert": Target(_convert, decks),
     "comments": Target(_comments, decks),

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.fuzz.agreement import BrokenPromiseError
 from tests.fuzz.mutation import Mutator
-from tests.fuzz.targets import TARGETS, BrokenPromiseError
+from tests.fuzz.targets import TARGETS
 
 FOUND = sorted((Path(__file__).parent / "found").glob("*"))
 
@@ -23,6 +24,13 @@ def test_inputs_are_many_and_repeatable() -> None:
     made = [first.made() for _ in range(300)]
     assert made == [second.made() for _ in range(300)]
     assert len({*made} - {*seeds}) > 200
+
+
+@pytest.mark.parametrize("name", ["verdicts", "fixes", "line-ends", "forms", "messages", "expansion"])
+def test_answers_agree(name: str) -> None:
+    mutator = Mutator([seed for seed in TARGETS[name].seeds() if len(seed) < 2000], 3)
+    for _ in range(20):
+        TARGETS[name].check(mutator.made())
 
 
 @pytest.mark.parametrize("name", ["read", "lint", "format", "convert", "document", "configuration", "data", "csv"])

@@ -32,12 +32,20 @@ class LintContext:
 
     `dialect` is the deck language that the deck must keep to: "mudline", or "flexcom" without extension keywords.
     `fixing` says that repairs are made: those that another deck beside this one forbids must not be among them.
+    The deck of a document is read as keyword text, so that both have the same findings.
     """
 
     deck: Deck
     dialect: str = "mudline"
     fixing: bool = False
     _made: dict[object, Any] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        """Take the keyword text of a document."""
+        if self.text is None and not self.deck.origin.takes_edits:
+            from mudline.language.deck.document_text import read_as_text  # noqa: PLC0415 - few decks are documents
+
+            self.deck = read_as_text(self.deck)
 
     @property
     def text(self) -> TextOrigin | None:

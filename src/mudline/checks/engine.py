@@ -15,6 +15,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.deck.faults import MisspeltDeckError
+from mudline.language.deck.forms import KEYWORD
 from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import BaseProblem, Deck, Opaque
 from mudline.language.deck.reading import TextOrigin, units_of
@@ -109,10 +110,11 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     if context.text is None or not (may_recover(deck) or context.scene.lacks):
         return None
     hiding = context.once(suppressions) if suppress else None
-    units = None if units_of(deck) == deck.units else deck.units
+    of_text = deck.origin.takes_edits and units_of(deck) == deck.units  # else corrections do not change the units
+    units = None if of_text else deck.units
 
     def again(data: bytes) -> Deck:
-        return read_deck(data, deck.file, units=units, folder=deck.folder)
+        return read_deck(data, deck.file, form=KEYWORD, units=units, folder=deck.folder)
 
     def reported(problems: Sequence[Problem]) -> Sequence[Problem]:
         return hiding.split([*problems], ())[0] if hiding else problems
@@ -156,12 +158,19 @@ def _as_error(problem: Problem, blocks: Blocks) -> Problem:
 
 
 def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
-    """Make errors of the misspelt names in a deck of which nothing can be judged, as no keyword in it is read."""
-    misspelt = [one for one in found if one.repair and one.code in _MISSPELT]
-    coverage = coverage_of(context.deck) if misspelt else None
-    if coverage is None or coverage.read or coverage.partly:
+    """Make errors of unknown names for which a deck is refused: what it lacks may stand there, or nothing is read."""
+    unknown = [one for one in found if one.code in _MISSPELT]
+    if not unknown:
         return found
-    return [_as_error(one, Blocks.ALWAYS) if one in misspelt else one for one in found]
+    coverage, scene = coverage_of(context.deck), context.scene
+    if coverage.read or coverage.partly:
+        hiding = {one.maybe_defined_by for one in scene.blocking("cut")} - {""}
+        places = [scene.context.misplaced_place(keyword)[1] for keyword in hiding]
+        lines = {context.deck.place(Problem(SYN009, "", where=place)).line for place in places}
+        unknown = [one for one in unknown if context.deck.place(one).line in lines]
+    else:
+        unknown = [one for one in unknown if one.repair]
+    return [_as_error(one, Blocks.ALWAYS) if one in unknown else one for one in found]
 
 
 def may_recover(deck: Deck) -> bool:
@@ -185,12 +194,24 @@ def may_recover(deck: Deck) -> bool:
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
     """Return the reasons for which a deck was refused, with the cause in the place of what follows from it."""
     codes = {one.code for one in refused}
+    context = LintContext(deck)
     reported = [
         one
-        for one in joined_problems(LintContext(deck), chosen, suppress=False)
+        for one in joined_problems(context, chosen, suppress=False)
         if one.blocking is Blocks.ALWAYS or (one.blocking is Blocks.WITH_TENSION and one.code.code in codes)
     ]
-    return deck.diagnose(reported) or list(refused)
+    return context.deck.diagnose(reported) or list(refused)
+
+
+def unreadable_causes(deck: Deck) -> list[Diagnostic]:
+    """Return why a deck cannot be read, in the words of lint: with the cause in the place of what follows from it."""
+    from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
+
+    context = LintContext(deck)
+    found = joined_problems(context, rules(), suppress=False)
+    return context.deck.diagnose(
+        [one for one in found if one.weight is Severity.ERROR and one.code.code.startswith("SYN")]
+    )
 
 
 @contextmanager
@@ -202,6 +223,17 @@ def naming_causes(deck: Deck) -> Iterator[None]:
         from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
 
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+
+
+def errors_beside(deck: Deck) -> list[Diagnostic]:
+    """Return the errors of a deck in spite of which it is evaluated: contact does not depend on them."""
+    from mudline.checks.registry import rules  # noqa: PLC0415 - as above
+
+    context = LintContext(deck)
+    found = joined_problems(context, rules(), suppress=False)
+    return context.deck.diagnose(
+        [one for one in found if one.weight is Severity.ERROR and one.blocking is not Blocks.WITH_TENSION]
+    )
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
@@ -275,12 +307,14 @@ def _reported_at(problem: Problem, by: int) -> Problem:
     return replace(problem, span=span, repair=repair)
 
 
-def read_deck(data: bytes, name: str, *, units: str | None = None, folder: Path | None = None) -> Deck:
+def read_deck(
+    data: bytes, name: str, *, form: str | None = None, units: str | None = None, folder: Path | None = None
+) -> Deck:
     """The deck of a file's content, whose models are shared with decks that were read before: it is not to be changed.
 
     Raises DeckError for a JSON or YAML file that holds no deck.
     """
-    deck = load_bytes(data, name, units=units, folder=folder, read=_read_once)
+    deck = load_bytes(data, name, form=form, units=units, folder=folder, read=_read_once)
     if isinstance(deck.origin, TextOrigin):
         deck.origin.no_equations = "[" not in deck.origin.source.text
     return deck

@@ -322,11 +322,9 @@ class Reader(NamedTuple):
         if data == before.data:
             return None
         after = self.read(data)
-        errors, known = after.errors(edits, before.source), before.errors()
-        if any(repair.applicability != "safe" for repair in repairs):
-            worse = errors.total() > known.total()
-        else:
-            worse = bool(errors - known) or not _same_elsewhere(before, after, edits)
+        worse = bool(after.errors(edits, before.source) - before.errors())
+        if all(repair.applicability == "safe" for repair in repairs):
+            worse = worse or not _same_elsewhere(before, after, edits)
         return None if worse or before.comments - after.comments else after
 
 

@@ -117,7 +117,7 @@ def _counts(text: TextOrigin, same: Sequence[Problem], below: Sequence[Sequence[
         lines = [text.place(row[0]).line for row in below]
         ids = [number[1] for line in lines if (number := ROW_NUMBER.match(text.source.line(line)))]
         named = f" ({', '.join(ids)})" if len(ids) == len(below) <= MOST_NAMED else ""
-        yield f"{len(below)} more rows of this block{named}, the last in line {lines[-1]}"
+        yield f"{len(below)} more rows of this block{named}, the last in line {text.place_in_file(below[-1][0]).line}"
 
 
 def _lacking(problem: Problem) -> str:

@@ -22,7 +22,7 @@ from mudline.basics.paths import relative_path
 from mudline.basics.spelling import nearest
 from mudline.checks.context import LintContext
 from mudline.checks.registry import find, rules
-from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.model import Opaque, comment_texts
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where

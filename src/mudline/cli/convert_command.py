@@ -10,13 +10,15 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
+from mudline.cli.inputs import STDIN, GivenDeck, require_text, takes_deck
 from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
+from mudline.language.codes.lines import SYN001
+from mudline.language.deck.faulty_blocks import with_raw_lines
 from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import DeckError, Severity
+from mudline.language.diagnostics import DeckError, Problem, Severity
 from mudline.language.keywords.model import FEWEST_POINTS, Block
 from mudline.language.keywords.ranges import is_refused
 
@@ -42,6 +44,7 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 @options.option("--within", type=float, metavar="METRES", help="Thin a seabed (.tif, .asc) as far as this error.")
 @options.option("--origin", metavar="E,N", help="Easting and northing of Y = Z = 0 of a seabed (default 0,0).")
 @options.option("--datum", type=float, metavar="ELEVATION", help="Elevation of X = 0 of a seabed (default 0).")
+@options.flag("--keep-faults", help="Carry blocks that cannot be read as their lines, as they are written.")
 @options.flag("--anonymous", help="Replace names, drop what the contact does not need, move the origin; forces stay.")
 @takes_deck
 def command(
@@ -54,22 +57,27 @@ def command(
     within: float | None,
     origin: str | None,
     datum: float | None,
+    keep_faults: bool,
     anonymous: bool,
     view: View,
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML; tables (.xlsx, .csv) and seabeds (.tif, .asc) to a deck.
 
-    Only blank lines and the spelling of numbers are lost. A deck with a value that its keyword does not allow, as a
-    curve of one point or a negative depth, is not written as JSON or YAML.
+    Only blank lines and the spelling of numbers are lost. A deck with lines that cannot be read is not converted, nor
+    one with a value that its keyword does not allow, as a curve of one point or a negative depth, to JSON or YAML:
+    --keep-faults carries such blocks as they are.
     """
     grid = source if source in _GRIDS else _BEDS.get(PurePath(deck.path).suffix.lower(), "") if source is None else ""
     if grid:
         return _bed(deck, grid, output, within, _origin(origin, datum), view)
     if (within, origin, datum) != (None, None, None):
         raise click.UsageError("--within, --origin and --datum are for a seabed: give a .tif or .asc, or --from")
+    if keep_faults and anonymous:
+        raise click.UsageError("--keep-faults carries lines unread, with their names: leave it or --anonymous out")
     form = target or _form_of_output(output)
     table = _table_form(deck, source)
-    read = _tables(deck, table) if table else deck.load(source).require()
+    given = _tables(deck, table) if table else deck.load(source)
+    read = _with_faults(given, view) if keep_faults and given else given and given.require()
     if read is None:
         return FOUND
     if form != "keyword":
@@ -88,6 +96,16 @@ def command(
     if not view.quiet:
         notify(f"{deck.path if anonymous else read.file} -> {path.as_posix()}")
     return DONE
+
+
+def _with_faults(deck: Deck, view: View) -> Deck:
+    """The deck with its faulty blocks as lines; says which they are. Raises DeckError."""
+    made, places = with_raw_lines(require_text(deck))
+    for where in places if not view.quiet else ():
+        line = deck.place(Problem(SYN001, "", where=where)).line
+        keyword = deck.sections[where.section].blocks[where.block].keyword
+        notify(f"{deck.file}:{line}: *{keyword} is carried as its lines: it has errors")
+    return made
 
 
 def _anonymous(deck: Deck, view: View) -> Deck:

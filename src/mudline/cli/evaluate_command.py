@@ -14,13 +14,14 @@ from click.core import ParameterSource
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import listed_numbers
+from mudline.checks.engine import errors_beside
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import beside, has_library, result_files, write_tables
-from mudline.cli.streams import counted, emit, emit_json, notify
+from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
 from mudline.model.results.against import Comparison, read_reference
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
@@ -124,7 +125,11 @@ def command(
         warnings = _evaluate_series(evaluation, wanted)
     else:
         warnings = _evaluate_one(evaluation, wanted, plot, plot_elements, against)
-    return FOUND if warnings and fail_on == "warning" else DONE
+    errors = errors_beside(deck)
+    if errors:
+        notify(f"{deck.file} has {counted(len(errors), 'error')} in spite of which it can be evaluated:")
+        notify_diagnostics(errors)
+    return FOUND if errors or (warnings and fail_on == "warning") else DONE
 
 
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:

@@ -7,13 +7,15 @@ from collections import Counter
 import click
 
 from mudline.basics.short_repr import counted
+from mudline.checks.engine import read_deck, unreadable_causes
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import deliver
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.streams import notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.formatting.document import FormatError, formatted
-from mudline.language.diagnostics import DeckError
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.diagnostics import DeckError, Diagnostic
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 
@@ -45,7 +47,7 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
     try:
         new = formatted(data, file.name)
     except DeckError as error:
-        notify_diagnostics(error.diagnostics)
+        notify_diagnostics(_causes(file, data) or error.diagnostics)
         return _FAILED
     except FormatError as error:
         notify(f"{file.name}: {error}")
@@ -57,3 +59,8 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
     if new != data and view.verbose and not (check or diff):
         notify(f"{file.name}: reformatted")
     return _SAME if new == data else _CHANGED
+
+
+def _causes(file: Input, data: bytes) -> list[Diagnostic]:
+    """Why a keyword text cannot be read, as lint says it."""
+    return unreadable_causes(read_deck(data, file.name)) if form_of(file.name) == KEYWORD else []

@@ -179,8 +179,10 @@ class _Run:
             data = self.inputs.content(file)  # read again: the contents of many would fill the memory
             if data is not None and hash(data) != held:
                 self.inputs.fail(f"{file.name}: {CHANGED}")
-            elif data is not None:
-                self.inputs.replaced(file, data, _edited(file, data, edits))
+            elif data is not None and self.inputs.replaced(file, data, _edited(file, data, edits)):
+                continue
+            self.counts.subtract([_CHANGED])
+            self.counts[_UNWRITTEN] += 1
 
 
 def _edited(file: Input, data: bytes, edits: Sequence[TextEdit]) -> bytes:

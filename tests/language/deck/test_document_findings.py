@@ -14,6 +14,7 @@ from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.library.ocean import Ocean
 
 Document = dict[str, Any]
 
@@ -95,6 +96,27 @@ def test_a_list_of_faults_is_not_looked_at_to_its_end(path: str, block: Document
     found = refused(made(section(block)))
     assert 32 < len(found) < 100
     assert found[-1].message.startswith(f"sections[0].blocks[0].{path}[{64 if 'sets' in path else 32}]: not checked")
+
+
+def test_raw_lines_of_a_keyword_with_a_model_are_read() -> None:
+    deck = read(made(section({"keyword": "ocean", "lines": ["C a", " 100, 1025", "C b"]}, OCEAN)))
+    ocean = Ocean(depth=100.0, density=1025.0, comments=[Comment(before=0, text=" a")])
+    assert deck.sections[0].blocks == [ocean, Ocean(depth=100.0)]
+    assert dump(deck, "keyword") == "$MODEL\n*OCEAN\nC a\n 100.0, 1025.0\nC b\n*OCEAN\n 100.0\n"
+    assert deck.problems == []
+
+
+def test_faults_and_doubts_of_raw_lines_are_told_at_their_line() -> None:
+    lines = ["C a", " 1x", " 2"]
+    document = made(section({"keyword": "OCEAN", "lines": lines}))
+    text = json.dumps(document, indent=1).splitlines()
+    assert [(one.code, text[one.line - 1].strip(" ,")) for one in told(document)] == [
+        ("SYN002", '" 1x"'),
+        ("SYN001", '" 2"'),
+    ]
+    (doubt,) = told(made(section({"keyword": "NODE", "lines": [" 1, 0, 0", "Cold", " 2, 0, 1"]})))
+    assert doubt.code == "SYN013"
+    assert doubt.line == 11
 
 
 @pytest.mark.parametrize("line", ["$MODEL", " *NODE"])

@@ -13,7 +13,7 @@ from mudline.checks.engine import lint_bytes
 from mudline.checks.recovery import lines
 from mudline.checks.registry import rules
 from mudline.language.deck.forms.json import read, to_json
-from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.loading import load_bytes
 from mudline.language.keywords import catalogue, index, library
 from mudline.language.keywords.catalogue import suggest_keyword

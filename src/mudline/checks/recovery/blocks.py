@@ -89,7 +89,7 @@ def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
 
 def also_in(origin: Origin, others: Sequence[Problem]) -> str:
     """Where else the same is found, in words."""
-    *lines, last = sorted({origin.place(one).line for one in others})
+    *lines, last = sorted({origin.place_in_file(one).line for one in others})
     if not lines:
         return f"the same in line {last}"
     return f"the same in {len(lines) + 1} more lines, the last of them line {last}"

@@ -217,6 +217,7 @@ def lines_of_another_keyword(context: LintContext, found: Found) -> Iterator[Joi
     by_line = {text.place(one).line: one for one in unusual}
     for cause in (*found.get(SYN001.code, ()), *found.get(SYN003.code, ())):
         first = text.place(cause).line
-        last = len(text.source.line_starts) + 1 if cause.code == SYN001 else first + 2
+        end = len(text.source.line_starts) + 1
+        last = end if cause.code == SYN001 else min(first + 2, end)
         below = takewhile(lambda line: text.source.line(line)[:1] not in ("*", "$"), range(first, last))
         yield Joined(cause, [by_line[line] for line in (first - 1, *below) if line in by_line])

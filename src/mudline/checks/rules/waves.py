@@ -155,7 +155,8 @@ def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
         at = cause.where
         if at is None or not at.path:
             continue
-        keyword = context.deck.sections[at.section].blocks[at.block].keyword
+        blocks = [block for section in context.deck.sections[at.section : at.section + 1] for block in section.blocks]
+        keyword = blocks[at.block].keyword if at.block < len(blocks) else ""  # of a deck with a section put in
         wave = keyword.startswith("WAVE-") and at.path[-1] in _OF_WAVE
         others = [
             one

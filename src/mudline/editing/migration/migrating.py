@@ -13,7 +13,7 @@ from mudline.editing.migration.refusals import misspelt, refusals, superseded_bl
 from mudline.editing.migration.rewriting import Rewriting, rewrite, unused_definitions
 from mudline.language.codes import MIG001
 from mudline.language.deck.forms import form_of
-from mudline.language.deck.forms.keyword import as_text
+from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck, Opaque, comment_texts
 from mudline.language.deck.reading import TextOrigin, read_source

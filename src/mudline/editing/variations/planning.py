@@ -24,7 +24,7 @@ from mudline.editing.variations.files import (
 )
 from mudline.editing.variations.names import name_key, placeholders, undefined_variation, unquoted
 from mudline.language.codes import EXP001
-from mudline.language.deck.forms.keyword import as_text
+from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where

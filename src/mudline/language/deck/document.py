@@ -10,8 +10,12 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
 
 from mudline.basics.quantities import UNIT_SYSTEMS
+from mudline.language.codes import DOC002
 from mudline.language.deck import MARK
+from mudline.language.deck.document_text import read_as_text
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
+from mudline.language.deck.faulty_blocks import is_faulty
+from mudline.language.deck.keyword_text import sampled
 from mudline.language.deck.likeness import RawLines
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import Findings
@@ -21,8 +25,9 @@ from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.ranges import is_refused
 from mudline.language.keywords.reader import read_block
-from mudline.language.keywords.table import AS_TABLES
+from mudline.language.keywords.table import AS_TABLES, Listing
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
 from mudline.language.keywords.writer import block_lines
@@ -37,8 +42,37 @@ Document = dict[str, Any]
 def to_document(deck: Deck) -> Document:
     """The deck as dicts and lists, its tables as listings; empty things are left out.
 
-    A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes.
+    A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes. Raises DeckError for what reading
+    would refuse: a value out of range, a raw line that opens a block.
     """
+    _require_readable(deck)
+    return _document(deck)
+
+
+def _require_readable(deck: Deck) -> None:
+    """Read the document of a deck, with few rows in the tables of blocks that have no value out of range."""
+
+    def locate(path: DocumentPath) -> Range:
+        section, block, *_ = (*(part for part in path[:4] if isinstance(part, int)), -1, -1)
+        return deck.place(Problem(DOC002, "", where=Where(section, block)))
+
+    light = sampled(deck)
+    for one, whole in zip(light.sections, deck.sections, strict=True):
+        pairs = zip(one.blocks, whole.blocks, strict=True)
+        one.blocks = [block if is_refused(block) else each for each, block in pairs]
+    _Reader(_plain(_document(light)), deck.file, locate).read()
+
+
+def _plain(value: Any) -> Any:
+    """A document with its tables as lists."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, Listing):
+        return value.rows()
+    return [_plain(item) for item in value] if isinstance(value, list) else value
+
+
+def _document(deck: Deck) -> Document:
     source = deck.source.encode("utf-8", "backslashreplace").decode()
     document: Document = {"format": FORMAT, "source": source, "units": deck.units}
     if deck.preamble:
@@ -67,6 +101,8 @@ def _comments(comments: list[Comment]) -> Document:
 
 class DocumentOrigin(Origin):
     """Where the values of a deck are in a JSON or YAML text. A document is whole or refused."""
+
+    takes_edits = False
 
     def __init__(self, locate: Locate) -> None:
         self.locate = locate
@@ -110,6 +146,8 @@ class _Reader:
         self.faults = Faults(file, locate, document)
         self.deck = Deck(file, origin=DocumentOrigin(locate))
         self.findings = Findings(self.deck.problems)
+        self.unreadable: list[Problem] = []
+        """What is wrong in blocks that are lines."""
 
     def read(self) -> Deck:
         document = self._format()
@@ -131,7 +169,19 @@ class _Reader:
             self.faults.add(("sections",), "expected a list of sections")
         self.faults.raise_any()
         normalise_comments(deck)
+        if self.unreadable:
+            deck = self._from_lines()
         self.faults.raise_respelt(deck)
+        return deck
+
+    def _from_lines(self) -> Deck:
+        """The deck read as its keyword text, as lines of a block are at fault."""
+        self.deck.problems += self.unreadable
+        deck = read_as_text(self.deck)
+        if deck is self.deck:  # a keyword text cannot say it
+            for problem in self.unreadable:
+                self.faults.add(document_path(problem.where or Where()), problem.message)
+            self.faults.raise_any()
         return deck
 
     def _format(self) -> dict[str, Any]:
@@ -232,14 +282,20 @@ class _Reader:
         read = read_block(source.text, raw, declared, last=False)
         if read.opaque:
             self.findings.no_model(block.keyword, section.name, where._replace(path=()), lines)
+        faulty = bool(where.path) and is_faulty(read)
+        if faulty and not any(one.weight is Severity.ERROR for one in read.problems):
+            self.unreadable.append(Problem(DOC002, "a value that a document does not hold", where=where))
         for problem in read.problems:
             line = source.position(problem.span.start)[0] if problem.span else 0
             inside = where.inside(max(line - 3, 0)) if where.path else where
-            if problem.weight is Severity.ERROR:
-                self.faults.add(document_path(inside), problem.message)
+            placed = replace(problem, span=None, where=inside, repair=None)
+            if problem.weight is not Severity.ERROR:
+                self.deck.problems.append(placed)
+            elif faulty:
+                self.unreadable.append(placed)
             else:
-                self.deck.problems.append(replace(problem, span=None, where=inside, repair=None))
-        if read.opaque:
+                self.faults.add(document_path(inside), problem.message)
+        if read.opaque or faulty:
             return block
         section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
         return read.model
@@ -331,6 +387,10 @@ def json_schema() -> dict[str, Any]:
         definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
         definition["required"] = sorted({"keyword", *definition.get("required", [])})
         definition["description"] = block.summary
+    raw = schema["$defs"][references[Opaque]["$ref"].rsplit("/", 1)[1]]
+    raw["description"] = (
+        "the lines of a keyword without a model, or of a block that cannot be read: as they are written"
+    )
     comments = {"type": "array", "items": references[Comment]}
     line = TypeAdapter(Text).json_schema()
     lines = {"type": "array", "items": line}

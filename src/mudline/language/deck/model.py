@@ -106,13 +106,19 @@ class Origin:
     """What a deck was read from; this class itself: nothing, as a program made the deck.
 
     `no_equations` says that no value is an equation: it is known of a text that nobody changes once it is read.
+    `takes_edits` says that places in its text are places in the file, which repairs can change.
     """
 
     no_equations = False
+    takes_edits = True
 
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""
         return START
+
+    def place_in_file(self, problem: Problem) -> Range:
+        """Lines and columns of a problem in the file, whose text may be that of a document."""
+        return self.place(problem)
 
     def lost(self, section: int, block: int) -> int:
         """How many lines of a block could not be used at all."""
@@ -226,7 +232,7 @@ class Deck:
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem, in the file that it belongs to."""
         deck, own = self._owned(problem)
-        return deck.origin.place(own)
+        return deck.origin.place_in_file(own)
 
     def lost(self, where: Where) -> int:
         """How many lines of a block could not be used at all."""
@@ -368,11 +374,11 @@ class BaseProblem(Problem):
 
 def _diagnostic(deck: Deck, problem: Problem) -> Diagnostic:
     code: Code = problem.code
-    place = deck.origin.place(problem)
+    place = deck.origin.place_in_file(problem)
     message = cut(problem.message, LONGEST_MESSAGE)
     if not message.isprintable():  # names of the deck are quoted verbatim
         message = "".join(char if char.isprintable() else "\ufffd" for char in message)
-    fix = _fix(deck.origin, problem.repair, code) if problem.repair else None
+    fix = _fix(deck.origin, problem.repair, code) if problem.repair and deck.origin.takes_edits else None
     blocks = problem.blocking is not Blocks.NEVER
     return Diagnostic(deck.file, code.code, code.slug, problem.weight, message, *place, fix, blocks)
 

@@ -162,6 +162,11 @@ class TextOrigin(Origin):
         leaf = section.head if where.block < 0 else section.blocks[where.block].head
         return trimmed(self.source.unified, *leaf.span) if leaf else None
 
+    def lines_of(self, where: Where) -> list[str]:
+        """The lines of a block below its first one, without their ends."""
+        leaves = self.tree.sections[where.section].blocks[where.block].leaves
+        return [line for leaf in leaves for line in _lines(self.source.unified, leaf.span)]
+
     def kept_lines(self, section: int, block: int) -> list[str]:
         """The lines that a block keeps as they are, in the order of the file."""
         text = self.source.unified
@@ -220,6 +225,12 @@ def _own_name(path: str) -> str:
     return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
 
 
+def _lines(text: str, span: Span) -> list[str]:
+    """The lines of a piece of text, without their ends."""
+    lines = text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
+    return [line.removesuffix("\r") for line in lines]
+
+
 class _Reader:
     def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
         self.tree = tree
@@ -242,8 +253,7 @@ class _Reader:
         return self.deck
 
     def _lines(self, span: Span) -> list[str]:
-        lines = self.text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
-        return [line.removesuffix("\r") for line in lines]
+        return _lines(self.text, span)
 
     def _preamble(self) -> None:
         preamble = self.tree.preamble
@@ -325,8 +335,7 @@ class _Reader:
             target += [Comment(before=before, text=text) for text in read.trailing]
 
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
-        lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
-        section.blocks.append(Opaque(keyword=raw.name, lines=lines))
+        section.blocks.append(Opaque(keyword=raw.name, lines=self.origin.lines_of(where)))
         head = trimmed(self.text, *raw.head.span)
         if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"

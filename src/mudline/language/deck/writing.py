@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from itertools import chain, pairwise
 
 from mudline.language.codes import DOC002
-from mudline.language.deck.forms.keyword import canonical_text, lines_of, to_keyword
+from mudline.language.deck.keyword_text import canonical_text, lines_of, to_keyword
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Span

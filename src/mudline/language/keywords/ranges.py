@@ -31,8 +31,10 @@ def in_words(slot: FieldSpec) -> str:
 
 def is_refused(part: Part) -> bool:
     """Whether no document can hold a block that was read from text."""
-    return any(True for _ in range_faults(part)) or any(
-        len(curve) < FEWEST_POINTS for _, _, curve in part.walk(_is_curve)
+    return (
+        any(True for _ in range_faults(part))
+        or any(len(curve) < FEWEST_POINTS for _, _, curve in part.walk(_is_curve))
+        or any(isinstance(value, int) and range_fault(value, slot) for _, slot, value in part.walk(_is_ranged_in_list))
     )
 
 
@@ -50,6 +52,11 @@ def _is_ranged(slot: FieldSpec) -> bool:
     if isinstance(slot.about, Rows):
         return bool(_ranged_columns(slot.row))
     return bool(slot.about.limits) and not slot.of_list
+
+
+def _is_ranged_in_list(slot: FieldSpec) -> bool:
+    """Return True for a field of a GEN= that has a range."""
+    return bool(slot.about.limits) and slot.of_list
 
 
 @cache

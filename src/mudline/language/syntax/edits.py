@@ -85,7 +85,7 @@ class Undoing:
         index, new = self._at(place)
         if index == len(self._edits) or self._edits[index].span.end > self._edits[index].span.start:
             return False
-        return self._edits[index].text.endswith("\n") and new.start <= place.start < place.end < new.end
+        return self._edits[index].text.endswith(("\n", "\r")) and new.start <= place.start < place.end < new.end
 
     def _at(self, place: Span) -> tuple[int, Span]:
         """The first edit whose text ends behind the start of a place, and where that text is."""

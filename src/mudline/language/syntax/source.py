@@ -28,7 +28,7 @@ _CALLED = {
     "\ufeff": "byte-order mark inside the file",
 }
 _LONE_CR = re.compile(r"\r(?!\n)")
-_FOREIGN_DATA = re.compile(r"(?m)^(?!C(?:[^A-Za-z\r\n]|$)).*[^\x00-\x7f]")
+_FOREIGN_DATA = re.compile(r"(?:\A|(?<=[\r\n]))(?!C(?:[^A-Za-z]|\Z))[^\r\n]*[^\x00-\x7f]")
 """A letter beyond ASCII in a line that is not a comment."""
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 BINARY = "the file looks like binary data"
@@ -146,7 +146,7 @@ def _heads_found(text: str) -> str:
     return "".join((*pieces, text[done:])) if pieces else text
 
 
-_MERGE_MARK = re.compile(r"^(?:<{7}|>{7})(?= |\r?$)", re.MULTILINE)
+_MERGE_MARK = re.compile(r"(?:\A|(?<=[\r\n]))(?:<{7}|>{7})(?=[ \r\n]|\Z)")
 KEY_FILE = re.compile(r"\s*<\?xml[^>]*>\s*<KeyFile\b")
 """How a key file of a password manager begins, whose suffix is that of decks."""
 _NO_DECK = re.compile(
@@ -183,7 +183,7 @@ def _refusal(body: bytes) -> str:
     """Why these bytes are not read at all, or nothing."""
     if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
         return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
-    sample = body[:_SAMPLE]
+    sample = body[:_SAMPLE].replace(b"\r\n", b"\n")
     strange = len(sample) - len(sample.translate(None, _STRANGE))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
         share = f"{strange} control characters in its first {len(sample)} bytes"

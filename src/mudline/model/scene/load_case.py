@@ -124,9 +124,11 @@ def _significant_height(phillips: float, peakedness: float, period: float, gravi
     """Hs of a Jonswap spectrum (Hasselmann and others 1973) with a Phillips constant."""
     ratio = np.linspace(0.3, 8.0, 4000)
     width = np.where(ratio <= 1.0, 0.07, 0.09)
-    shape = ratio**-5.0 * np.exp(-1.25 * ratio**-4.0) * peakedness ** np.exp(-0.5 * ((ratio - 1.0) / width) ** 2)
-    omega = 2.0 * math.pi / period
-    return 4.0 * math.sqrt(phillips * gravity**2 / omega**4 * float(shape.sum()) * float(ratio[1] - ratio[0]))
+    with np.errstate(all="ignore"):  # of values out of range, which a check reports
+        shape = ratio**-5.0 * np.exp(-1.25 * ratio**-4.0) * peakedness ** np.exp(-0.5 * ((ratio - 1.0) / width) ** 2)
+    squared = period / (2.0 * math.pi) * (period / (2.0 * math.pi))
+    area = phillips * float(shape.sum()) * float(ratio[1] - ratio[0])
+    return 4.0 * gravity * squared * math.sqrt(max(area, 0.0))
 
 
 def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> TopMotion:

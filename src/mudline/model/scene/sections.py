@@ -11,6 +11,7 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
+from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
@@ -189,9 +190,10 @@ def stiffnesses(deck: Deck, section: Section) -> Stiffnesses:
             _modulus(deck, section, number(row, "eiyy"), "eiyy_curve", "ei_curve"),
             _modulus(deck, section, number(row, "gj"), "gj_curve"),
         )
-    outer, inner = number(row, "do"), number(row, "di", 0.0)
-    area = number(row, "area", math.pi / 4 * (outer**2 - inner**2))
-    second = number(row, "second_moment", math.pi / 64 * (outer**4 - inner**4))
+    outer, inner = np.float64(number(row, "do")), np.float64(number(row, "di", 0.0))
+    with np.errstate(over="ignore", invalid="ignore"):  # a float would raise where a power is infinite
+        area = number(row, "area", float(math.pi / 4 * (outer**2 - inner**2)))
+        second = number(row, "second_moment", float(math.pi / 64 * (outer**4 - inner**4)))
     young = _modulus(deck, section, number(row, "e"), "e_curve")
     return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
 
@@ -210,6 +212,8 @@ def _modulus(deck: Deck, section: Section, given: float, *curves: str) -> float:
         for entry in block.curves:
             if names and folded(str(entry.curve)) == folded(str(names[0])):
                 points = cast("Table", entry.points)
+                if len(points) < FEWEST_POINTS:
+                    return math.nan
                 order = np.argsort(points.column(1), kind="stable")
                 loads, strains = points.column(0)[order], points.column(1)[order]
                 at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
