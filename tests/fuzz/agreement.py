@@ -62,14 +62,10 @@ def _evaluates(data: bytes) -> bool | None:
 
 _VERDICTS: dict[str, Callable[[bytes], bool | None]] = {
     "lint": lambda data: not _errors(lint_bytes(data, NAME, select())),
-    "validate": lambda data: judge_content(data, NAME, None, None).verdict.legal,
+    "validate": lambda data: judge_content(data, NAME, None, None).verdict.ok,
     "evaluate": _evaluates,
     "show": lambda data: not overview(load_bytes(data, NAME)).errors,
-    "report": lambda data: (
-        report_on(Given(data, NAME, None), LintSettings(rules()), ["verdict"])
-        .json["verdict"]["verdict"]
-        .startswith("legal")
-    ),
+    "report": lambda data: report_on(Given(data, NAME, None), LintSettings(rules()), ["verdict"]).json["verdict"]["ok"],
 }
 
 

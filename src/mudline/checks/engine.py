@@ -164,8 +164,9 @@ def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Prob
         return found
     coverage, scene = coverage_of(context.deck), context.scene
     if coverage.read or coverage.partly:
-        hiding = {one.maybe_defined_by for one in scene.blocking("cut")} - {""}
-        places = [scene.context.misplaced_place(keyword)[1] for keyword in hiding]
+        misplaced = scene.context.misplaced
+        hiding = {one.maybe_defined_by for one in scene.blocking("cut")} & misplaced.keys()
+        places = [misplaced[keyword][1] for keyword in hiding]
         lines = {context.deck.place(Problem(SYN009, "", where=place)).line for place in places}
         unknown = [one for one in unknown if context.deck.place(one).line in lines]
     else:
