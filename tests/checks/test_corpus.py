@@ -91,11 +91,11 @@ def test_every_rule_is_shown_by_a_deck() -> None:
 def test_a_deck_is_the_same_in_every_form(deck: Path) -> None:
     first = as_written(deck)
     for form, suffix in (("keyword", SUFFIXES[first.units]), ("json", ".json"), ("yaml", ".yaml")):
-        text = dump(first, form).encode()
         if form != "keyword" and has_refused_values(first):
             with pytest.raises(DeckError, match="DOC002"):
-                load_bytes(text, f"{deck.stem}{suffix}")
+                dump(first, form)
             continue
+        text = dump(first, form).encode()
         again = load_bytes(text, f"{deck.stem}{suffix}", folder=deck.parent)
         assert again.sections == first.sections
         assert again.comments == first.comments

@@ -297,7 +297,7 @@ def test_an_element_longer_than_its_neighbours(y: tuple[int, ...], lines: list[i
         ((0, 10, 250, 30, 40), [5]),
         ((0, 10, 32, 30, 40), [5]),
         ((0, 10, 29, 30, 40), []),
-        ((0, 10, 20, 12, 5), []),  # it goes back, and on
+        ((0, 10, 20, 12, 5), [5]),  # it goes back, and on
     ],
 )
 def test_a_line_that_turns_back_and_forward_again(y: tuple[int, ...], expected: list[int]) -> None:

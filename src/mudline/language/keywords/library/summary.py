@@ -108,7 +108,7 @@ class ParaReaction(SummaryRequest):
     keyword: Literal["PARA REACTION"] = "PARA REACTION"
     node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
     dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6, usual=COUNT)]
-    axis: Annotated[Name | None, setting("DATA3", AXIS, default="global", names=Names.AXIS)] = None
+    axis: Annotated[Name | None, setting("DATA3", AXIS, default="global")] = None
 
 
 class ParaSeabed(SummaryRequest):
