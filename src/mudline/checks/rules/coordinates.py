@@ -105,9 +105,9 @@ def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
     alike &= (sections[np.column_stack([other, beyond])] == sections[one][:, None]).all(axis=1)
     shorter = np.minimum(length[one], length[other])
     alike &= np.linalg.norm(np.diff(scene.coordinates[outer], axis=1)[:, 0], axis=1) < shorter  # else the line goes on
-    ratios = shorter / length[beyond].max(axis=1, initial=0.0)
-    found = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
-    yield from zip(middle[found].tolist(), ratios[found].tolist(), strict=True)
+    ratios = shorter[alike] / length[beyond[alike]].max(axis=1, initial=0.0)
+    odd = ratios > LONGEST_ELEMENT
+    yield from zip(middle[alike][odd].tolist(), ratios[odd].tolist(), strict=True)
 
 
 def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
