@@ -7,7 +7,7 @@ from unittest.mock import patch
 
 import pytest
 from hypothesis import example, given, settings
-from hypothesis import example, strategies as st
+from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
