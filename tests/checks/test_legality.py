@@ -8,7 +8,8 @@ from functools import cache
 import pytest
 from hypothesis import given, settings
 
-from mudline.checks.engine import LintSettings, lint_bytes
+from mudline.checks.context import LintContext
+from mudline.checks.engine import LintSettings, lint_bytes, problems_in
 from mudline.checks.fixing import lint_one
 from mudline.checks.registry import rules
 from mudline.language.deck.loading import load_bytes
@@ -78,3 +79,9 @@ def test_a_curve_that_is_cut_blocks_nothing() -> None:
     scene = resolve(load_bytes(text.encode(), "deck.keyxm"))
     assert scene.require() is scene
     assert scene.contact(tension="cut").evaluate().contact.all()
+
+
+def test_a_rule_that_advises_never_blocks() -> None:
+    context = LintContext(load_bytes(CUTOFF.encode(), "deck.keyxm"), dialect="flexcom")
+    chosen = [rule for rule in rules() if rule.check is not None and not rule.blocks]
+    assert {problem.blocking.value for problem in problems_in(context, chosen)} == {"never"}

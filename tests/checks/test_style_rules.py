@@ -243,6 +243,13 @@ def test_heads_are_mended_in_the_preamble_and_at_the_very_beginning() -> None:
     assert found(" *ocean\n", "STY005", "STY006") == [("STY005", 1, 2), ("STY006", 1, 2)]
 
 
+def test_trailing_blanks_go_from_every_line_that_is_not_kept() -> None:
+    text = "C a \r\n  \r\n$MODEL\t\r\n*OCEAN \r\nC  \r\n 500.0 \r\n*LINE PATHS \r\n x \r\n"
+    after = "C a\r\n\r\n$MODEL\r\n*OCEAN\r\nC\r\n 500.0\r\n*LINE PATHS\r\n x \r\n"
+    assert mended(text, "STY007") == after
+    assert mended("$MODEL\n*OCEAN\n 500.0 ", "STY007") == "$MODEL\n*OCEAN\n 500.0"
+
+
 def test_a_document_has_no_style() -> None:
     data = to_json(load_bytes(GOOD.encode(), "deck.keyxm")).encode()
     assert lint_bytes(data, "deck.json", STYLE) == []

@@ -56,6 +56,11 @@ def test_only_the_value_changes(deck: str, text: str, old: str, new: str) -> Non
     assert changed(deck, text) == deck.replace(old, new)
 
 
+def test_a_value_that_is_there_already_keeps_its_spelling() -> None:
+    assert changed(TIMES, "TIME.step=5e-2") == TIMES
+    assert changed(CLEAN, "SEABED PROPERTIES.stiffness=CLAY") == CLEAN
+
+
 @pytest.mark.parametrize("text", ["TIME.step=1", "SEABED PROPERTIES[set=Pip].stiffness=1", "NODE[node=9].x=1"])
 def test_a_deck_may_have_no_such_value(text: str) -> None:
     assert changed(CLEAN, text) is None
@@ -94,6 +99,14 @@ def test_what_is_refused(deck: str, text: str, message: str) -> None:
 def test_a_value_that_changes_the_units_is_refused() -> None:
     with pytest.raises(AssignmentError, match=r"units of the deck, metric, would be taken for user"):
         changed(CLEAN, "OCEAN.gravity=8", "deck.keyx")
+
+
+def test_a_character_that_the_encoding_lacks_is_refused() -> None:
+    data = CLEAN.replace("SET=Pipe", "SET=Pïpe").encode("cp1252")
+    assignment = parse_assignment("SEABED PROPERTIES.stiffness=łay")
+    target = target_of(assignment.path, Operand.of(assignment.value))
+    with pytest.raises(AssignmentError, match="encoding, cp1252, lacks"):
+        assigned(load_bytes(data, "deck.keyxm"), assignment, target)
 
 
 @pytest.mark.parametrize(

@@ -169,6 +169,17 @@ def test_scale_offset_and_unit_of_a_band(scale: float, offset: float, unit: str,
     assert read_bed(tmp_path / "bed.tif", "geotiff")[:, 0] == pytest.approx([first] * 12, rel=1e-12)
 
 
+def test_an_unknown_unit_of_a_band_is_refused(tmp_path: Path) -> None:
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:32631"}
+    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
+    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
+        target.write(np.ones((3, 4), dtype=np.float32), 1)
+        target.units = ("furlong",)
+    with pytest.raises(DeckError, match="its elevations are in 'furlong': convert them to metres"):
+        read_bed(tmp_path / "bed.tif", "geotiff")
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
