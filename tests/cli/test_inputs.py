@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -36,6 +37,11 @@ def test_directory_is_searched_for_decks(place: Place) -> None:
     assert names("decks") == expected
     assert names("decks/") == expected
     assert names("./decks") == [f"./{name}" for name in expected]
+
+
+def test_every_file_counts_once(place: Place) -> None:
+    place(CLEAN, "decks/a.keyxm")
+    assert names("decks/a.keyxm", "decks", "decks/a.keyxm", "-", "-") == ["decks/a.keyxm", "<stdin>"]
 
 
 @pytest.mark.parametrize("command", ["lint", "validate"])
@@ -91,6 +97,13 @@ def test_name_of_standard_input_gives_the_form(command: str) -> None:
     assert (outcome.code, outcome.err) == (0, warned)
 
 
+def test_name_of_standard_input_gives_the_units() -> None:
+    deck = CLEAN.replace(" 100.0, 1025.0, 9.81", " 100.0, 1025.0, 1.0").encode()
+    assert run("show", "-", "--output-format", "json", stdin=deck).json()["units"] == "user"
+    named = run("show", "-", "--stdin-filename", "x.keyxi", "--output-format", "json", stdin=deck).json()
+    assert (named["units"], named["file"]) == ("imperial", "x.keyxi")
+
+
 def test_gravity_tells_the_units_of_standard_input() -> None:
     deck = CLEAN.replace("9.81", "32.17").encode()
     assert run("show", "-", "--output-format", "json", stdin=deck).json()["units"] == "imperial"
@@ -124,6 +137,34 @@ def test_a_file_that_is_named_is_taken(decks: Path) -> None:
     assert names("decks/a.keyxm") == ["decks/a.keyxm"]
 
 
+def test_deeper_files_go_first_and_may_take_back(decks: Path) -> None:
+    ignore(decks, "*.keyxm")
+    ignore(decks / "runs/2", "!keep.keyxm")
+    assert names("decks") == ["decks/runs/2/keep.keyxm"]
+
+
+def test_nothing_in_a_hidden_folder_is_taken_back(decks: Path) -> None:
+    ignore(decks, "runs/")
+    ignore(decks / "runs", "!*")
+    assert names("decks") == ["decks/a.keyxm", "decks/old/b.keyxm"]
+
+
+def test_patterns_hold_from_their_own_folder(decks: Path) -> None:
+    ignore(decks / "runs", "/2/d.keyxm", "/runs", "/old")
+    assert "decks/runs/2/d.keyxm" not in names("decks")
+    assert "decks/old/b.keyxm" in names("decks")
+    assert len(names("decks")) == 4
+
+
+def test_files_above_hold_in_a_repository(decks: Path) -> None:
+    ignore(decks.parent, "/decks/runs/2", "decks")
+    assert len(names("decks")) == 5
+    (decks.parent / ".git").mkdir()
+    assert names("decks/runs") == ["decks/runs/1/c.keyxm"]
+    (decks / ".git").write_text("gitdir: elsewhere", encoding="utf-8")
+    assert len(names("decks/runs")) == 3
+
+
 def test_a_hidden_folder_that_is_named_is_searched(decks: Path) -> None:
     (decks.parent / ".git").mkdir()
     ignore(decks.parent, "runs")
@@ -153,6 +194,14 @@ def test_commands_that_search(decks: Path, command: str) -> None:
     assert outcome.code == 2
     assert outcome.err.endswith("; --no-gitignore takes what a .gitignore hides)\n")
     assert run(command, "decks", "--no-gitignore").code == 0
+
+
+def test_decks_in_json_are_hidden_too(decks: Path) -> None:
+    ignore(decks, "*.json")
+    (decks / "x.json").write_text('{"format": "mudline-deck/1"}', encoding="utf-8")
+    for options, found in ((), False), (("--no-gitignore",), True):
+        rows = json.loads(run("validate", "decks", "--output-format", "json", *options).out)
+        assert ("x.json" in json.dumps(rows)) is found
 
 
 @pytest.mark.parametrize(
@@ -280,6 +329,13 @@ def test_a_deck_in_another_encoding_is_read_and_written_in_it(place: Place, fold
     assert "Глина" in (folder / "deck.keyxm").read_bytes().decode("cp866")
     assert run("set", "OCEAN.depth=55", "--encoding", "cp866", "deck.keyxm").code == 0
     assert "55" in (folder / "deck.keyxm").read_bytes().decode("cp866")
+
+
+def test_the_configuration_gives_the_encoding(place: Place) -> None:
+    place('encoding = "cp866"\n', "mudline.toml")
+    place(RUSSIAN.encode("cp866"))
+    assert "Глина" in run("show", "deck.keyxm").out
+    assert "Глина" in run("curves", "deck.keyxm").out
 
 
 @pytest.mark.parametrize("name", ["nonsense", "hex"])

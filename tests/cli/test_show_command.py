@@ -145,6 +145,11 @@ def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
     assert outcome.err == "mudline: deck.keyxm has 1 error: see mudline lint\n"
 
 
+def test_length_is_that_of_the_elements_whose_nodes_are_known(place: Place) -> None:
+    outcome = run("show", place(CLEAN.replace(" 3, 0.3, 20.0\n", "")), "--output-format", "json")
+    assert outcome.json()["length"] == 10.0
+
+
 def test_length_that_overflows_is_null(place: Place) -> None:
     deck = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, 1.0E308").replace(" 3, 0.3, 20.0", " 3, 0.3, -1.0E308")
     outcome = run("show", place(deck), "--output-format", "json")
@@ -162,6 +167,11 @@ def test_many_diameters_are_shown_when_asked_for(place: Place) -> None:
     assert "2 more diameters: -v shows all\n" in text
     assert "    42.5         1" not in text
     assert "    42.5         1" in run("show", place(deck), "-v").out
+
+
+def test_repeated_keywords_are_counted(place: Place) -> None:
+    text = run("show", place("$MODEL\n*NODE\n*TENSIONER\n*NODE\n*TENSIONER\n*OCEAN\n*TENSIONER\n")).out
+    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    passed through unchanged: *TENSIONER (3 blocks)\n" in text
 
 
 def test_the_bed_and_what_it_gives(place: Place) -> None:
