@@ -6,7 +6,7 @@ import json
 from functools import cache
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_bytes, problems_in
@@ -33,7 +33,6 @@ def test_decks_about_a_pipe_on_a_seabed(first: int) -> None:
 
 
 @given(document())
-@settings(max_examples=30)
 def test_documents_of_all_keywords(values: Values) -> None:
     found = outcome(json.dumps(values).encode(), "deck.json")
     assert found.agrees, found

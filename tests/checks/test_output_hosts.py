@@ -8,7 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from junitparser import JUnitXml
 from markdown_it import MarkdownIt
@@ -81,7 +81,6 @@ def _unescaped(text: str, more: str) -> str:
     return text
 
 
-@settings(max_examples=30)
 @given(TEXTS, TEXTS)
 def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
     (text,) = form("github", [], "")([finding(file=file, message=message)])

@@ -6,7 +6,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -307,7 +307,6 @@ HEIGHTS = st.sampled_from(["-0.05", "-2.0", "0.0", "-0.0", "30.0", "1e150", "=[n
 PLACES = st.sampled_from(["0.0", "5.0", "10.0", "15.0", "20.0", "-1e150", "1e150", "1e-170", "", "=[nothing]"])
 
 
-@settings(max_examples=50, deadline=None)
 @given(
     st.lists(st.tuples(HEIGHTS, PLACES, PLACES), min_size=2, max_size=7),
     st.lists(st.tuples(st.integers(1, 8), st.integers(1, 8)), max_size=7),

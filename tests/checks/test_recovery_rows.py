@@ -78,9 +78,6 @@ def test_a_number_that_fits_no_neighbour_is_not_guessed() -> None:
     assert "is this one 99" not in "".join(one.message for one in found(text))
 
 
-FALLING = " CURVE=Clay\n 0.0, 3000.0\n 0.1, 2000.0\n 0.5, 0.0\n"
-
-
 def test_two_softening_parts_of_a_curve_are_two_findings() -> None:
     text = " CURVE=Clay\n 0.0, 0.0\n 0.1, 3000.0\n 0.2, 2000.0\n 0.3, 5000.0\n 0.4, 4000.0\n 0.5, 9000.0\n"
     assert [one[:2] for one in summary(changed((CURVE, text)))] == [("CRV005", 23), ("CRV005", 25)]

@@ -62,11 +62,6 @@ def test_names_of_256_characters_are_fine() -> None:
     assert found(text.format("x" * 257), "REF011") == [("REF011", 3, 6)]
 
 
-FLEXIBLE = PIPE.replace("RIGID", "FLEXIBLE").replace(
-    "207.0E9, 79.6E9, 0.25, 0.22, 7850.0", ", , , , 90, 1, 0.2, 0.4, 0.3"
-)
-
-
 def listed(count: int, separator: str = ", ") -> str:
     return "$MODEL\n*ELEMENT SETS\n SET=a\n  " + separator.join(map(str, range(1, count + 1))) + "\n"
 

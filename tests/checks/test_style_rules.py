@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.basics.limits import MOST_REPORTED
@@ -118,7 +118,6 @@ def _spoilt(draw: st.DrawFn, line: str) -> str:
     return line + draw(st.sampled_from(["", "", " ", "\t", "  "]))
 
 
-@settings(max_examples=25)
 @given(spoilt(), st.sampled_from(["\n", "\r\n", "\r"]))
 def test_a_mended_deck_says_the_same_and_has_no_finding(text: str, end: str) -> None:
     data = text.replace("\n", end).encode()

@@ -104,7 +104,7 @@ EXTRAS = [
 def test_a_library_that_is_missing_is_named_with_its_extra(
     words: str, code: int, extra: str, said: str, place: Place, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(f"mudline.cli.{words.split()[0]}_command.find_spec", lambda _: None)
+    monkeypatch.setattr(f"mudline.cli.{words.split(maxsplit=1)[0]}_command.find_spec", lambda _: None)
     for name in ("clean.keyxm", "book.xlsx", "bed.tif"):
         place(CLEAN, name)
     outcome = run(*words.split())

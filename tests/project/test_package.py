@@ -17,7 +17,6 @@ from tests.helpers.lowest import constraints
 from tests.helpers.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
-GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
 TABLES = ("deck.tables", "blocks.tables", "expression.tables")
 LONGEST_FILE = 450
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mudline.editing.comparison.comparing import compare
@@ -147,7 +147,6 @@ def test_a_lost_law_is_no_spelling() -> None:
 NUMBER = re.compile(r"(?<![\w.+-])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.])")
 
 
-@settings(max_examples=15, deadline=None)
 @given(legacy_decks(), st.data())
 def test_any_other_number_in_a_migrated_deck_is_reported(text: str, data: st.DataObject) -> None:
     found = migrate(deck_of(text))

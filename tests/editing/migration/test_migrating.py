@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.context import LintContext
@@ -262,7 +262,6 @@ def test_largest_characteristic_lengths_without_effect_are_left_in_a_comment() -
     assert b" FRICTION=0.3, 0.5, , 0.1\n" in found.content
 
 
-@settings(max_examples=20, deadline=None)
 @given(legacy_decks())
 def test_any_legacy_deck_means_the_same_afterwards(text: str) -> None:
     deck = deck_of(text)
@@ -277,7 +276,6 @@ def codes_of(deck: Deck) -> set[str]:
     return {one.code for one in lint_context(LintContext(deck), rules())}
 
 
-@settings(max_examples=20, deadline=None)
 @given(legacy_decks(), st.sampled_from(["keyword", "json", "yaml"]))
 def test_any_migrated_deck_lints_as_before_and_is_equivalent(text: str, form: str) -> None:
     deck = deck_of(text)
@@ -296,7 +294,6 @@ def test_any_migrated_deck_lints_as_before_and_is_equivalent(text: str, form: st
     assert comparison.spelling
 
 
-@settings(max_examples=20, deadline=None)
 @given(legacy_decks())
 def test_bytes_outside_the_legacy_blocks_stay(text: str) -> None:
     content = migrate(deck_of(text)).content.decode()

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -102,7 +102,6 @@ def studies(draw: st.DrawFn) -> tuple[list[dict[str, list[str]]], str]:
 
 
 @given(studies())
-@settings(max_examples=60)
 def test_every_combination_is_a_deck_whose_parameters_are_those_of_the_case(
     study: tuple[list[dict[str, list[str]]], str],
 ) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -318,7 +318,6 @@ def model(units: Units) -> ContactModel:
 METRES, FEET = model(METRIC), model(IMPERIAL)
 
 
-@settings(max_examples=15)
 @given(st.lists(st.tuples(*(st.floats(-0.3, 0.3),) * 3), min_size=2, max_size=5))
 def test_every_feature_is_the_same_in_feet_and_pounds(moves: list[tuple[float, float, float]]) -> None:
     start = METRES.input.coordinates

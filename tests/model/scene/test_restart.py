@@ -8,7 +8,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -287,7 +287,6 @@ _PIECES = st.lists(
 )
 
 
-@settings(max_examples=30)
 @given(_PIECES, _PIECES)
 def test_whatever_the_decks_hold_findings_lie_in_the_deck_itself(base: list[str], own: list[str]) -> None:
     with TemporaryDirectory() as name:
