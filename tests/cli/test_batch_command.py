@@ -214,6 +214,7 @@ def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path)
         place(CLEAN, f"decks/{where}/case.keyxm")
         (folder / "at" / where).mkdir(parents=True)
         (folder / "at" / where / "case.csv").write_text(STATE.replace("-0.3", depth), encoding="utf-8")
+    (folder / "at" / "case.csv").write_text(STATE.replace("-0.3", "-0.25"), encoding="utf-8")
     found = batch("decks", "--positions", "at", "--output-format", "json").json()
     assert [(row["deck"], row["largest_force"]) for row in found] == [
         ("decks/near/case.keyxm", 3500.0),

@@ -242,3 +242,10 @@ def test_only_normal_laws_without_history_can_be_added(law: NormalLaw) -> None:
     with pytest.raises(TypeError, match="only normal laws without history can be added"):
         register(law)
     assert law.name not in set(known_laws()) - {"rigid", "unloading"}
+
+
+def test_a_name_is_given_once() -> None:
+    with pytest.raises(ValueError, match="contact law 'hyperbolic' is already registered"):
+        register(plain_law("hyperbolic"))
+    with pytest.raises(ValueError, match="contact law 'linear' is already registered"):
+        register(plain_law("linear"))
