@@ -109,12 +109,3 @@ def test_a_base_that_cannot_be_used(tmp_path: Path, texts: dict[str, str], messa
     place = f"{tmp_path.as_posix()}/{message.format(tmp_path.as_posix())}"
     with pytest.raises(ConfigurationError, match=re.escape(place)):
         read_configuration(path, code_fault=code_fault)
-
-
-def test_the_content_of_a_base_is_part_of_the_content(tmp_path: Path) -> None:
-    contents = []
-    for own, base in (('extend="b.toml"', 'select=["A"]'), ('extend="b.toml"', 'select=["B"]'), ("", 'select=["B"]')):
-        found = read_configuration(_write(tmp_path, a=own, b=base))
-        assert found is not None
-        contents.append(found.content)
-    assert len(set(contents)) == 3

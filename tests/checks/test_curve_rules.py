@@ -80,6 +80,13 @@ def test_no_force_up_to_ratio_0_loses_nothing(first: tuple[float, float], expect
     assert len(found(CURVES + curve("a", first, (0.5, 9.0)), "CRV006")) == 1
 
 
+def test_a_table_of_faults_is_told_up_to_a_limit() -> None:
+    rows = "".join(f" -{row}.5, 1\n 0.5, 1\n 0.5, 1\n" for row in range(2000))
+    text = CURVES + " CURVE=a\n 0, 0\n" + rows
+    codes = [code for code, _, _ in found(text, "CRV004", "CRV006")]
+    assert codes.count("CRV004") == codes.count("CRV006") == 1000
+
+
 @pytest.mark.parametrize(
     ("given", "place"),
     [

@@ -35,6 +35,12 @@ def test_columns_are_told_within_one_line_only() -> None:
     assert "col=2,endColumn=2," in line
 
 
+@pytest.mark.parametrize(("severity", "word"), [("error", "error"), ("warning", "warning"), ("info", "notice")])
+def test_severities(severity: str, word: str) -> None:
+    (line,) = form("github", [], "")([finding(severity=Severity(severity))])
+    assert line.startswith(f"::{word} ")
+
+
 def test_an_issue_has_what_the_report_asks_for() -> None:
     (issue,) = json.loads("".join(form("gitlab", [], "")([finding(file="./a.keyxm", message="wrong")])))
     assert len(issue.pop("fingerprint")) == 64

@@ -251,6 +251,11 @@ def test_hints_of_a_setting_say_what_to_write() -> None:
     assert "name the curve by CURVE= here, and give it to the set in STIFFNESS=" in by_set[0].message
 
 
+def test_a_setting_of_another_name_is_no_row() -> None:
+    (one,) = (each for each in found("$MODEL\n*SEABED UNLOADING\n SET=ALL\n KU=4E5\n") if each.code == "SYN004")
+    assert one.message == "*SEABED UNLOADING has no setting KU=: it takes SET=, STIFFNESS="
+
+
 def test_nodes_out_of_sight_are_one_info() -> None:
     nodes = DECK[DECK.index("*NODE") : DECK.index("*ELEMENT\n")]
     cable = "*CABLE\n 1, 1, 11, 100.0\n*NODE,CURVILINEAR\n 1, 1, 0.0\n 11, 1, 100.0\n CURV=1, 11, CABLE=1\n"

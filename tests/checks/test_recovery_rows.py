@@ -74,6 +74,10 @@ def test_the_one_curve_that_nothing_uses_is_named_where_one_is_not_defined() -> 
 
 
 def test_a_number_that_fits_no_neighbour_is_not_guessed() -> None:
+    twice = LISTED.replace(" 7, -0.05", " 6, -0.05")
+    assert "number 6 is given twice, and 7 is not defined: is this one 7?" in "".join(
+        one.message for one in found(twice)
+    )
     text = LISTED.replace(" 7, -0.05", " 3, -0.05").replace("*ELEMENT\n 1, 1, 2", "*ELEMENT\n 1, 1, 99")
     assert "is this one 99" not in "".join(one.message for one in found(text))
 

@@ -137,34 +137,6 @@ def test_a_file_that_is_named_is_taken(decks: Path) -> None:
     assert names("decks/a.keyxm") == ["decks/a.keyxm"]
 
 
-def test_deeper_files_go_first_and_may_take_back(decks: Path) -> None:
-    ignore(decks, "*.keyxm")
-    ignore(decks / "runs/2", "!keep.keyxm")
-    assert names("decks") == ["decks/runs/2/keep.keyxm"]
-
-
-def test_nothing_in_a_hidden_folder_is_taken_back(decks: Path) -> None:
-    ignore(decks, "runs/")
-    ignore(decks / "runs", "!*")
-    assert names("decks") == ["decks/a.keyxm", "decks/old/b.keyxm"]
-
-
-def test_patterns_hold_from_their_own_folder(decks: Path) -> None:
-    ignore(decks / "runs", "/2/d.keyxm", "/runs", "/old")
-    assert "decks/runs/2/d.keyxm" not in names("decks")
-    assert "decks/old/b.keyxm" in names("decks")
-    assert len(names("decks")) == 4
-
-
-def test_files_above_hold_in_a_repository(decks: Path) -> None:
-    ignore(decks.parent, "/decks/runs/2", "decks")
-    assert len(names("decks")) == 5
-    (decks.parent / ".git").mkdir()
-    assert names("decks/runs") == ["decks/runs/1/c.keyxm"]
-    (decks / ".git").write_text("gitdir: elsewhere", encoding="utf-8")
-    assert len(names("decks/runs")) == 3
-
-
 def test_a_hidden_folder_that_is_named_is_searched(decks: Path) -> None:
     (decks.parent / ".git").mkdir()
     ignore(decks.parent, "runs")

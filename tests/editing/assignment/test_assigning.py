@@ -56,11 +56,6 @@ def test_only_the_value_changes(deck: str, text: str, old: str, new: str) -> Non
     assert changed(deck, text) == deck.replace(old, new)
 
 
-def test_a_value_that_is_there_already_keeps_its_spelling() -> None:
-    assert changed(TIMES, "TIME.step=5e-2") == TIMES
-    assert changed(CLEAN, "SEABED PROPERTIES.stiffness=CLAY") == CLEAN
-
-
 @pytest.mark.parametrize("text", ["TIME.step=1", "SEABED PROPERTIES[set=Pip].stiffness=1", "NODE[node=9].x=1"])
 def test_a_deck_may_have_no_such_value(text: str) -> None:
     assert changed(CLEAN, text) is None

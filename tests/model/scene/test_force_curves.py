@@ -48,12 +48,6 @@ def test_two_forces_at_one_ratio_are_told_at_the_later_point() -> None:
     assert not entry.usable
 
 
-def test_slopes_beyond_a_double_are_told_at_the_later_point() -> None:
-    text = STIFFNESS + " CURVE=a\n 0, 0\n 1.0E-4, 1.0E305\n 1, 1\n"
-    assert reported(text) == [("E", "CRV011", 5, 2)]
-    assert "points 1 and 2" in messages(text)[0]
-
-
 def test_a_fault_behind_points_left_out_counts_no_points() -> None:
     text = STIFFNESS + " CURVE=a\n 0, 0\n 0, 1\n 1.0E-4, 1.0E305\n"
     assert reported(text) == [("E", "CRV003", 5, 2), ("E", "CRV011", 6, 2)]
