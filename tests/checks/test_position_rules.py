@@ -6,7 +6,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -311,6 +311,7 @@ PLACES = st.sampled_from(["0.0", "5.0", "10.0", "15.0", "20.0", "-1e150", "1e150
     st.lists(st.tuples(HEIGHTS, PLACES, PLACES), min_size=2, max_size=7),
     st.lists(st.tuples(st.integers(1, 8), st.integers(1, 8)), max_size=7),
 )
+@example([("-0.05", "0.0", "0.0"), ("-0.05", "0.0", "5.0"), ("-0.05", "0.0", "0.0")], [(1, 1)])
 def test_a_look_at_the_whole_line_changes_no_finding(
     nodes: list[tuple[str, str, str]], ends: list[tuple[int, int]]
 ) -> None:
