@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
+import importlib
 import inspect
 import pickle
 import re
@@ -76,6 +77,12 @@ def test_unknown_name() -> None:
 # ------------------------------------------------------------------------------------------------------------- reading
 
 
+def test_lint_stays_a_function_whatever_is_imported() -> None:
+    for module in ("mudline.api", "mudline.cli.lint_command"):
+        importlib.import_module(module)
+    assert inspect.isfunction(mudline.lint)
+
+
 def test_deck_is_read(path: Path) -> None:
     deck = mudline.read(path)
     assert isinstance(deck, mudline.Deck)
@@ -109,6 +116,13 @@ def test_what_cannot_be_read(path: Path) -> None:
     assert isinstance(caught.value, ValueError)
 
 
+def test_file_that_is_missing(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        mudline.read(tmp_path / "nowhere.keyxm")
+    with pytest.raises(FileNotFoundError):
+        mudline.lint(tmp_path / "nowhere.keyxm")
+
+
 def test_every_deck_is_of_one_class(path: Path) -> None:
     deck = mudline.read(path)
     texts = [mudline.from_keyword(CLEAN), mudline.from_json(deck.to_json()), mudline.from_yaml(deck.to_yaml())]
@@ -117,6 +131,18 @@ def test_every_deck_is_of_one_class(path: Path) -> None:
     assert [type(each) for each in made] == [mudline.Deck] * len(made)
     assert isinstance(deck, type(load_path(path)))
     assert copies[::2] == [deck, deck]
+
+
+def test_keyword_text(path: Path) -> None:
+    deck = mudline.from_keyword(CLEAN)
+    assert deck.sections == mudline.read(path).sections
+    assert (deck.file, deck.source, deck.folder) == ("<keyword>", "", None)
+    assert mudline.from_keyword(CLEAN.encode()) == deck
+    assert mudline.from_keyword(CLEAN, units="imperial").units == "imperial"
+    with pytest.raises(mudline.DeckError, match="<keyword>:6:11: SYN002 'ten' is not a number"):
+        mudline.from_keyword(BAD_NUMBER)
+    with pytest.raises(mudline.DeckError, match="SYN012"):
+        mudline.from_keyword(CLEAN.encode("utf-16"))
 
 
 TEXTS = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import rlcompleter
 from pathlib import Path
 
@@ -9,8 +10,10 @@ import numpy as np
 import pytest
 
 import mudline
+from mudline.model.contact.seabed import SlopingSeabed
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.scene.model import resolve
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 
@@ -58,6 +61,26 @@ def test_representations_of_the_main_objects(monkeypatch: pytest.MonkeyPatch) ->
         "<Evaluation of 'scr-touchdown.keyxm': metric, 1 step, 200 elements, 201 nodes>"
     )
     assert repr(contact.stiffest()) == "<Stiffest: curve, friction>"
+
+
+def test_representations_where_there_is_little() -> None:
+    contact = mudline.from_keyword(CLEAN).scene().contact()
+    assert repr(contact.initial_state()) == "<ContactState before the first step: nothing to remember>"
+    assert repr(contact.evaluate()) == "<ContactResult: elements (2,), nodes (3,)>"
+    assert repr(SlopingSeabed(5.0)).startswith("<SlopingSeabed: plane through the origin, slope 5 deg")
+
+
+def test_errors_are_counted(tmp_path: Path) -> None:
+    path = tmp_path / "bad.keyxm"
+    path.write_text(BAD_NUMBER, encoding="utf-8")
+    (finding,) = mudline.lint(path)
+    assert repr(finding).startswith("<Diagnostic: error ")
+    with pytest.raises(mudline.DeckError) as caught:
+        mudline.read(path)
+    assert repr(caught.value).startswith("<DeckError: 1 diagnostic; ")
+    assert repr(mudline.DeckError([])) == "<DeckError: 0 diagnostics>"
+    again = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 - our own bytes
+    assert (again.diagnostics, str(again)) == (caught.value.diagnostics, str(caught.value))
 
 
 @pytest.mark.parametrize("name", USED)

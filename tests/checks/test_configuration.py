@@ -79,6 +79,13 @@ def test_a_base_gives_what_a_file_does_not_set(tmp_path: Path) -> None:
     assert found.origins["ignore"] == (path, 2)
 
 
+def test_a_pyproject_may_be_a_base(tmp_path: Path) -> None:
+    path = _write(tmp_path, mudline='extend = "pyproject.toml"\n', pyproject='[tool.mudline]\nselect = ["REF"]\n')
+    found = read_configuration(path)
+    assert found is not None
+    assert found.words("select") == ["REF"]
+
+
 @pytest.mark.parametrize(
     ("texts", "message"),
     [

@@ -19,6 +19,11 @@ from tests.checks.findings import (
 )
 
 
+def test_only_the_first_point_out_of_order_is_told() -> None:
+    text = CURVES + curve("a", (0, 0), (0.3, 3), (0.2, 2), (0.5, 5), (0.1, 1)) + curve("b", (1, 1), (0, 0))
+    assert found(text, "CRV002") == [("CRV002", 6, 2), ("CRV002", 11, 2)]
+
+
 def test_points_given_twice_are_told_at_the_later_ones() -> None:
     text = CURVES + curve("a", (0, 0), (0.3, 3), (0, 0), (0.3, 4), (0.3, 4), (0.3, 3))
     assert found(text, "CRV003", "CRV004") == [
@@ -45,6 +50,11 @@ def test_the_smallest_diameter_needs_most() -> None:
     assert "|slope| / D = 20 (the smallest D = 0.1)" in messages(text + " STIFFNESS=a\n", "CRV005")[0]
 
 
+def test_each_falling_segment_is_told_in_the_order_of_the_ratios() -> None:
+    text = CURVES + curve("a", (0.4, 1), (0.3, 3), (0, 0), (0.2, 2), (0.1, 4))
+    assert found(text, "CRV005") == [("CRV005", 4, 2), ("CRV005", 7, 2)]
+
+
 @pytest.mark.parametrize(
     "points",
     [
@@ -58,10 +68,23 @@ def test_forces_that_do_not_fall_below_the_mudline(points: tuple[tuple[float, fl
     assert found(CURVES + curve("a", *points), "CRV005") == []
 
 
+def test_points_above_the_mudline_are_told_each() -> None:
+    text = CURVES + curve("a", (-0.5, 0), (-0.25, 10), (0, 20), (-0.0, 20), (1, 30))
+    assert found(text, "CRV006") == [("CRV006", 4, 2), ("CRV006", 5, 2)]
+    assert ["invert" in message for message in messages(text, "CRV006")] == [True, False]
+
+
 @pytest.mark.parametrize(("first", "expected"), [((-1.0, 0.0), 0), ((-1.0, 5.0), 1), ((-1.0, -0.5), 1)])
 def test_no_force_up_to_ratio_0_loses_nothing(first: tuple[float, float], expected: int) -> None:
     assert len(found(CURVES + curve("a", first, (0.0, 0.0), (0.5, 9.0)), "CRV006")) == expected
     assert len(found(CURVES + curve("a", first, (0.5, 9.0)), "CRV006")) == 1
+
+
+def test_a_table_of_faults_is_told_up_to_a_limit() -> None:
+    rows = "".join(f" -{row}.5, 1\n 0.5, 1\n 0.5, 1\n" for row in range(2000))
+    text = CURVES + " CURVE=a\n 0, 0\n" + rows
+    codes = [code for code, _, _ in found(text, "CRV004", "CRV006")]
+    assert codes.count("CRV004") == codes.count("CRV006") == 1000
 
 
 @pytest.mark.parametrize(
@@ -131,6 +154,13 @@ def test_elements_beyond_their_curve() -> None:
 # ------------------------------------------------------------------------------------- rules over sections and elements
 
 
+@pytest.mark.parametrize(
+    ("di", "fires"), [("0.2499", False), ("0.25", True), ("0.3", True), ("=[0.25]", True), ("x", False)]
+)
+def test_a_pipe_needs_a_wall(di: str, fires: bool) -> None:
+    assert bool(found(PIPE.replace("0.22", di), "GEO001")) is fires
+
+
 def test_a_number_beside_its_curve() -> None:
     text = "$MODEL\n*GEOMETRIC SETS\n SET=ALL, {}\n {}, 90, 1, 0.2, 0.4, 0.3\n"
     assert found(text.format("EI=x, GJ=y", ", , , 1"), "GEO002") == []
@@ -150,6 +180,14 @@ def test_the_drag_diameter_is_told_only_under_a_curve() -> None:
     assert found(FLEXIBLE + PROPERTIES + " STIFFNESS=5E4\n", "GEO003") == []
     assert found(FLEXIBLE.replace("0.3\n", "0.3, 0.35\n") + ON_CLAY, "GEO003") == []
     assert found(PIPE + ON_CLAY, "GEO003") == []
+
+
+def test_elements_without_length() -> None:
+    text = "$MODEL\n*NODE\n 1, 1, 0\n 2, 1, 0\n 3, 1, 1E-9\n*ELEMENT\n 1, 1, 2\n 2, 2, 3\n 3, 3, 3\n 4, 3, 9\n"
+    assert found(text, "GEO004") == [("GEO004", 7, 2), ("GEO004", 9, 2)]
+    assert "both its ends are node 3" in messages(text, "GEO004")[1]
+    finding = lint_bytes((text + "*FLEX JOINTS\n x\n").encode(), "deck.keyxm", select(["GEO004"]))[0]
+    assert finding.severity == "warning"
 
 
 def test_a_generator_of_elements_without_length_is_told_once() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.context import LintContext
@@ -235,7 +235,6 @@ _decks = st.builds(
 )
 
 
-@settings(max_examples=60)
 @given(_decks)
 def test_nothing_deck_like_raises(content: bytes) -> None:
     _check(content, "deck.keyxm")
@@ -261,7 +260,6 @@ def test_decks_of_which_nothing_is_to_be_said(text: str) -> None:
 
 
 @given(mutated(valid_texts.map(str.encode)), st.integers(0, 3))
-@settings(max_examples=30)
 def test_a_block_that_was_read_before_somewhere_else(data: bytes, lines: int) -> None:
     read_deck(data, "a.keyxm")
     moved = b"C a line more\n" * lines + data

@@ -87,6 +87,12 @@ def test_a_fix_that_makes_the_deck_worse_is_dropped_and_the_others_are_made(bad:
     assert "not made" in result.note
 
 
+def test_of_two_repairs_of_one_place_the_second_is_made_where_the_first_cannot_be() -> None:
+    result = fix(DECK, replacing("4000.0", "4O00.0"), replacing("4000.0", "5000.0", code="TST002"))
+    assert result.changed == DECK.replace("4000.0", "5000.0").encode()
+    assert [one.code for one in result.fixed] == ["TST002"]
+
+
 @pytest.mark.parametrize(
     ("first", "second", "fixing", "made"),
     [
@@ -110,6 +116,14 @@ def test_of_repairs_that_overlap_one_is_made_at_once(
     assert (result.changed, result.note) == (DECK.replace("0.5, 4000.0", made).encode(), "")
 
 
+def test_a_repair_that_was_refused_is_made_when_another_has_made_it_possible() -> None:
+    use = replacing("STIFFNESS=Clay$", "STIFFNESS=Sand")
+    curve = " 0.5, 4001.0\n CURVE=Sand\n 0.0, 0.0\n 0.5, 1000.0"
+    define = replacing(" 0.5, 4000.0$", curve, code="TST002", kind="unsafe")
+    expected = DECK.replace("STIFFNESS=Clay", "STIFFNESS=Sand").replace(" 0.5, 4000.0", curve)
+    assert changed(DECK, use, define, fixing=Fixing.UNSAFE) == expected
+
+
 def test_errors_of_reading_are_fixed_before_others() -> None:
     text = DECK.replace("STIFFNESS=Clay", "STIFNESS=Clay")
     mend = replacing("STIFNESS", "STIFFNESS", code="SYN004", kind="unsafe", severity=Severity.ERROR)
@@ -129,6 +143,14 @@ def test_bad_repairs_among_good_ones_are_found_by_halving(monkeypatch: pytest.Mo
     assert result.changed == FOUR.replace("2.0\n", "2.5\n").replace("4.0\n", "4.5\n").encode()
     monkeypatch.setattr(fixing_module, "MOST_TRIES", 7)
     assert fix(FOUR, bad, good).changed == FOUR.replace("2.0\n", "2.5\n").encode()
+
+
+def test_of_repairs_that_are_bad_together_one_is_made() -> None:
+    """Either row may be at the ratio 0.25, not both."""
+    result = fix(FOUR, replacing(r"0\.2, ", "0.25, "), replacing(r"0\.3, ", "0.25, ", code="TST002"))
+    assert result.changed == FOUR.replace("0.2, ", "0.25, ").encode()
+    assert [one.code for one in result.fixed] == ["TST001"]
+    assert result.note == "1 fix not made: the deck would have had a new error or lost something"
 
 
 def test_errors_that_were_there_before_keep_nothing_from_being_fixed() -> None:
@@ -235,6 +257,14 @@ def test_fixing_ends_where_rules_do_not() -> None:
     assert result.note == f"fixing was stopped after {MOST_PASSES} passes: run it again to see what is left"
 
 
+@pytest.mark.untraced
+def test_many_bad_fixes_end_soon() -> None:
+    rows = "".join(f" {ratio}.0, {ratio}7.0\n" for ratio in range(300))
+    result = fix(f"{CURVES} CURVE=Clay\n{rows}", replacing("7.0$", "x"))
+    assert result.changed is None
+    assert result.note.startswith("300 fixes not made")
+
+
 def test_unused_suppressions_are_removed() -> None:
     text = DECK.replace(" CURVE=Clay", "C mudline: ignore CRV005\n CURVE=Clay")
     assert changed(text, *rules()) == DECK
@@ -284,6 +314,13 @@ def test_a_finding_is_as_severe_as_the_worst_below_it(given: dict[str, Severity]
     )
     assert one.severity.value == above
     assert [each.severity.value for each in one.following] == [below, "info"]
+
+
+def test_severities_of_findings_below_another_change_under_it() -> None:
+    below = finding(code="TST002", severity=Severity.INFO)
+    cause = finding(code="TST001", severity=Severity.ERROR, following=(below,))
+    (one,) = with_severities([cause], LintSettings((), severities={"TST002": Severity.WARNING}))
+    assert (one.severity, one.following[0].severity) == (Severity.ERROR, Severity.WARNING)
 
 
 def test_passes_that_are_all_made_are_told_while_there_are_tries(monkeypatch: pytest.MonkeyPatch) -> None:

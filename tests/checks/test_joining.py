@@ -44,6 +44,12 @@ def test_two_rows_stay_apart_and_three_are_one() -> None:
     assert joined(at(3), at(1), at(2)) == [(1, "bad; and 2 more rows of this block (2, 3), the last in line 5", 2)]
 
 
+def test_numbers_of_rows_are_named_while_they_are_few() -> None:
+    rows = [at(row) for row in range(1, 7)]
+    assert joined(*rows[:5])[0][1].endswith("4 more rows of this block (2, 3, 4, 5), the last in line 7")
+    assert joined(*rows)[0][1].endswith("5 more rows of this block, the last in line 8")
+
+
 def test_rows_that_do_not_follow_each_other_or_say_something_else_are_apart() -> None:
     assert len(joined(at(1), at(2), at(4))) == 3
     assert len(joined(at(1), at(2, "worse"), at(3))) == 3
@@ -64,6 +70,13 @@ def test_the_fields_of_a_row_are_one_where_they_are_three_or_all() -> None:
     (one,) = joined_findings(context(short), two)
     assert one.message == "bad; and 1 more field of this row"
     assert joined(*(at(1, "open", SYN014, column=column) for column in (1, 4)))[0][2] == 1
+
+
+def test_three_fields_of_a_row_of_four_are_one() -> None:
+    text = "$MODEL\n*NODE\n 1, 2, 3, 4\n"
+    three = [Problem(SYN002, "bad", Span(text.index(each), text.index(each) + 1)) for each in "123"]
+    assert [one.message for one in joined_findings(context(text), three)] == ["bad; and 2 more fields of this row"]
+    assert len(joined_findings(context(text), three[:2])) == 2
 
 
 def test_rows_whose_fields_are_joined_too_say_both() -> None:
@@ -118,6 +131,17 @@ def test_a_finding_is_as_bad_as_those_below_it() -> None:
         assert (found.weight, found.blocking) == expected
         assert found.following == tuple(others)
         assert found.message == "bad; words"
+
+
+def test_how_many_are_left_out_is_said_where_a_joint_has_no_words() -> None:
+    assert joining._joined(at(1), [at(2)], "").message == "bad; 1 finding that follows from it is left out"
+    assert joining._joined(at(1), [at(2)] * 2, "").message == "bad; 2 findings that follow from it are left out"
+
+
+def test_what_was_below_those_below_is_beside_them() -> None:
+    inner = joining._joined(at(3), [at(4)], "x")
+    found = joining._joined(joining._joined(at(1), [at(2)], "x"), [inner], "y")
+    assert [(one.span, one.following) for one in found.following] == [(at(row).span, ()) for row in (2, 3, 4)]
 
 
 def test_the_repair_of_findings_that_say_the_same_mends_all_of_them() -> None:

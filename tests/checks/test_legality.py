@@ -6,9 +6,10 @@ import json
 from functools import cache
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
-from mudline.checks.engine import LintSettings, lint_bytes
+from mudline.checks.context import LintContext
+from mudline.checks.engine import LintSettings, lint_bytes, problems_in
 from mudline.checks.fixing import lint_one
 from mudline.checks.registry import rules
 from mudline.language.deck.loading import load_bytes
@@ -32,7 +33,6 @@ def test_decks_about_a_pipe_on_a_seabed(first: int) -> None:
 
 
 @given(document())
-@settings(max_examples=30)
 def test_documents_of_all_keywords(values: Values) -> None:
     found = outcome(json.dumps(values).encode(), "deck.json")
     assert found.agrees, found
@@ -78,3 +78,9 @@ def test_a_curve_that_is_cut_blocks_nothing() -> None:
     scene = resolve(load_bytes(text.encode(), "deck.keyxm"))
     assert scene.require() is scene
     assert scene.contact(tension="cut").evaluate().contact.all()
+
+
+def test_a_rule_that_advises_never_blocks() -> None:
+    context = LintContext(load_bytes(CUTOFF.encode(), "deck.keyxm"), dialect="flexcom")
+    chosen = [rule for rule in rules() if rule.check is not None and not rule.blocks]
+    assert {problem.blocking.value for problem in problems_in(context, chosen)} == {"never"}

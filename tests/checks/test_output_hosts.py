@@ -8,8 +8,9 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
+from junitparser import JUnitXml
 from markdown_it import MarkdownIt
 
 from mudline.checks.output import form, visible
@@ -25,6 +26,19 @@ def test_a_command_escapes_what_would_end_a_property_or_the_line() -> None:
     (line,) = form("github", [], "")([finding(file="a,b:c%.keyxm", message="50% of\r\nall: x,y")])
     head = "::warning file=a%2Cb%3Ac%25.keyxm,line=3,endLine=3,col=2,endColumn=5,title=LEG001 superseded-keyword"
     assert line == f"{head}::50%25 of\ufffd\ufffdall: x,y\n"
+
+
+def test_columns_are_told_within_one_line_only() -> None:
+    (line,) = form("github", [], "")([finding(end_line=5)])
+    assert "line=3,endLine=5,title=" in line
+    (line,) = form("github", [], "")([finding(end_column=2)])
+    assert "col=2,endColumn=2," in line
+
+
+@pytest.mark.parametrize(("severity", "word"), [("error", "error"), ("warning", "warning"), ("info", "notice")])
+def test_severities(severity: str, word: str) -> None:
+    (line,) = form("github", [], "")([finding(severity=Severity(severity))])
+    assert line.startswith(f"::{word} ")
 
 
 def test_an_issue_has_what_the_report_asks_for() -> None:
@@ -73,7 +87,6 @@ def _unescaped(text: str, more: str) -> str:
     return text
 
 
-@settings(max_examples=30)
 @given(TEXTS, TEXTS)
 def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
     (text,) = form("github", [], "")([finding(file=file, message=message)])
@@ -121,6 +134,16 @@ def test_whatever_a_deck_holds_is_good_xml(file: str, message: str) -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------- Markdown
+
+
+def test_control_characters_are_replaced() -> None:
+    found = finding(file="o\x1bdd.keyxm", message="10\x1b[31m\x00<&\"']]>\ud800\ufffe\x85é")
+    opened = JUnitXml.fromstring("".join(form("junit", [found.file], "")([found])).encode())
+    assert isinstance(opened, JUnitXml)
+    ((case,),) = opened
+    (failure,) = case.result
+    assert case.classname == "o\ufffddd.keyxm"
+    assert failure.text == failure.message == "o\ufffddd.keyxm:3:2: 10\ufffd[31m\ufffd<&\"']]>\ufffd\ufffd\ufffdé"
 
 
 def table_of(found: list[Diagnostic]) -> tuple[str, list[list[str]]]:

@@ -67,6 +67,14 @@ def test_a_rule_brings_its_help() -> None:
     assert rule["defaultConfiguration"]["level"] in {"error", "warning", "note"}
 
 
+def test_a_code_without_a_rule_is_described_by_its_name() -> None:
+    (rule,) = run_of(finding(code="XXX999", slug="no-such-rule"))["tool"]["driver"]["rules"]
+    assert (rule["id"], rule["name"], rule["shortDescription"]["text"]) == ("XXX999", "NoSuchRule", "No such rule.")
+    assert rule["defaultConfiguration"] == {"level": "warning", "enabled": True}
+    assert rule["help"]["text"].endswith(rule["fullDescription"]["text"])
+    assert "markdown" not in rule["help"]
+
+
 def test_fingerprints_do_not_depend_on_lines() -> None:
     one, other = run_of(finding(line=3), finding(line=8)), run_of(finding(line=4), finding(line=9))
     prints = [[result["partialFingerprints"] for result in run["results"]] for run in (one, other)]
@@ -123,6 +131,13 @@ def test_a_rule_of_a_plugin_has_the_address_that_its_package_tells(tmp_path: Pat
     assert (rule["id"], rule["helpUri"]) == ("ACM001", "https://acme.example/rules")
     (found,) = plugin_lint(tmp_path, "json", "Documentation, https://acme.example/rules").json()
     assert found["url"] == "https://acme.example/rules"
+
+
+def test_a_page_among_the_installed_files_is_no_address_of_a_report(here: Path) -> None:
+    (here / "deck.keyxm").write_text(BAD_NUMBER, encoding="utf-8")
+    (rule,) = log_of(run("lint", "deck.keyxm", "--output-format", "sarif"))["tool"]["driver"]["rules"]
+    assert rule["id"] == "SYN002"
+    assert "helpUri" not in rule
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no file names in odd bytes")

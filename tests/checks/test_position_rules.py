@@ -6,7 +6,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -164,6 +164,14 @@ def test_a_set_with_two_sections(names: tuple[str, ...], more: str, expected: in
 # ------------------------------------------------------------------------------------------------------------ friction
 
 
+def test_the_second_section_is_reported_also_in_another_block() -> None:
+    text = BARE + STEEL.format("A") + "*GEOMETRIC SETS\n OPTION=TRUSS\n SET=A\n , 5.0, 0.1\n"
+    assert found(text, "GEO006") == [("GEO006", text.count("\n") - 1, 6)]
+    assert messages(text, "GEO006") == [
+        "SET='A' already has a section, and SET='B' has none: correct one of the two names"
+    ]
+
+
 @pytest.mark.parametrize(
     ("lines", "place"),
     [
@@ -214,6 +222,14 @@ def soil(name: str, stiffness: int = 5000) -> str:
 )
 def test_a_definition_that_no_element_gets(lines: str, expected: list[int]) -> None:
     assert found(MODEL + lines, "SBD025") == [("SBD025", line, 6) for line in expected]
+
+
+def test_a_set_without_elements() -> None:
+    empty = MODEL.replace(" SET=B\n GEN=6, 10\n", " SET=B\n SET=C\n SUBSET=B\n")
+    assert found(empty + soil("B"), "SBD025") == []  # REF010 speaks of the set
+    assert found(empty + soil("B"), "REF010") == [("REF010", 16, 2)]
+    (message,) = messages(empty + soil("C"), "SBD025")
+    assert "as no subset of SET='C' has any" in message
 
 
 @pytest.mark.parametrize(
@@ -291,12 +307,11 @@ HEIGHTS = st.sampled_from(["-0.05", "-2.0", "0.0", "-0.0", "30.0", "1e150", "=[n
 PLACES = st.sampled_from(["0.0", "5.0", "10.0", "15.0", "20.0", "-1e150", "1e150", "1e-170", "", "=[nothing]"])
 
 
-@settings(max_examples=50, deadline=None)
 @given(
     st.lists(st.tuples(HEIGHTS, PLACES, PLACES), min_size=2, max_size=7),
     st.lists(st.tuples(st.integers(1, 8), st.integers(1, 8)), max_size=7),
 )
-@example([("-0.05", "0.0", "0.0"), ("-0.05", "0.0", "5.0"), ("-0.05", "5.0", "0.0"), ("-0.05", "5.0", "0.0")], [])
+@example([("-0.05", "0.0", "0.0"), ("-0.05", "0.0", "5.0"), ("-0.05", "0.0", "0.0")], [(1, 1)])
 def test_a_look_at_the_whole_line_changes_no_finding(
     nodes: list[tuple[str, str, str]], ends: list[tuple[int, int]]
 ) -> None:
@@ -342,3 +357,10 @@ def test_heights_above_the_sea_surface(nodes: tuple[str, ...], expected: str) ->
     told = messages(riser(*nodes), "GEO005")
     assert len(told) == bool(expected)
     assert all(expected in message for message in told)
+
+
+def test_x_above_the_sea_surface_names_the_depth() -> None:
+    (message,) = messages(line("-420.05, 0.0", "-420.05, 100.0"), "SBD022")
+    assert message.endswith("correct the datum of X, which is 0 at the mudline and not at the sea surface: add 420")
+    (message,) = messages(line("-300.0, 0.0", "-300.0, 100.0"), "SBD022")
+    assert message.endswith("correct the datum of X")

@@ -116,6 +116,19 @@ PLAIN = {
 """Faults that nothing is known to correct: each has its finding, and there may be others."""
 
 
+@pytest.mark.parametrize(("change", "code", "line"), PLAIN.values(), ids=PLAIN)
+def test_a_fault_without_a_correction_is_found_at_its_place(change: tuple[str, str], code: str, line: int) -> None:
+    assert (code, line) in {(one.code, one.line) for one in found(changed(change))}
+
+
+@pytest.mark.parametrize("change", [change for change, _, _ in CAUSES.values()], ids=CAUSES)
+def test_a_deck_that_is_refused_is_refused_with_the_cause(change: tuple[str, str]) -> None:
+    deck = load_bytes(changed(change).encode(), "deck.keyxm")
+    refused = deck.diagnose(resolve(deck).blocking())
+    if refused:
+        assert named_causes(deck, refused, rules()) == [only(changed(change))]
+
+
 SECOND = {
     "an element in a set": ((" 6, 7, 8, 9, 10\n", " 6, 7, 8, 9, 99\n"), ("REF005", 15)),
     "a curve that is not defined": (("STIFFNESS=Clay", "STIFFNESS=Mud"), ("REF002", 29)),
@@ -187,6 +200,13 @@ def test_a_warning_is_an_error_where_the_deck_as_written_is_illegal() -> None:
     assert (one.code, one.severity, one.blocks) == ("SYN015", Severity.ERROR, True)
 
 
+def test_decimal_commas_of_a_row_with_too_many_fields_are_an_error() -> None:
+    (one,) = found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))
+    assert (one.code, one.severity) == ("SYN015", Severity.ERROR)
+    assert one.fix is not None
+    assert [edit.text for edit in one.fix.edits] == ["0.5, 20000.5"]
+
+
 def test_the_severity_of_the_configuration_holds_for_the_cause() -> None:
     text = changed(("*NODE\n", "*NODS\n")).encode()
     mild = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO})
@@ -215,6 +235,25 @@ def test_a_fix_is_made_as_before() -> None:
 
 
 # ---------------------------------------------------------------------------------------------- what to write instead
+
+
+@pytest.mark.parametrize("mark", ["#", "//", "!", ";", "--"])
+def test_a_comment_of_another_program_is_named(mark: str) -> None:
+    one = only(changed(("*NODE\n", f"*NODE\n{mark} the nodes, as laid\n")))
+    assert one.message == f"'{mark} the nodes, as laid' is read as data: begin a comment with C and a space"
+    assert (one.line, one.column) == (5, 1)
+
+
+def test_hints_of_a_setting_say_what_to_write() -> None:
+    (empty,) = found(changed((" SET=Left\n STIFF", " SET=\n STIFF")))
+    assert empty.message == "SET= has no value: write the name of a set after it (ALL is every element)"
+    by_set = found(changed((" CURVE=Clay\n", " SET=Left\n")))
+    assert "name the curve by CURVE= here, and give it to the set in STIFFNESS=" in by_set[0].message
+
+
+def test_a_setting_of_another_name_is_no_row() -> None:
+    (one,) = (each for each in found("$MODEL\n*SEABED UNLOADING\n SET=ALL\n KU=4E5\n") if each.code == "SYN004")
+    assert one.message == "*SEABED UNLOADING has no setting KU=: it takes SET=, STIFFNESS="
 
 
 def test_nodes_out_of_sight_are_one_info() -> None:

@@ -16,6 +16,9 @@ from tests.cli.runner import run
 
 NODES = DECK[DECK.index("*NODE") : DECK.index("*ELEMENT\n")]
 ROWS = "*NODE\n" + "".join(f" {number}, -0.05, {10.0 * number - 10.0}\n" for number in range(1, 12))
+LISTED = DECK.replace(NODES, ROWS)
+
+
 CURVE = " CURVE=Clay\n 0.0, 0.0\n 0.5, 20000.0\n"
 POINTS = " CURVE=Clay\n 1, 0.0, 0.0\n 2, 0.1, 8000.0\n 3, 0.3, 15000.0\n 4, 0.5, 20000.0\n"
 SECTION = " SET=ALL\n 1.0E8, 1.0E8, 8.0E7, 3.5E9, 130.0, 0.0, 0.2889, 0.3239, 0.3239, 0.3239\n"
@@ -70,7 +73,13 @@ def test_the_one_curve_that_nothing_uses_is_named_where_one_is_not_defined() -> 
     assert "(did you mean Clay, which nothing uses?)" in one.message
 
 
-FALLING = " CURVE=Clay\n 0.0, 3000.0\n 0.1, 2000.0\n 0.5, 0.0\n"
+def test_a_number_that_fits_no_neighbour_is_not_guessed() -> None:
+    twice = LISTED.replace(" 7, -0.05", " 6, -0.05")
+    assert "number 6 is given twice, and 7 is not defined: is this one 7?" in "".join(
+        one.message for one in found(twice)
+    )
+    text = LISTED.replace(" 7, -0.05", " 3, -0.05").replace("*ELEMENT\n 1, 1, 2", "*ELEMENT\n 1, 1, 99")
+    assert "is this one 99" not in "".join(one.message for one in found(text))
 
 
 def test_two_softening_parts_of_a_curve_are_two_findings() -> None:
@@ -157,6 +166,16 @@ def test_names_that_tell_things_apart_are_not_near(defined: str, used: str) -> N
     assert (one.code, one.fix) == ("REF002", None)
 
 
+@pytest.mark.parametrize(
+    ("text", "line"), [(DECK.replace(" CURVE=Sand\n", ""), 23), (SURFACE.replace(" SET=Right\n 0", " 0"), 25)]
+)
+def test_points_that_begin_again_lack_their_name(text: str, line: int) -> None:
+    (one,) = (each for each in found(text) if each.severity is not Severity.INFO)
+    assert (one.code, one.line) == ("SYN001", line)
+    assert "seems to be missing above this one" in one.message
+    assert one.fix is not None
+
+
 ROWS_OF_ELEMENTS = "".join(f" {number}, {number}, {number + 1}\n" for number in range(1, 11))
 LISTED_ELEMENTS = DECK.replace(" 1, 1, 2\n GEN=1, 10\n", ROWS_OF_ELEMENTS)
 
@@ -179,6 +198,27 @@ def test_a_number_that_may_be_one_of_two_is_not_guessed() -> None:
 
 
 # ---------------------------------------------------------------------------------------------- lines of other keywords
+
+
+CAUSES_OF_LINES = {
+    "a star before a word that may be a label": ("*GEOMETRIC SETS\n", "GEOMETRIC SETS\n", "SYN001", 16),
+    "a star in a block that is passed through": ("*BOUNDARY\n", "BOUNDARY\n", "SYN001", 37),
+    "a star before a word with C": (
+        " TYPE=STATIC\n",
+        " TYPE=STATIC\nCURRENT\n TYPE=UNIFORM\n 0.5, 180.0\n",
+        "SYN013",
+        37,
+    ),
+    "a star below $MODEL": ("*OCEAN\n", "OCEAN\n", "SYN011", 2),
+    "a keyword of sections": ("*GEOMETRIC SETS\n", "", "SYN002", 17),
+}
+
+
+@pytest.mark.parametrize(("right", "wrong", "code", "line"), CAUSES_OF_LINES.values(), ids=CAUSES_OF_LINES)
+def test_a_line_of_another_keyword_is_one_finding(right: str, wrong: str, code: str, line: int) -> None:
+    (one,) = (each for each in found(DECK.replace(right, wrong, 1)) if each.code != "GEO008")  # of the current itself
+    assert (one.code, one.line) == (code, line)
+    assert one.fix is not None
 
 
 def test_a_missing_keyword_line_is_put_in_by_an_unsafe_fix() -> None:
@@ -225,3 +265,8 @@ def test_a_refusal_names_the_causes(command: str, tmp_path: Path) -> None:
 def test_a_keyword_whose_block_does_not_read_is_not_taken_for_another_one() -> None:
     text = changed(("*NODE\n", "*NODS\n"), (" 11, -0.05, 100.0\n", " 11, -0.05\n"))
     assert {"SYN009", "REF006"} <= {one.code for one in found(text)}
+
+
+def test_a_value_that_cannot_be_read_stays_unknown() -> None:
+    falling = " CURVE=Clay\n 0.0, 0.0\n 0.2, 9OO.0\n 0.5, 500.0\n 0.6, 600.0\n"
+    assert [one.code for one in found(changed((CURVE, falling)))] == ["SYN002"]

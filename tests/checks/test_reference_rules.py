@@ -43,6 +43,12 @@ def test_a_curve_whose_name_reads_as_a_number_is_not_reached() -> None:
     assert found(text, "REF003", "SBD017") == [("SBD017", 3, 8)]
 
 
+def test_a_second_curve_of_a_set_is_a_duplicate_too() -> None:
+    text = "$MODEL\n*ELASTIC SURFACE\n ,\n*EMBEDMENT\n 0, 0\n 1, 1\n SET=all\n 0, 0\n 1, 1\n"
+    assert found(text, "REF004") == [("REF004", 7, 6)]
+    assert messages(text, "REF004")[0].startswith("set 'all' already has a curve")
+
+
 @pytest.mark.parametrize(("again", "letter"), [(" 9, 8\n", "info"), (" 3\n", "warning"), (" GEN=2, 9\n", "warning")])
 def test_a_repeated_set_whose_elements_add_up_is_an_info(again: str, letter: str) -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET=A\n 1, 2\n GEN=3, 4\n SET=a\n" + again
@@ -54,11 +60,6 @@ def test_names_of_256_characters_are_fine() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET={}\n GEN=1, 2\n"
     assert found(text.format("x" * 256), "REF011") == []
     assert found(text.format("x" * 257), "REF011") == [("REF011", 3, 6)]
-
-
-FLEXIBLE = PIPE.replace("RIGID", "FLEXIBLE").replace(
-    "207.0E9, 79.6E9, 0.25, 0.22, 7850.0", ", , , , 90, 1, 0.2, 0.4, 0.3"
-)
 
 
 def listed(count: int, separator: str = ", ") -> str:
@@ -101,6 +102,12 @@ def test_sets_are_repeated_without_case_and_over_blocks() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET=a\n 1\n SET=b\n 2\n*ELEMENT SETS\n SET=A\n 3\n SET=ALL\n 1\n SET=All\n"
     text += " SET=\n SET=a\n"
     assert found(text, "REF016") == [("REF016", 8, 6), ("REF016", 14, 6)]
+
+
+def test_items_of_lists_repeat_parameters() -> None:
+    text = "$PREPROCESSOR\n*PARAMETERS\n soil_k, 1\n Soil, /K:2, mu:3/\n n, /1 2/\n n, /3 4/\n od\n x, =[soil_k]\n"
+    assert found(text, "REF017") == [("REF017", 4, 2), ("REF017", 6, 2)]
+    assert "and 1 more" in messages(text, "REF017")[1]
 
 
 @pytest.mark.parametrize(

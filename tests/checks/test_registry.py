@@ -28,6 +28,11 @@ def test_a_code_or_a_slug_in_any_case_names_one_rule(word: str) -> None:
     assert _codes(select([word])) == ["SYN002"]
 
 
+def test_a_prefix_names_all_rules_that_begin_with_it() -> None:
+    assert _codes(select(["syn00"])) == [f"SYN00{digit}" for digit in range(1, 10)]
+    assert set(_codes(select(["SYN", "LEG"]))) == {code for code in _codes(rules()) if code[:3] in ("SYN", "LEG")}
+
+
 def test_ignored_rules_are_left_out_whatever_names_them() -> None:
     assert _codes(select(["SYN00"], ["SYN002", "unreadable-line"]))[0] == "SYN003"
     assert "LEG001" not in _codes(select(ignored=["LEG"]))
@@ -57,6 +62,13 @@ def test_a_word_that_names_no_rule_is_refused_with_a_hint(word: str, hint: str) 
 
 
 # ----------------------------------------------------------------------------------------- where the pages of rules are
+
+
+@pytest.mark.parametrize("place", ["chosen", "ignored", "also"])
+def test_a_word_is_checked_wherever_it_stands(place: str) -> None:
+    with pytest.raises(UnknownRule, match="did you mean SYN001"):
+        select(**{place: ["SYN0001"]})
+
 
 TOLD = (
     ("", None),

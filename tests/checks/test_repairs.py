@@ -12,6 +12,7 @@ from mudline.checks.engine import Fixing, LintSettings, lint_bytes
 from mudline.checks.fixing import fix_bytes
 from mudline.checks.registry import select
 from mudline.editing.migration.migrating import Migration, legacy_blocks, migrate
+from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from tests.checks import corpus
@@ -87,6 +88,17 @@ def test_labels_get_braces_in_rows_lists_and_tables() -> None:
 # ------------------------------------------------------------------------------------------------------------ points
 
 
+def test_points_are_sorted_with_their_lines() -> None:
+    text = f"{CLAY} 0.50, 4.0E3\n  0.0,0.0\n 0.1,\t1200.\n"
+    assert fixed(text, "CRV002", fixing=Fixing.SAFE) == f"{CLAY}  0.0,0.0\n 0.1,\t1200.\n 0.50, 4.0E3\n"
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_the_last_line_may_lack_its_end(end: str) -> None:
+    text = f"{CLAY} 0.5, 4000.0\n 0.0, 0.0".replace("\n", end)
+    assert fixed(text, "CRV002") == f"{CLAY} 0.0, 0.0\n 0.5, 4000.0".replace("\n", end)
+
+
 @pytest.mark.parametrize(
     ("rows", "wanted"),
     [
@@ -143,6 +155,18 @@ def test_no_fix_removes_the_first_point_of_a_curve_whose_name_is_missing(used: s
 
 # ------------------------------------------------------------------------------------------------------------ curves
 
+
+def test_a_point_that_is_equal_by_an_equation_is_kept() -> None:
+    found = findings(f"{CLAY} 0, 0\n 0.5, 4000\n 0.5, =[2 * 2000]\n", "CRV004")
+    assert [one.fix for one in found] == [None]
+
+
+def test_points_in_json_have_no_fix() -> None:
+    deck = to_json(load_bytes(f"{CLAY} 0.5, 4000\n 0, 0\n 0, 0\n".encode(), "deck.keyxm"))
+    found = [*findings(deck, "CRV002", "deck.json"), *findings(deck, "CRV004", "deck.json")]
+    assert [(one.code, one.fix) for one in found] == [("CRV002", None), ("CRV004", None)]
+
+
 OTHER = f"{PROPERTIES} STIFFNESS=Clay\n"
 
 
@@ -150,6 +174,12 @@ def test_an_unused_curve_goes_without_its_comments() -> None:
     kept = " CURVE=Clay\n 0, 0\n 0.5, 4000\n"
     text = f"{CURVES}C one\nCURVE=Backfill\nC two\n 0, 0\n\nCarried over\n 0.1, 300\nC three\n{kept}{OTHER}"
     assert fixed(text, "REF003") == f"{CURVES}C one\nC two\n\nCarried over\nC three\n{kept}{OTHER}"
+
+
+def test_a_keyword_without_another_curve_goes_with_its_last() -> None:
+    kept = "*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 0.5, 4000\n"
+    unused = "*SEABED STIFFNESS\nC one\n CURVE=Sand\n 0, 0\n 0.1, 300\n CURVE=Silt\n 0, 0\n 0.1, 200"
+    assert fixed(f"$MODEL\n{OTHER}{kept}{unused}", "REF003") == f"$MODEL\n{OTHER}{kept}C one\n"
 
 
 def test_a_curve_that_a_comment_keeps_keeps_its_block() -> None:

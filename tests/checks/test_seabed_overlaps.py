@@ -120,6 +120,15 @@ def test_nodes_above_the_bed_are_free_to_be_held() -> None:
     assert found(PIPE.replace("-0.05", "5.0") + RIGID + SLOPE + HELD + " 1, 2\n", "SBD021") == []
 
 
+def test_nodes_that_are_held_alone_are_counted() -> None:
+    told = messages(PIPE + RIGID + SLOPE + HELD + " GEN=1, 5, 2\n 3, 1\n", "SBD021")
+    assert len(told) == 1
+    assert told[0] == (
+        "of degrees of freedom 1 and 2 only 2 is constrained at 4 nodes (first: 1) on a sloping rigid seabed, and both "
+        "are held there: give both, or remove this one"
+    )
+
+
 LINEAR = PROPERTIES + " STIFFNESS=5000\n"
 PLANES = "*SEABED PLANES\n PLANE=a\n POINT={0}, 0, 0\n SLOPE=0\n BOUNDS=-1, 1000, -1, 1\n"
 

@@ -12,6 +12,24 @@ from mudline.language.deck.loading import load_bytes
 from tests.checks.findings import ON_CLAY, PIPE, PROPERTIES, RESTART, curve, found, in_units
 
 
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("*SEABED PROPERTIES\n SET=ALL\n STIFFNESS=1\n*SEABED PROPERTIES\n SET=ALL\n", [2]),
+        ("*SEABED PROPERTIES\n SET=ALL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n", [2]),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n*SEABED PROPERTIES\n SET=ALL\n STIFFNESS=1\n", []),
+        ("*SEABED PROPERTIES\n TYPE=ELASTC\n SET=ALL\n STIFFNESS=1\n", []),
+        ("*SEABED PROPERTIES\n TYPE=\n SET=ALL\n STIFFNESS=1\n", []),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n STIFFNESS=1\n SET=ALL\n STIFFNESS=2\n", [4]),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=\n STIFFNESS=2\n", []),
+        ("*ELASTIC SURFACE\n 1\n*EMBEDMENT\n 0, 0\n 1, 1\n SET=ALL\n 0, 0\n 1, 2\n", [5]),
+        ("*ELASTIC SURFACE\n 1\n*EMBEDMENT\n SET=\n 0, 0\n 1, 2\n", []),
+    ],
+)
+def test_types_and_sets_that_are_missing(lines: str, expected: list[int]) -> None:
+    assert [line for _, line, _ in found("$MODEL\n" + lines, "SBD003")] == expected
+
+
 def restraint(text: str) -> list[tuple[int, str]]:
     """Line of each finding of SBD006, and the elements it counts."""
     findings = lint_bytes(text.encode(), "deck.keyxm", select(["SBD006"]))
@@ -140,6 +158,12 @@ def test_both_families_say_which_law_each_set_gets() -> None:
         "for SET='West', SET='East' gets curve 'clay', no element gets the curve of *EMBEDMENT for SET='East'): "
         "keep one family"
     )
+
+
+def test_a_steep_slope_is_a_warning_and_a_vertical_one_an_error() -> None:
+    for slope, severity in ((45.1, "warning"), (-89.9, "warning"), (90.0, "error")):
+        text = f"{PIPE}*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={slope}\n"
+        assert [one.severity for one in lint_bytes(text.encode(), "deck.keyxm", select(["SBD012"]))] == [severity]
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.basics.limits import MOST_REPORTED
@@ -118,7 +118,6 @@ def _spoilt(draw: st.DrawFn, line: str) -> str:
     return line + draw(st.sampled_from(["", "", " ", "\t", "  "]))
 
 
-@settings(max_examples=25)
 @given(spoilt(), st.sampled_from(["\n", "\r\n", "\r"]))
 def test_a_mended_deck_says_the_same_and_has_no_finding(text: str, end: str) -> None:
     data = text.replace("\n", end).encode()
@@ -241,6 +240,13 @@ def test_names_with_blanks_are_no_numbers_parted_by_blanks() -> None:
 def test_heads_are_mended_in_the_preamble_and_at_the_very_beginning() -> None:
     assert mended(" $model\n\t*Ocean\n 500.0\n", "STY005", "STY006") == "$MODEL\n*OCEAN\n 500.0\n"
     assert found(" *ocean\n", "STY005", "STY006") == [("STY005", 1, 2), ("STY006", 1, 2)]
+
+
+def test_trailing_blanks_go_from_every_line_that_is_not_kept() -> None:
+    text = "C a \r\n  \r\n$MODEL\t\r\n*OCEAN \r\nC  \r\n 500.0 \r\n*LINE PATHS \r\n x \r\n"
+    after = "C a\r\n\r\n$MODEL\r\n*OCEAN\r\nC\r\n 500.0\r\n*LINE PATHS\r\n x \r\n"
+    assert mended(text, "STY007") == after
+    assert mended("$MODEL\n*OCEAN\n 500.0 ", "STY007") == "$MODEL\n*OCEAN\n 500.0"
 
 
 def test_a_document_has_no_style() -> None:

@@ -43,6 +43,16 @@ def test_the_next_line(comment: str) -> None:
     assert codes(before(" 0.5, 900.0", comment)) == ["REF003"]
 
 
+def test_several_codes_by_comma_or_blank() -> None:
+    both = FALLING.replace(" CURVE", "C mudline: ignore-block CRV005 ,unused-curve\n CURVE")
+    assert codes(both) == []
+    assert codes(both.replace(" ,", " ")) == []
+
+
+def test_a_comment_holds_for_one_line_only() -> None:
+    assert codes(before(" 0.1, 1200.0", "C mudline: ignore CRV005")) == ["REF003", "STY010", "CRV005"]
+
+
 def test_the_block_that_a_comment_stands_in() -> None:
     other = f"*SEABED STIFFNESS\n{FALLING.removeprefix(CURVES).replace('Clay', 'Sand')}"
     inside = before(" 1.0, 2000.0", "C mudline: ignore-block CRV005, REF003") + other
@@ -70,6 +80,14 @@ def test_what_hides_nothing_is_told_at_the_word() -> None:
     (one, two) = lint_bytes(text.encode(), "deck.keyxm", select(["CRV", "STY010"]))
     assert one.message == "CRV001 is not found in the next line: remove it from this comment"
     assert [fix.edits[0].start for fix in (one.fix, two.fix) if fix] == [(6, 27), (6, 33)]
+
+
+def test_only_rules_that_run_are_judged() -> None:
+    text = before(" 0.1, 1200.0", "C mudline: ignore CRV005")
+    assert codes(text, "STY010") == []
+    assert codes(text, "CRV005") == ["CRV005"]
+    assert codes(before(" 0.1, 1200.0", "C mudline: ignore"), "STY010", "CRV005") == ["CRV005"]
+    assert "STY010" in [code for code, _, _ in found(before(" 0.1, 1200.0", "C mudline: ignore"))]
 
 
 def test_words_that_name_no_rule_are_told_with_what_was_meant() -> None:

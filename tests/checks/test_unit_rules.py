@@ -6,7 +6,7 @@ import pytest
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
-from tests.checks.findings import PIPE, PROPERTIES
+from tests.checks.findings import PIPE, PROPERTIES, curve
 from tests.helpers.builders.decks import STEEL
 
 CODES = ("UNT002", "UNT004", "UNT005", "UNT006")
@@ -73,6 +73,12 @@ def test_water_fresh_salt_or_heavy_and_air(suffix: str, density: str) -> None:
     assert told(ocean(f"500.0, {density}"), suffix) == []
 
 
+@pytest.mark.parametrize(("suffix", "row"), [("keyxm", "1025.0, 350.0"), ("keyxi", "1.99, 1200.0")])
+def test_depth_and_density_exchanged(suffix: str, row: str) -> None:
+    place = row.index(",") + 4
+    only(ocean(row), suffix, "UNT004", (3, place), "depth and density seem to be exchanged, write depth first")
+
+
 @pytest.mark.parametrize("row", ["1025.0, 1025.0", "1000.0, 1000.0", "1025.0"])
 def test_a_depth_like_a_density_is_legal(row: str) -> None:
     assert told(ocean(row)) == []
@@ -130,6 +136,12 @@ def test_in_user_units_only_the_ratio_of_steel_to_water_counts(density: str, exp
 )
 def test_a_modulus_in_another_unit(suffix: str, row: str, words: str) -> None:
     only(section(row), suffix, "UNT005", (12, 2), words)
+
+
+def test_young_and_shear_modulus_exchanged() -> None:
+    words = "E and G seem to be exchanged, write E first"
+    only(section("79.6E9, 207.0E9, 0.25, 0.22, 7850.0"), "keyxm", "UNT005", (12, 10), words)
+    only(section("79.6, 207.0, 0.25, 0.22, 7.85"), "keyx", "UNT005", (12, 8), words)
 
 
 def test_the_shear_modulus_alone() -> None:
@@ -271,6 +283,21 @@ def test_the_mobilisation_length_of_a_legacy_surface_and_of_replaced_friction() 
     assert told(PIPE + LAW.format("30.0") + friction) == []
 
 
+RATIOS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
+
+
+@pytest.mark.parametrize("suffix", ["keyxm", "keyx"])
+@pytest.mark.parametrize(
+    ("diameter", "scale", "expected"),
+    [(0.3239, 0.3239, 1), (0.3239, 1.0, 0), (0.25, 0.25, 0), (0.2191, 0.2191, 1), (0.2191, 0.3239, 0)],
+)
+def test_a_curve_over_metres(suffix: str, diameter: float, scale: float, expected: int) -> None:
+    points = [(0.0, 0.0), *((round(ratio * scale, 6), 1000.0 * ratio) for ratio in RATIOS)]
+    text = PIPE.replace("0.25, 0.22", f"{diameter}, 0.19") + "*SEABED STIFFNESS\n" + curve("Clay", *points)
+    found = told(text + PROPERTIES + " STIFFNESS=Clay\n", suffix)
+    assert [one[:3] for one in found] == [("UNT006", 14, 2)] * expected
+
+
 NODES = "$MODEL\n*NODE\n" + "".join(f" {node}, 0.0, {{{node}}}\n" for node in range(5))
 CHAIN = "*ELEMENT\n 1, 0, 1\n 2, 1, 2\n 3, 2, 3\n 4, 3, 4\n"
 
@@ -303,6 +330,15 @@ def test_an_element_longer_than_its_neighbours(y: tuple[int, ...], lines: list[i
 def test_a_line_that_turns_back_and_forward_again(y: tuple[int, ...], expected: list[int]) -> None:
     found = told(NODES.format(*y) + CHAIN + STEEL)
     assert [one[:2] for one in found] == [("UNT006", line) for line in expected]
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected"), [("1, 3", [10]), ("1, 4", []), ("1, 2", [])], ids=["the next one", "far", "right"]
+)
+def test_an_element_that_leaves_out_a_node(ends: str, expected: list[int]) -> None:
+    listed = f"*ELEMENT\n 1, 0, 1\n 2, {ends}\n 3, 2, 3\n 4, 3, 4\n"
+    found = told(NODES.format(0, 10, 20, 30, 40) + listed + STEEL)
+    assert [one[1] for one in found] == expected
 
 
 ROWS = {

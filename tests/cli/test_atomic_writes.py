@@ -62,6 +62,14 @@ def test_command_tells_that_a_file_cannot_be_written(
 # --------------------------------------------------------------------------------------- every command that writes
 
 
+def test_file_that_may_not_be_written(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / "out.json").write_text("old", encoding="utf-8")
+    monkeypatch.setattr(os, "access", Mock(return_value=False))
+    outcome = run("convert", place(), "-o", "out.json")
+    assert (outcome.code, outcome.err) == (2, "mudline: out.json: cannot be written: permission denied\n")
+    assert (folder / "out.json").read_text(encoding="utf-8") == "old"
+
+
 def full(_: Path, __: int) -> tuple[int, Path]:
     """A new file on a disk without space."""
     return os.open("/dev/full", os.O_WRONLY), Path("none.mudline")

@@ -34,6 +34,16 @@ def curve(text: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return np.column_stack((found.ratios, found.forces))
 
 
+@pytest.mark.parametrize("model", sorted(MODELS))
+@pytest.mark.parametrize("legacy", [False, True])
+def test_a_deck_reads_the_points_of_the_model(model: str, legacy: bool) -> None:
+    name = "ALL" if legacy else "Clay"
+    outcome = run("backbone", model, *CLAY, "--name", name, *["--legacy"] * legacy)
+    assert (outcome.code, outcome.err) == (0, "")
+    points = Backbone(MODELS[model], Soil(0.3, 5000.0, 1500.0)).points(MODELS[model].published, 0.005, 0.001)
+    assert curve(DECK.format(bed=(OLD if legacy else NEW) + outcome.out)).tolist() == points.tolist()
+
+
 def test_the_head_says_source_soil_error_and_range() -> None:
     lines = run("backbone", "f114", *CLAY, "--weight", "6000", "--tolerance", "0.02").out.splitlines()
     assert lines[:8] == [

@@ -7,7 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.cli.conftest import Place
@@ -133,7 +133,6 @@ def test_document_that_is_no_deck(place: Place, form: str, text: str) -> None:
 SOURCE = (SAMPLES / "broken.keyxm").read_bytes()
 
 
-@settings(max_examples=12)
 @given(st.data())
 def test_damaged_deck_never_breaks_a_command(data: st.DataObject) -> None:
     body = bytearray(SOURCE)

@@ -19,7 +19,7 @@ from mudline.cli.inputs import Input
 from mudline.tools.running import executors, remembered
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, PULLING
 
 DEEP = CLEAN.replace("-0.1,", "-0.2,")
 """Twice as deep as CLEAN: twice the force."""
@@ -115,6 +115,23 @@ def test_row_has_what_is_worst(four: str) -> None:
     assert float(table[1]["largest_force"]) == row["largest_force"]
 
 
+def test_series_and_pulls(place: Place, folder: Path) -> None:
+    place(PULLING, "decks/pulling.keyxm")
+    place(CLEAN, "decks/clean.keyxm")
+    steps = np.array([[[-down, 0.0, 0.0], [-down, 10.0, 0.0], [0.3, 20.0, 0.0]] for down in (0.1, 0.3, 0.2)])
+    np.savez(folder / "steps.npz", positions=steps, time=np.array([0.0, 0.5, 1.0]))
+    found = rows("decks", "--positions", "steps.npz")
+    pulled, pushed = found["pulling"], found["clean"]
+    assert (pulled["steps"], pulled["positions"]) == (3, "file")
+    assert (pushed["largest_force"], pushed["largest_force_time"], pushed["largest_uplift"]) == (3500.0, 0.5, None)
+    assert pulled["largest_uplift"] < 0.0
+    assert (pulled["largest_uplift_element"], pulled["largest_uplift_time"]) == (1, 0.0)
+    assert pushed["touchdown_from"] < pushed["touchdown_to"]
+    shown = batch("decks", "--positions", "steps.npz", "-q").out
+    assert "steps" in shown
+    assert "uplift" in shown
+
+
 def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
     np.save(folder / "steps.npy", np.array([[[-0.1, 0.0, 0.0], [-0.1, 10.0, 0.0], [0.3, 20.0, 0.0]]] * 3))
     np.save(folder / "state.npy", np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 20.0, 0.0]]))
@@ -127,6 +144,24 @@ def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
 
 
 # ------------------------------------------------------------------------------------------------------- exit codes
+
+
+def test_what_no_law_of_the_seabed_holds_is_not_in_contact(place: Place) -> None:
+    bare = CLEAN.partition("*SEABED PROPERTIES")[0]
+    place(bare, "in/conductor.keyxm")
+    place(f"{bare}*RIGID SURFACE\n 0.0\n".replace(", -0.1, ", ", 0.0, "), "in/rigid.keyxm")
+    rows = {Path(row["deck"]).stem: row for row in batch("in", "--output-format", "json").json()}
+    figures = ("in_contact", "touchdown_from", "contact_length", "reaction")
+    assert [rows["conductor"][name] for name in figures] == [0, None, 0.0, None]
+    assert rows["rigid"]["in_contact"] == 1
+    assert rows["rigid"]["contact_length"] == pytest.approx(10.0)
+
+
+def test_gitignore_hides_decks(four: str, folder: Path) -> None:
+    (folder / ".git").mkdir()
+    (folder / ".gitignore").write_text("c.keyxm\n", encoding="utf-8")
+    assert set(rows(four)) == {"a", "b", "d"}
+    assert set(rows(four, "--no-gitignore", code=1)) == {"a", "b", "c", "d"}
 
 
 @pytest.mark.parametrize(
@@ -162,6 +197,32 @@ def test_positions_from_one_file(two: str, folder: Path) -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------ names
+
+
+@pytest.mark.parametrize("given", ["{folder}/{name}.csv", "at/{name}.csv", "at"])
+def test_positions_by_name(two: str, folder: Path, given: str) -> None:
+    where = folder / ("decks" if "{folder}" in given else "at")
+    where.mkdir(exist_ok=True)
+    (where / "a.csv").write_text(STATE, encoding="utf-8")
+    found = rows(two, "--positions", given, code=1)
+    assert found["a"]["largest_force"] == 3500.0
+    assert found["b"]["reason"].startswith("its positions were not found: ")
+
+
+def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path) -> None:
+    for where, depth in {"near": "-0.3", "far": "-0.2"}.items():
+        place(CLEAN, f"decks/{where}/case.keyxm")
+        (folder / "at" / where).mkdir(parents=True)
+        (folder / "at" / where / "case.csv").write_text(STATE.replace("-0.3", depth), encoding="utf-8")
+    (folder / "at" / "case.csv").write_text(STATE.replace("-0.3", "-0.25"), encoding="utf-8")
+    found = batch("decks", "--positions", "at", "--output-format", "json").json()
+    assert [(row["deck"], row["largest_force"]) for row in found] == [
+        ("decks/near/case.keyxm", 3500.0),
+        ("decks/far/case.keyxm", 2500.0),
+    ]
+    (folder / "at" / "far" / "case.npz").touch()
+    message = "several files of positions: at/far/case.csv, at/far/case.npz"
+    assert rows("decks/far", "decks/near", "--positions", "at", code=1)["case"]["reason"] in (message, None)
 
 
 def results(*paths: str, form: str = "npz") -> list[str]:
@@ -275,6 +336,14 @@ def test_deck_that_fails_now_has_no_old_results(place: Place) -> None:
 
 
 # ------------------------------------------------------------------------------------------- processes, interruption
+
+
+@pytest.mark.usefixtures("two")
+def test_other_decks_stay_known(place: Place) -> None:
+    again()
+    place(CLEAN, "decks/c.keyxm")
+    assert batch("decks/c.keyxm", "decks/b.keyxm", "--form", "csv").code == 0
+    assert taken(again()) == 3
 
 
 @pytest.mark.usefixtures("eager")

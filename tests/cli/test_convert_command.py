@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.language.deck.loading import load_path
+from mudline.language.deck.loading import load_bytes, load_path
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, process, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
@@ -49,6 +49,14 @@ def test_form_to_write_may_differ_from_the_suffix(place: Place, folder: Path) ->
     assert json.loads((folder / "deck.txt").read_text(encoding="utf-8"))["units"] == "metric"
 
 
+def test_form_to_read_may_differ_from_the_suffix(place: Place) -> None:
+    text = run("convert", place(), "--to", "json").output
+    place(text, "deck.txt")
+    outcome = run("convert", "deck.txt", "--from", "json", "--to", "keyword")
+    assert outcome.code == 0
+    assert load_bytes(outcome.output, "deck.keyxm").sections == load_bytes(CLEAN.encode(), "deck.keyxm").sections
+
+
 def test_document_from_standard_input() -> None:
     text = run("convert", "-", "--to", "yaml", stdin=CLEAN.encode()).output
     for options in (("--from", "yaml"), ("--stdin-filename", "x.yml")):
@@ -63,6 +71,11 @@ def test_suffix_that_tells_no_form(place: Place, folder: Path, name: str) -> Non
     assert outcome.code == 2
     assert f"{name}: unknown file format" in outcome.err
     assert not (folder / name).exists()
+
+
+def test_curves_are_written_as_they_stand(place: Place) -> None:
+    block = run("convert", place(UNSORTED), "--to", "json").json()["sections"][0]["blocks"][-1]
+    assert block["curves"][0]["points"] == [[0.1, 1000.0], [0.0, 0.0], [0.5, 3000.0]]
 
 
 def test_curves_are_written_sorted(place: Place) -> None:

@@ -107,6 +107,14 @@ def test_the_tables_of_the_manual() -> None:
     assert run("convert", "curves.xlsx", "--to", "json").json()["units"] == "imperial"
 
 
+def test_curves_whose_abscissa_is_their_second_column() -> None:
+    bending = [("Curve", "Moment [N m]", "Curvature"), ("Pipe", 0, 0), (None, 4e5, 0.01), (None, 6e5, 0.03)]
+    outcome = run("convert", book({"Bending": [(row[0], row[1], row[2]) for row in bending]}), "--to", "keyword", "-q")
+    assert "expected the unit Nm or lbfft, found 'N m'" not in outcome.err
+    assert outcome.out == "$MODEL\n*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 400000.0, 0.01\n 600000.0, 0.03\n"
+    assert fault([*bending, (None, 7e5, 0.03)], "Bending").startswith("sheet Bending, cell B5: ")
+
+
 @pytest.mark.parametrize("separator", [",", ";", "\t"])
 def test_csv_files(separator: str) -> None:
     lines = [("Set Name", "Embedment Ratio", "Seabed Force [N/m]"), ("", "0", "0"), ("", "1", "2.5E3"), ("A", "0", "0")]
@@ -185,6 +193,15 @@ def test_headings_and_curves_that_do_not_fit() -> None:
     assert fault([("curve", "ratio", "force"), ("a,b=", 0, 0), (None, 1, 1)]).startswith("sheet Clay, cell A2: ")
 
 
+def test_a_name_twice_and_two_systems() -> None:
+    named = [("curve", "ratio", "force"), ("clay", 0, 0), ("clay", 1, 1)]
+    outcome = run("convert", book({"Clay": CLAY, "More": named}), "-o", "out.keyxm")
+    assert "sheet More, cell A2: the curve 'clay' is also on the sheet Clay: rename one" in outcome.err
+    imperial = [("ratio", "force [lbf/ft]"), (0, 0), (1, 1)]
+    outcome = run("convert", book({"Feet": imperial, "Sand": SAND}), "-o", "out.keyxm")
+    assert "the headings have different units: imperial on 'Feet' and metric on 'Sand'" in outcome.err
+
+
 def test_a_workbook_that_unpacks_to_too_much(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mudline.model.scene.workbook.LARGEST_FILE", 1000)
     Workbook().save(folder / "large.xlsx")
@@ -256,3 +273,24 @@ def test_more_rows_than_a_sheet_holds(place: Place, steps: str, folder: Path, mo
     )
     assert (folder / "out.xlsx").read_bytes() == b"old"
     assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "out.xlsx", "p.npz"]
+
+
+def test_a_late_fault_leaves_nothing(place: Place, folder: Path) -> None:
+    values = np.repeat(np.array([[[-0.1, 0, 0], [-0.1, 10, 0], [0.3, 20, 0]]]), 5000, axis=0)
+    values[-1, 0, 0] = np.nan
+    np.save(folder / "p.npy", values)
+    outcome = run("evaluate", place(), "--positions", "p.npy", "-o", "out.xlsx")
+    assert (outcome.code, "position" in outcome.err) == (1, True)
+    assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "p.npy"]
+
+
+def test_without_xlsxwriter(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(name: str) -> None:
+        raise ImportError(name)
+
+    monkeypatch.setattr("mudline.cli.result_files.form_module", missing)
+    outcome = run("evaluate", place(), "-o", "out.xlsx")
+    assert (outcome.code, outcome.err) == (
+        1,
+        'mudline: .xlsx needs xlsxwriter: python -m pip install "mudline[excel]"\n',
+    )

@@ -11,7 +11,7 @@ from xml.parsers import expat
 import pytest
 
 from tests.cli.conftest import Place
-from tests.cli.runner import assert_fits, run
+from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.helpers.builders.decks import CLEAN, LINEAR, UNSORTED, UNUSED
 
 TEXT = """\
@@ -96,6 +96,22 @@ def test_json(place: Place) -> None:
     ]
 
 
+def test_static_embedment_in_json(place: Place) -> None:
+    found = run("curves", place(), "--weight", "3500", "--output-format", "json").json()
+    assert_fits(found, "curves")
+    assert found[0]["static"] == [
+        {
+            "ratio": 0.6,
+            "force": 3500.0,
+            "slope": 5000.0,
+            "segment": 1,
+            "extrapolated": "above",
+            "stable": True,
+            "stiffness": [{"diameter": 0.5, "depth": 0.3, "stiffness": 10000.0}],
+        }
+    ]
+
+
 def test_csv_holds_the_points(place: Place) -> None:
     assert rows(run("curves", place(UNUSED), "--output-format", "csv").out) == [
         ["curve", "ratio", "force", "slope", "kind", "abscissa", "ordinate"],
@@ -104,6 +120,23 @@ def test_csv_holds_the_points(place: Place) -> None:
         ["Clay", "0.5", "3000.0", "", *AXES],
         ["Sand", "0.0", "0.0", "10.0", *AXES],
         ["Sand", "0.1", "1.0", "", *AXES],
+    ]
+
+
+def test_csv_holds_the_values_asked_for(place: Place) -> None:
+    assert rows(run("curves", place(), "--at", "0.2", "--at", "0.6", "--output-format", "csv").out) == [
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "kind", "abscissa", "ordinate"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", "", *AXES],
+        ["Clay", "0.6", "3500.0", "5000.0", "1", "above", *AXES],
+    ]
+
+
+def test_csv_holds_the_static_embedment(place: Place) -> None:
+    deck = UNUSED.replace(" CURVE=Sand\n 0.0, 0.0\n 0.1, 1.0\n", " CURVE=Sand\n 0.0, 0.0\n 0.1, 3000.0\n")
+    assert rows(run("curves", place(deck), "--weight", "1500", "--output-format", "csv").out) == [
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "stable", "diameter", "depth", "stiffness"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", "", "true", "0.5", "0.1", "10000.0"],
+        ["Sand", "0.05", "1500.0", "30000.0", "0", "", "true", "", "", ""],
     ]
 
 
@@ -117,6 +150,20 @@ def test_an_embedment_where_the_curve_softens_is_unstable(place: Place) -> None:
     assert_fits(found, "curves")
     assert [one["stable"] for one in found[0]["static"]] == [True, False, True]
     assert "unstable" not in run("curves", deck, "--weight", "400").out
+
+
+def test_diameters_of_lines_come_from_their_sections(place: Place) -> None:
+    lines = (SAMPLES / "lines-deck.keyxm").read_text(encoding="utf-8")
+    outcome = run("curves", place(lines), "--weight", "135")
+    assert "curve Clay: 8 points, diameters of *GEOMETRIC SETS\n" in outcome.out
+    assert "D=0.168" in outcome.out
+    section = " SET=Dynamic Section\n 12.0E3, 12.0E3, 8.0E3, 250.0E6, 36.5, 0.12, 0.0, 0.2, 0.2, 0.2\n"
+    two = lines.replace("C\n*HYDRODYNAMIC SETS", f"{section}C\n*HYDRODYNAMIC SETS")
+    assert "D=0.2\n" in run("curves", place(two)).out
+    other = two.replace(" SET=Dynamic Section\n STIFFNESS=Clay", " SET=Static Section\n STIFFNESS=Clay")
+    both = run("curves", place(other)).out
+    assert "D=0.168" in both
+    assert "D=0.2" in both
 
 
 def test_csv_holds_one_table(place: Place) -> None:
@@ -229,6 +276,23 @@ def test_ends_are_continued_only_where_a_page_says_so(place: Place) -> None:
     assert "[m/s per m]" in text
 
 
+@pytest.mark.parametrize(
+    ("option", "points", "inside", "above"),
+    [
+        ("", " 0.0, 0.1\n 2000.0, 2.1\n", "1000", "1300"),
+        (",OPTION=DESCEND", " -800.0, 2.1\n 1200.0, 0.1\n", "200", "-9"),
+    ],
+)
+def test_a_current_ends_at_the_surface(place: Place, option: str, points: str, inside: str, above: str) -> None:
+    water = "*OCEAN\n 1200.0, 1025.0, 9.81\n"
+    deck = f"{CLEAN}{water}$LOAD CASE\n*CURRENT\n TYPE=PIECEWISE LINEAR{option}\n{points}"
+    ((name, velocity, side),) = values_beyond(place, deck, inside)
+    assert (name, side) == ("PIECEWISE LINEAR", None)
+    assert velocity == pytest.approx(1.1)
+    assert values_beyond(place, deck, above)[0][1] is None
+    assert "above the surface" in run("curves", place(deck)).out
+
+
 def test_every_kind_has_axes_of_its_own(place: Place) -> None:
     texts = drawn(place, CLEAN + OTHERS)
     for words in (
@@ -240,6 +304,24 @@ def test_every_kind_has_axes_of_its_own(place: Place) -> None:
         "Clay",
     ):
         assert words in texts
+
+
+def test_many_diameters(place: Place) -> None:
+    count = 5
+    nodes = "".join(f" {n}, 0.0, {n}.0\n" for n in range(1, count + 2))
+    elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, count + 1))
+    sets = "".join(f" SET=S{n}\n {n}\n" for n in range(1, count + 1))
+    sections = "".join(f" SET=S{n}\n 2.0E11, 8.0E10, {n}.5, 0.1, 7850.0\n" for n in range(1, count + 1))
+    deck = (
+        f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS\n{sets}*GEOMETRIC SETS\n OPTION=RIGID\n{sections}"
+        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 1, 9\n"
+    )
+    outcome = run("curves", place(deck))
+    assert "D=1.5" in outcome.out
+    assert "D=5.5" in outcome.out
+    assert "D=2.5" not in outcome.out
+    assert "5 diameters follow this curve: -v shows all\n" in outcome.out
+    assert "D=2.5" in run("curves", place(deck), "-v").out
 
 
 @pytest.mark.parametrize("option", ["--at", "--weight"])

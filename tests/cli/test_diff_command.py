@@ -151,6 +151,11 @@ def test_a_folder_and_a_deck_are_not_compared() -> None:
         assert (ran.code, ran.err) == (2, "mudline: nowhere: no such file or directory\n")
 
 
+@pytest.mark.usefixtures("folders")
+def test_a_tolerance_holds_for_all_decks() -> None:
+    assert "1 added, 1 removed, 2 equal" in run("diff", "old", "new", "--tolerance", "0.5").out
+
+
 @pytest.mark.skipif(os.name != "posix", reason="the null device has another name")
 def test_the_null_device_is_an_empty_deck(place: Place) -> None:
     """As git gives it for a file that is new."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+from io import StringIO
 from typing import Any
 
 import pytest
@@ -46,6 +48,12 @@ def test_text_marks_what_a_deck_does_not_give(family: list[str]) -> None:
     assert head.split() == ["value", *family]
     assert any(line.endswith(" -") and "0.05" in line for line in lines)
     assert lines[-1] == "5 values differ"
+
+
+def test_csv(family: list[str]) -> None:
+    head, *rows = csv.reader(StringIO(run("diff", *family[:3], "--matrix", "--output-format", "csv").out))
+    assert head == ["group", "value", *family[:3]]
+    assert sorted(row[2:] for row in rows) == [["0.1", "0.1", "0.05"], ["4.0", "6.0", "8.0"]]
 
 
 def test_elements_that_differ_in_other_runs_have_rows_of_their_own(place: Place) -> None:

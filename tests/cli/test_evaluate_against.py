@@ -12,7 +12,7 @@ from mudline.model.contact import numpy_driver
 from mudline.model.contact.result import Part
 from mudline.model.results.against import Comparison
 from tests.cli.conftest import Place
-from tests.cli.runner import assert_fits, run
+from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
 from tests.helpers.builders.decks import CLEAN_WARNING, STEPS_WARNING
 
@@ -64,6 +64,18 @@ def test_json_and_csv(place: Place, folder: Path) -> None:
         assert archive["ratio_against"][0] == 0.25
 
 
+def test_own_results_differ_by_nothing(place: Place) -> None:
+    options = (place(), "--positions", place(STEPS, "steps.csv"))
+    assert run("evaluate", *options, "-o", "own.csv").code == 0
+    found = run("evaluate", *options, "--against", "own.csv", "--output-format", "json").json()["against"]
+    assert [(row["column"], row["compared"], row["rms"]) for row in found["columns"]] == [
+        ("force", 4, 0.0),
+        ("stiffness", 4, 0.0),
+        ("ratio", 4, 0.0),
+    ]
+    assert found["elements_not_in_file"] == found["times_not_in_file"] == []
+
+
 def test_times_are_met_and_told(place: Place) -> None:
     other = place("time,element,force\n2.50001,1,900\n2.50001,2,1300\n9,1,1\n", "other.csv")
     options = (place(), "--positions", place(STEPS, "steps.csv"), "--against", other)
@@ -103,6 +115,15 @@ def test_the_time_of_the_largest_difference_in_a_series_of_several_parts(
     [column] = run("evaluate", *options).json()["against"]["columns"]
     assert counted == [1, 1, 1, 1]
     assert column["largest_difference"]["time"] == column["largest_relative"]["time"] == 4.0
+
+
+def test_elements_without_positions_are_not_compared() -> None:
+    other = "o.csv"
+    Path(other).write_text("time,element,force\n" + "".join(f"0,{n},1\n" for n in range(1, 201)), encoding="utf-8")
+    options = ("--positions", SAMPLES / "positions.csv", "--against", other, "--output-format", "json")
+    found = run("evaluate", SAMPLES / "scr-touchdown.keyxm", *options, "-q").json()["against"]
+    assert found["columns"][0]["compared"] == 60
+    assert len(found["times_not_in_file"]) == 7
 
 
 @pytest.mark.parametrize(

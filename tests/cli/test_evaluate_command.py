@@ -117,6 +117,13 @@ def test_tension_is_kept_or_cut() -> None:
     assert evaluate(PULLING)["elements"][0] == kept
 
 
+def test_reactions_add_up() -> None:
+    found = run("evaluate", SAMPLES / "scr-touchdown.keyxm", "--output-format", "json").json()
+    forces = sum(element["force"] * element["length"] for element in found["elements"])
+    assert sum(node["reaction"][0] for node in found["nodes"]) == pytest.approx(forces, rel=1e-12)
+    assert forces == pytest.approx(294685, rel=1e-5)
+
+
 def test_text(place: Place) -> None:
     outcome = run("evaluate", place())
     assert (outcome.code, outcome.err) == (0, CLEAN_WARNING)
@@ -153,6 +160,12 @@ def test_text_of_nodes(place: Place) -> None:
         "1 to 2  -0.1        7500           0           0\n"
         "\n"
     )
+
+
+def test_several_laws_have_a_total() -> None:
+    text = run("evaluate", SAMPLES / "legacy-flowline.keyxm").out
+    total = next(line for line in text.splitlines() if line.startswith("total"))
+    assert total.split() == ["total", "60", "60", "0.0082", "97712.7"]
 
 
 def test_like_elements_are_told_together(place: Place) -> None:
@@ -193,6 +206,14 @@ def test_rows_that_differ_little_are_one_with_the_largest_numbers(place: Place) 
     assert [row[0] for row in rows] == ["1 to 3", "4 to 6", "7 to 9", "10 to 11", "12", "13 to 29"]
     assert rows[0][2:5] == ["0.0997", "0.1994", "1497"]
     assert rows[-1][2:5] == ["0.1", "0.2", "1500"]
+
+
+def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> None:
+    deck = (
+        CLEAN.replace(" 2, 2, 3\n", " 5, 2, 3\n").replace(" 1, 2\n*GEO", " 1, 5\n*GEO").replace(" 3, 0.3,", " 3, -0.1,")
+    )
+    lines = run("evaluate", place(deck)).out.splitlines()
+    assert [line.split()[0] for line in lines[-3:-1]] == ["1", "5"]
 
 
 CSV = {

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mudline.cli.evaluate_inputs import read_headings
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
 from tests.helpers.builders.decks import STEPS_WARNING
@@ -76,6 +77,15 @@ def test_text_of_steps(place: Place, steps: str) -> None:
     )
 
 
+def test_text_of_many_steps(place: Place, folder: Path) -> None:
+    rest = np.repeat(np.array([[[9.0, 0, 0], [9.0, 10, 0], [9.0, 20, 0]]]), 50, axis=0)
+    np.save(folder / "steps.npy", rest)
+    lines = run("evaluate", place(), "--positions", "steps.npy").out.splitlines()
+    assert "10 more steps: -v shows all, -o writes all" in lines
+    assert lines[5].split() == ["0", "0", "-9", "0"]
+    assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 71
+
+
 def test_written_csv_has_tables_of_nodes_and_lines_beside_it(place: Place, steps: str, folder: Path) -> None:
     outcome = run("evaluate", place(), "--positions", steps, "-o", "out.csv")
     assert (outcome.code, outcome.out) == (0, "")
@@ -90,6 +100,17 @@ def test_written_csv_has_tables_of_nodes_and_lines_beside_it(place: Place, steps
         assert (folder / name).read_bytes() == printed.output
     assert run(*given, "-o", "out.json", "-q").err == ""
     assert (folder / "out.json").read_bytes() == run(*given, "--output-format", "json").output
+
+
+def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
+    outcome = run("evaluate", place(), "--positions", steps, "--table", "nodes")
+    table = outcome.out.split("\n\n")[0].splitlines()
+    assert table[1].split() == ["smallest", "largest", "total"]
+    assert table[2].split() == ["time", "in", "first", "last", "gap", "on", "a", "node", "reaction"]
+    first, second = (line.split() for line in table[5:7])
+    assert first == ["0", "2", "1", "2", "-0.1", "7500", "15000"]
+    assert (second[0], second[2:4]) == ("2.5", ["1", "3"])
+    assert run("evaluate", place(), "--positions", steps).out.split("\n\n")[0] != outcome.out.split("\n\n")[0]
 
 
 def test_positions_of_some_nodes(folder: Path) -> None:
@@ -135,6 +156,26 @@ def test_elements_from_a_file() -> None:
     assert len(found["elements"]) == 80
     assert found["elements"][0]["set"] == "Static Section"
     assert found["elements"][0]["diameter"] == 0.168
+
+
+def test_elements_from_a_file_without_lengths(folder: Path) -> None:
+    lines = (SAMPLES / "elements.csv").read_text(encoding="utf-8").splitlines()
+    rows = [[*line.split(",")[:4], line.split(",")[5]] for line in lines]
+    (folder / "bare.csv").write_text("".join(",".join(row) + "\n" for row in rows), encoding="utf-8")
+    options = ("--elements", "bare.csv", "--positions", SAMPLES / "lines-positions.csv")
+    outcome = run("evaluate", SAMPLES / "lines-deck.keyxm", *options)
+    assert outcome.code == 0
+    assert "mudline: the length of 80 elements comes from the first positions\n" in outcome.err
+
+    plan = run("evaluate", SAMPLES / "lines-deck.keyxm", "--elements", "bare.csv", "--plan")
+    assert (plan.code, plan.err) == (0, "")
+    assert "80 elements on 1 force-embedment curve" in plan.out
+
+
+def test_elements_from_a_file_have_no_coordinates() -> None:
+    outcome = run("evaluate", *LINES)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "RUN001 81 nodes have no coordinates, node 1 is one: give them with --positions" in outcome.err
 
 
 @pytest.mark.parametrize("option", ["--positions", "--elements"])
@@ -237,3 +278,7 @@ def test_columns_are_for_positions_from_csv(place: Place) -> None:
     outcome = run("evaluate", place(), "--columns", "node=n", "--positions", "p.npz")
     assert outcome.code == 2
     assert "--columns is for CSV: the arrays of p.npz have names already" in outcome.err
+
+
+def test_headings_are_read_with_commas_and_equals_signs() -> None:
+    assert read_headings([" X = a, b , node=c=d", 'y="e,z=f"']) == {"x": "a, b", "node": "c=d", "y": "e,z=f"}

@@ -78,3 +78,10 @@ def test_what_cannot_be_drawn_is_wrong_usage(
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err
     assert sorted(file.name for file in folder.iterdir()) == ["deck.keyxm", "steps.csv"], "nothing is written"
+
+
+def test_elements(place: Place, folder: Path) -> None:
+    options = ("--positions", place(STEPS, "steps.csv"), "--plot", "p.svg", "-q")
+    assert run("evaluate", place(), *options, "--plot-elements", "2, 1").code == 0
+    text = words(folder)
+    assert text.index("penetration of element 2 [m]") < text.index("penetration of element 1 [m]")

@@ -110,6 +110,17 @@ def test_forms_hold_the_same(place: Place, folder: Path) -> None:
 
 
 @pytest.mark.usefixtures("long")
+def test_terminal_shows_what_a_whole_run_does(place: Place) -> None:
+    place(BOTH)
+    whole = run("evaluate", "deck.keyxm", *TIMED)
+    outcome = run("evaluate", *GIVEN)
+    assert (outcome.code, outcome.err) == (whole.code, whole.err)
+    shown = outcome.out.splitlines()
+    assert shown[0] == "Contact of deck.keyxm (metric units), 700 steps"
+    assert "\n".join(shown[1:]).strip() == whole.out[whole.out.index("Over all steps") :].strip()
+
+
+@pytest.mark.usefixtures("long")
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -153,6 +164,23 @@ def test_a_line_is_all_on_the_seabed_only_where_all_of_it_is(place: Place) -> No
     assert "all on the seabed     20.008" in run("evaluate", place(CLEAN), *positions).out
     edge = run("evaluate", place(BOUNDED, "bounded.keyxm"), *positions).out
     assert edge.splitlines()[5].split()[:5] == ["1", "1", "to", "2", "10"], "where it leaves the seabed is not known"
+
+
+def test_figures_of_many_lines_are_cut_unless_all_are_asked_for(place: Place) -> None:
+    command = ("evaluate", place(apart(20)), "--positions", place(heaved(20, -0.1, -0.2), "heave.csv"), "-q")
+    tables = run(*command).out.partition("Lines over all steps")[2]
+    assert tables.count("total reaction") == 13
+    assert "20 more rows: -v shows all" in tables
+    assert run(*command, "-v").out.partition("Lines over all steps")[2].count("total reaction") == 20
+
+
+def test_the_first_of_several_touchdown_points_is_called_so(place: Place) -> None:
+    steps = [(0, 0.1, -0.3), (1, 0.1, -0.4)]
+    sags = [f"{time},1,{up},0,0\n{time},2,{low},10,0\n{time},3,{up},20,0\n" for time, up, low in steps]
+    both = "time,node,x,y,z\n" + "".join(sags)
+    tables = run("evaluate", place(CLEAN), "--positions", place(both, "sag.csv"), "-q").out
+    figures = [row[:22].strip() for row in tables.partition("Lines over all steps")[2].splitlines()[4:] if row]
+    assert figures[:2] == ["first touchdown point", "last touchdown point"]
 
 
 def test_a_summary_of_steps_ends_with_the_figures_over_all_of_them(place: Place) -> None:

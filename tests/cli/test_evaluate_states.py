@@ -89,6 +89,16 @@ def test_velocities_of_the_file_are_used(place: Place) -> None:
     assert states[1][2:4] == ["suction", "suction"]
 
 
+def test_velocities_of_an_archive(place: Place, folder: Path) -> None:
+    places = np.array([[-0.1, 0, 0], [-0.1, 10, 0], [0.3, 20, 0]])[np.newaxis] + np.zeros((3, 1, 1))
+    places[1:, :2, 0] = 0.02
+    rising = np.zeros_like(places)
+    rising[1, :, 0] = 0.5
+    np.savez(folder / "p.npz", positions=places, velocities=rising)
+    found = run("evaluate", place(UPLIFT), "--positions", "p.npz", "--output-format", "json").json()
+    assert [step["elements"][0]["state"] for step in found["steps"]] == ["compression", "suction", "hold"]
+
+
 def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     places = at_zero(3)
     np.save(folder / "p.npy", places)
@@ -101,6 +111,23 @@ def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     outcome = run("evaluate", name, "--positions", "p.npz")
     assert (outcome.code, outcome.out) == (1, "")
     assert "times that rise: 1.0 follows 2.0" in outcome.err
+
+
+@pytest.mark.parametrize("times", [[0.0, 2.0, 1.0], [0.0, 1.0, 1.0]], ids=["fall", "repeat"])
+@pytest.mark.parametrize("law", ["suction", "friction", "none"])
+def test_times_of_an_archive_rise_for_laws_with_history(
+    place: Place, folder: Path, law: str, times: list[float]
+) -> None:
+    places = at_zero(3)
+    np.savez(folder / "p.npz", positions=places, time=times, velocities=0 * places)
+    outcome = run(
+        "evaluate", place({"suction": UPLIFT, "friction": SLIDING, "none": CLEAN}[law]), "--positions", "p.npz"
+    )
+    if law == "none":
+        assert (outcome.code, outcome.err.count("rise")) == (0, 0)
+    else:
+        assert (outcome.code, outcome.out) == (1, "")
+        assert outcome.err.endswith(f"times that rise: {times[2]} follows {times[1]}\n")
 
 
 def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -133,6 +160,27 @@ def test_time_step(place: Place, folder: Path) -> None:
     assert "one.npy is one state" in run("evaluate", place(), "--positions", "one.npy", "--time-step", "1").err
     timed = run("evaluate", place(), "--positions", place(PULL, "p.csv"), "--time-step", "1")
     assert (timed.code, "p.csv has times of its own" in timed.err) == (2, True)
+
+
+def test_text_tells_states(place: Place, pulled: tuple[str, ...]) -> None:
+    text = run("evaluate", *pulled).out
+    assert "suction     nodes" in text
+    assert [line.split()[-2:] for line in text.splitlines()[5:10]] == [
+        ["0", "0"],
+        ["0", "2"],
+        ["1", "0"],
+        ["1", "0"],
+        ["0", "0"],
+    ]
+    rows = run("evaluate", *pulled, "--output-format", "json").json()["steps"][2]["elements"]
+    pull = next(line.split() for line in text.splitlines() if line.startswith("suction force of an element"))
+    assert [float(pull[5]), *pull[6:]] == [pytest.approx(-rows[0]["force"], rel=1e-5), "N/m", "2", "1"]
+    single = run("evaluate", place(BOTH), "--table", "nodes").out
+    assert "axial friction of nodes    stick" in single
+    assert "suction of elements        compression" in single
+    assert single.splitlines()[-2].split()[-2:] == ["stick", "stick"]
+    elements = run("evaluate", place(BOTH)).out.splitlines()
+    assert elements[-2].split()[-1] == "compression"
 
 
 def test_rigid_bed_restrains_nodes(place: Place) -> None:

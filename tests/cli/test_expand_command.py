@@ -72,6 +72,15 @@ def test_decks_and_their_list_are_written(place: Place, folder: Path) -> None:
     assert run("lint", "out/study").code == 0
 
 
+def test_the_list_is_printed_as_it_is_written(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    dry = run("expand", name, "--dry-run", "--output-format", "json")
+    done = run("expand", name, "-q", "-o", "out", "--output-format", "json")
+    assert done.err == ""
+    assert dry.output == done.output == (folder / "out/manifest.json").read_bytes()
+    assert_fits(dry.json(), "expand")
+
+
 def test_files_that_are_there_stay_unless_forced(place: Place, folder: Path) -> None:
     name = place(STUDY)
     place("mine", "out/Far/at 50.keyxm")
@@ -116,6 +125,15 @@ def test_the_deck_itself_is_never_overwritten(place: Place, folder: Path) -> Non
     assert (folder / name).read_bytes() == before
 
 
+def test_a_folder_where_a_file_is_wanted(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    (folder / "out/Far/at 100.keyxm").mkdir(parents=True)
+    outcome = run("expand", name, "-o", "out", "--force")
+    assert outcome.code == 2
+    assert "out/Far/at 100.keyxm: exists already and is not a regular file: it is not overwritten" in outcome.err
+    assert files(folder) == ["deck.keyxm"]
+
+
 def test_names_that_leave_the_folder_are_refused(place: Place, folder: Path) -> None:
     name = place(STUDY.replace("VALUE=Near, Far", "VALUE=Near, ../Far"))
     outcome = run("expand", name, "-o", "out")
@@ -139,3 +157,9 @@ def test_standard_input_and_notes() -> None:
     named = run("expand", "-", "--dry-run", "--stdin-filename", "a/b.keyxi", "--output-format", "json", stdin=text)
     assert named.json()["source"] == "b.keyxi"
     assert named.json()["decks"][0]["file"] == "Near/at 50.keyxi"
+
+
+def test_decks_of_standard_input_without_a_name_are_counted() -> None:
+    text = STUDY.replace(", SUBDIRECTORY=%Side%, FILENAME=at %Depth%", "").encode()
+    outcome = run("expand", "-", "--dry-run", "--output-format", "json", stdin=text)
+    assert [deck["file"] for deck in outcome.json()["decks"]] == [f"deck {number}.keyx" for number in range(1, 5)]

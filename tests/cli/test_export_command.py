@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.runner import SAMPLES, run
+from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.tools.exporting.decks import ELASTIC, text
 
 PLAIN = text(bed=ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", ""))
@@ -38,6 +38,22 @@ def test_the_resting_shape_on_request(target: str, tmp_path: Path) -> None:
     assert float(rows[0].split(",")[3]) == pytest.approx(-800.0 - 0.0894, abs=1e-4)  # at static embedment
 
 
+def test_json_has_what_is_carried_too(tmp_path: Path) -> None:
+    out = tmp_path / "model.yml"
+    arguments = ("--to", "orcaflex", "-o", str(out), "--output-format", "json")
+    outcome = run("export", str(SAMPLES / "scr-touchdown.keyxm"), *arguments)
+    found = outcome.json()
+    assert_fits(found, "export")
+    assert (found["target"], found["exact"], found["files"]) == ("orcaflex", False, [out.as_posix()])
+    curves = [entry for entry in found["entries"] if entry["keyword"] == "*SEABED STIFFNESS"]
+    assert [(entry["line"], entry["status"]) for entry in curves] == [(310, "approximated"), (323, "approximated")]
+    assert curves[1]["effect"] == (
+        "curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2; sinks 36.6 mm here, as "
+        "the target has one stiffness"
+    )
+    assert {"carried", "approximated", "left out"} == {entry["status"] for entry in found["entries"]}
+
+
 def test_strict_is_1_where_something_is_lost_and_writes_all_the_same(tmp_path: Path) -> None:
     out = tmp_path / "model.inp"
     assert run("export", str(SAMPLES / "scr-touchdown.keyxm"), "--to", "orcaflex", "-o", str(out), "--strict").code == 1
@@ -64,6 +80,20 @@ def test_a_deck_that_goes_on_from_another_needs_ends_of_its_own(tmp_path: Path) 
     assert "scr-touchdown.keyxm:237:" in outcome.err
     assert "node 201 ends a line" in outcome.err
     assert not list(tmp_path.iterdir())
+
+
+def test_entries_of_another_file_have_its_name(tmp_path: Path) -> None:
+    (tmp_path / "model.keyxm").write_text(PLAIN.partition("$LOAD CASE")[0])
+    case = "$LOAD CASE\n*RESTART\n LAST=model, TYPE=DYNAMIC\n*ANALYSIS TYPE\n TYPE=TIME DOMAIN\n"
+    case += "*BOUNDARY\n TYPE=CONSTANT\n"
+    case += "".join(f" {node}, {freedom}\n" for node in (1, 11) for freedom in (1, 2))
+    (tmp_path / "case.keyxm").write_text(case)
+    arguments = ("--to", "moordyn", "-o", str(tmp_path / "a.txt"))
+    outcome = run("export", str(tmp_path / "case.keyxm"), *arguments)
+    assert outcome.code == 0
+    assert "free in DOF 3 in the deck" in " ".join(outcome.out.split())
+    found = run("export", str(tmp_path / "case.keyxm"), *arguments, "--output-format", "json").json()
+    assert {Path(entry["file"]).name for entry in found["entries"]} == {"case.keyxm", "model.keyxm"}
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from mudline.editing.formatting import document
 from mudline.editing.formatting.document import formatted
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run
-from tests.helpers.builders.decks import BAD_NUMBER
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 from tests.helpers.growth import FOURFOLD, growth
 from tests.helpers.samples import FAULTY
 
@@ -56,6 +56,26 @@ def test_in_place(place: Place) -> None:
     outcome = run("format", "deck.keyxm")
     assert (outcome.code, outcome.out, outcome.err) == (0, "", "1 file left unchanged\n")
     assert content("deck.keyxm") == PRETTY
+
+
+def test_several_files_and_directories(place: Place) -> None:
+    place(UGLY, "decks/a.keyxm")
+    place(UGLY, "decks/deep/b.das")
+    place(PRETTY, "decks/c.keyx")
+    outcome = run("format", "decks", "-v")
+    assert outcome.code == 0
+    assert outcome.err == (
+        "mudline: decks/a.keyxm: reformatted\nmudline: decks/deep/b.das: reformatted\n"
+        "2 files reformatted, 1 file left unchanged\n"
+    )
+    assert {content(f"decks/{name}") for name in ("a.keyxm", "deep/b.das", "c.keyx")} == {PRETTY}
+
+
+def test_a_file_that_does_not_change_is_not_written(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    written = Mock()
+    monkeypatch.setattr("mudline.cli.inputs.write_atomically", written)
+    assert run("format", place(PRETTY)).code == 0
+    assert written.call_count == 0
 
 
 def test_check(place: Place) -> None:
@@ -100,6 +120,14 @@ def test_standard_input(place: Place) -> None:
     assert content("deck.keyxm") == UGLY
 
 
+def test_standard_input_keeps_its_encoding() -> None:
+    data = b"\xef\xbb\xbf" + "$model\r\nC \u00e9 \r\n".encode()
+    assert run("format", "-", stdin=data).output == b"\xef\xbb\xbf" + "$MODEL\r\nC \u00e9\r\n".encode()
+    assert run("format", "-", stdin=b"$model\nC \xe9\x80 \n").output == b"$MODEL\nC \xe9\x80\n"
+    shown = run("format", "-", stdin=b"$model\nC \xe9 \x1b \n", terminal=True).out
+    assert shown == "$MODEL\nC \u00e9 \ufffd\n"
+
+
 def test_a_deck_with_an_error_is_told_and_the_others_go_on(place: Place) -> None:
     place(UGLY, "z.keyxm")
     outcome = run("format", place(BAD_NUMBER), "z.keyxm")
@@ -139,6 +167,13 @@ def test_a_text_that_would_mean_something_else_is_not_written(place: Place, monk
     )
 
 
+def test_yaml_comments_are_not_lost(place: Place) -> None:
+    text = "# mine\n" + run("convert", place(CLEAN), "--to", "yaml").out
+    outcome = run("format", place(text, "deck.yaml"))
+    assert (outcome.code, content("deck.yaml")) == (1, text)
+    assert "deck.yaml: its YAML comments (#) would be lost" in outcome.err
+
+
 @pytest.mark.covered
 @pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["LF", "CRLF"])
 @pytest.mark.parametrize("cut", [False, True])
@@ -168,6 +203,17 @@ def patched(data: bytes, diff: bytes) -> bytes:
                 at += 1
             new += [text] if line[:1] in b" +" else []
     return b"".join(new + old[at:])
+
+
+def test_a_line_end_that_changes_is_a_change() -> None:
+    assert list(unified_diff("a\nb\r\n", "a\nb\n", "x.keyxm")) == [
+        "--- x.keyxm\n",
+        "+++ x.keyxm\n",
+        "@@ -1,2 +1,2 @@\n",
+        " a\n",
+        "-b\r\n",
+        "+b\n",
+    ]
 
 
 _TEXTS = st.lists(st.sampled_from(["a\n", "b\n", "\n", " \n", "1\r\n", "2\n", "3\rx\n"])).map("".join)

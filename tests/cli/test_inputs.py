@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -36,6 +37,11 @@ def test_directory_is_searched_for_decks(place: Place) -> None:
     assert names("decks") == expected
     assert names("decks/") == expected
     assert names("./decks") == [f"./{name}" for name in expected]
+
+
+def test_every_file_counts_once(place: Place) -> None:
+    place(CLEAN, "decks/a.keyxm")
+    assert names("decks/a.keyxm", "decks", "decks/a.keyxm", "-", "-") == ["decks/a.keyxm", "<stdin>"]
 
 
 @pytest.mark.parametrize("command", ["lint", "validate"])
@@ -89,6 +95,13 @@ def test_name_of_standard_input_gives_the_form(command: str) -> None:
     outcome = run(command, "-", "--stdin-filename", "deck.json", stdin=document)
     warned = CLEAN_WARNING.replace("deck.keyxm", "deck.json") if command == "evaluate" else ""
     assert (outcome.code, outcome.err) == (0, warned)
+
+
+def test_name_of_standard_input_gives_the_units() -> None:
+    deck = CLEAN.replace(" 100.0, 1025.0, 9.81", " 100.0, 1025.0, 1.0").encode()
+    assert run("show", "-", "--output-format", "json", stdin=deck).json()["units"] == "user"
+    named = run("show", "-", "--stdin-filename", "x.keyxi", "--output-format", "json", stdin=deck).json()
+    assert (named["units"], named["file"]) == ("imperial", "x.keyxi")
 
 
 def test_gravity_tells_the_units_of_standard_input() -> None:
@@ -153,6 +166,14 @@ def test_commands_that_search(decks: Path, command: str) -> None:
     assert outcome.code == 2
     assert outcome.err.endswith("; --no-gitignore takes what a .gitignore hides)\n")
     assert run(command, "decks", "--no-gitignore").code == 0
+
+
+def test_decks_in_json_are_hidden_too(decks: Path) -> None:
+    ignore(decks, "*.json")
+    (decks / "x.json").write_text('{"format": "mudline-deck/1"}', encoding="utf-8")
+    for options, found in ((), False), (("--no-gitignore",), True):
+        rows = json.loads(run("validate", "decks", "--output-format", "json", *options).out)
+        assert ("x.json" in json.dumps(rows)) is found
 
 
 @pytest.mark.parametrize(
@@ -280,6 +301,13 @@ def test_a_deck_in_another_encoding_is_read_and_written_in_it(place: Place, fold
     assert "Глина" in (folder / "deck.keyxm").read_bytes().decode("cp866")
     assert run("set", "OCEAN.depth=55", "--encoding", "cp866", "deck.keyxm").code == 0
     assert "55" in (folder / "deck.keyxm").read_bytes().decode("cp866")
+
+
+def test_the_configuration_gives_the_encoding(place: Place) -> None:
+    place('encoding = "cp866"\n', "mudline.toml")
+    place(RUSSIAN.encode("cp866"))
+    assert "Глина" in run("show", "deck.keyxm").out
+    assert "Глина" in run("curves", "deck.keyxm").out
 
 
 @pytest.mark.parametrize("name", ["nonsense", "hex"])

@@ -89,6 +89,11 @@ def test_fail_on(deck: str, limit: str, code: int) -> None:
     assert lint(deck, "--fail-on", limit).code == code
 
 
+def test_warnings_fail_without_being_told_to() -> None:
+    assert lint(UNUSED).code == 1
+    assert lint(UNSORTED).code == 0
+
+
 def test_exit_zero() -> None:
     outcome = lint(BAD_NUMBER, "--exit-zero")
     assert outcome.code == 0
@@ -230,6 +235,11 @@ def test_output_is_the_same_whatever_the_number_of_processes(
     monkeypatch.setenv("MUDLINE_CACHE_DIR", str(folder / "cache"))
     assert [run("lint", *words, "2") for _ in range(2)] == [alone] * 2
     assert len(list((folder / "cache").iterdir())) == 1
+
+
+def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "_processes", None)
+    assert "20 fixed" in run("lint", decks, "--fix", "--jobs", "2").out
 
 
 def test_findings_of_one_rule_of_style_are_one_entry_in_text_alone(place: Place) -> None:

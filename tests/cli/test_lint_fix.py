@@ -34,11 +34,25 @@ def test_fixes_are_made_in_place_and_do_not_count(place: Place) -> None:
     assert run("lint", "deck.keyxm", "--fix").out == f"No findings in 1 file.\n{READ}"
 
 
+def test_what_is_not_fixed_counts(place: Place) -> None:
+    outcome = run("lint", place(GUESS.replace(" CURVE", "C mudline: ignore CRV005\n CURVE")), "--fix")
+    assert outcome.code == 1
+    assert outcome.out.endswith(
+        f"Found 2 findings (1 fixed, 1 remaining) in 1 file.\n1 fixable with --fix --unsafe-fixes.\n{READ}"
+    )
+
+
 def test_unsafe_fixes_have_to_be_asked_for(place: Place) -> None:
     assert run("lint", place(GUESS), "--unsafe-fixes").code == 1
     assert read("deck.keyxm") == GUESS
     outcome = run("lint", "deck.keyxm", "--fix", "--unsafe-fixes", "--select", "STY010")
     assert (outcome.code, "CRVV05" in read("deck.keyxm")) == (0, False)
+
+
+def test_what_could_be_fixed_is_told(place: Place) -> None:
+    assert run("lint", place(IDLE)).out.endswith(f"in 1 file.\n1 fixable with --fix.\n{READ}")
+    both = IDLE.replace("CRV005", "CRV005, CRVV05")
+    assert run("lint", place(both)).out.endswith(f"\n1 fixable with --fix, 1 more with --unsafe-fixes.\n{READ}")
 
 
 def test_diff_prints_and_writes_nothing(place: Place) -> None:
@@ -68,6 +82,13 @@ def test_a_file_that_cannot_be_read_is_not_fixed(place: Place) -> None:
     assert (outcome.code, read("deck.keyxm")) == (1, broken)
     assert outcome.err == "mudline: deck.keyxm: not fixed: correct what cannot be read first, SYN002 in line 6\n"
     assert "(0 fixed, 2 remaining)" in outcome.out
+
+
+def test_documents_are_told_once(place: Place) -> None:
+    text = run("convert", place(IDLE), "--to", "json").out
+    outcome = run("lint", place(text, "a.json"), place(text, "b.json"), "--fix")
+    assert (outcome.code, read("a.json")) == (1, text)
+    assert outcome.err == "mudline: 2 decks in JSON or YAML not fixed: only keyword text is\n"
 
 
 def test_a_file_that_cannot_be_written_keeps_its_findings(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,6 +128,13 @@ def test_a_baseline_that_cannot_be_used_is_wrong_usage(place: Place) -> None:
     assert "needs --baseline" in run("lint", place(), "--write-baseline").err
 
 
+def test_several_outputs_at_once(place: Place) -> None:
+    outcome = run("lint", place(BAD_NUMBER), "--output-format", "concise", "--output-format", "json=found.json")
+    assert outcome.out.startswith("deck.keyxm:6:11: SYN002")
+    assert [one["code"] for one in json.loads(read("found.json"))] == ["SYN002"]
+    assert "Found 1 error" in run("lint", "deck.keyxm", "--output-format", "jsonl=found.jsonl").out
+
+
 @pytest.mark.parametrize(
     ("forms", "reason"),
     [
@@ -120,3 +148,8 @@ def test_outputs_that_make_no_sense(place: Place, forms: list[str], reason: str)
     outcome = run("lint", place(), *[word for form in forms for word in ("--output-format", form)])
     assert outcome.code == 2
     assert reason in outcome.err
+
+
+def test_statistics_and_quiet_beside_a_fixed_deck() -> None:
+    outcome = run("lint", "-", "--fix", "--statistics", "-q", stdin=BAD_NUMBER.encode())
+    assert (outcome.out, outcome.err) == (BAD_NUMBER, "     1  SYN002  bad-number\n")

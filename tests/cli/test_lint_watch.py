@@ -87,6 +87,11 @@ def test_wrong_configuration_is_told_and_waited_out(folder: Path, place: Place) 
     assert "waiting" not in outcome.err
 
 
+def test_deck_beside_the_one_watched(folder: Path, place: Place) -> None:
+    outcome = watch(folder, [("base.keyxm", CLEAN)], place())
+    assert outcome.out.count("No findings in 1 file.") == 2
+
+
 def test_change_is_seen_while_waiting(folder: Path, place: Place) -> None:
     files = (place(), "nowhere/deck.keyxm", "\0")
     before = lint_command.state(files)

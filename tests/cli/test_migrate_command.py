@@ -45,6 +45,17 @@ def test_standard_input() -> None:
     assert list(Path().iterdir()) == []
 
 
+def test_diff_writes_nothing(place: Place) -> None:
+    name = place(PROFILE)
+    outcome = run("migrate", "--diff", name)
+    assert outcome.code == 0
+    assert "-*RIGID SURFACE\n" in outcome.out
+    assert "+ FILE=deck-profile.txt\n" in outcome.out
+    assert "--- /dev/null\n+++ deck-profile.txt\n@@ -0,0 +1,3 @@\n+C Y, elevation" in outcome.out
+    assert Path(name).read_text(encoding="utf-8") == PROFILE
+    assert [path.name for path in Path().iterdir()] == ["deck.keyxm"]
+
+
 def test_a_profile_is_written_beside_the_new_deck(place: Place) -> None:
     Path("out").mkdir()
     outcome = run("migrate", place(PROFILE), "-o", "out/new.keyxm")
@@ -99,6 +110,25 @@ def test_a_deck_that_another_one_continues_with_its_own_seabed_is_kept(given: li
     assert outcome.code == 1
     assert f"{child} continues this deck and has seabed keywords of its own" in outcome.err
     assert Path("base.keyxm").read_text(encoding="utf-8") == SAMPLE
+
+
+def test_a_deck_that_another_one_only_continues_is_migrated(place: Place) -> None:
+    place(SAMPLE, "base.keyxm")
+    place("$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
+    place(b"RESTART\xff\x00{", "noise.das")
+    assert run("migrate", "--verify", "base.keyxm").code == 0
+    assert Path("base.keyxm").read_text(encoding="utf-8") == MIGRATED
+
+
+def test_elements_of_a_deck_that_continues_one_keep_its_stiffness(place: Place) -> None:
+    bed = "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n SET=Pipe\n 0, 0\n 1, 5\n"
+    text = CLEAN.partition("*SEABED")[0] + bed
+    place(text, "base.keyxm")
+    assert run("migrate", "base.keyxm", "-o", "alone.keyxm").code == 0
+    assert " STIFFNESS=1e4\n" not in Path("alone.keyxm").read_text(encoding="utf-8")
+    place("$MODEL\n*NODE\n 9, 0.3, 30.0\n*ELEMENT\n 9, 3, 9\n$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
+    assert run("migrate", "base.keyxm", "-o", "more.keyxm").code == 0
+    assert " SET=ALL\n STIFFNESS=1e4\n SET=Pipe\n" in Path("more.keyxm").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("sample", sorted(path.name for path in SAMPLES.glob("*.keyx*")))

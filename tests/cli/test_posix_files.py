@@ -10,6 +10,7 @@ import stat
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -65,6 +66,17 @@ def test_permissions_are_kept(place: Place, folder: Path, bits: int) -> None:
     assert mode(folder / "out.json") == bits
 
 
+@pytest.mark.parametrize("mask", [0o022, 0o077, 0o002])
+def test_new_file_has_the_permissions_of_the_process(place: Place, folder: Path, mask: int) -> None:
+    before = os.umask(mask)
+    try:
+        assert run("convert", place(), "-o", "out.json").code == 0
+        assert os.umask(mask) == mask
+    finally:
+        os.umask(before)
+    assert mode(folder / "out.json") == 0o666 & ~mask
+
+
 def test_new_content_of_a_private_file_is_never_open_to_others(folder: Path) -> None:
     (folder / "out").write_bytes(b"old")
     (folder / "out").chmod(0o600)
@@ -83,6 +95,13 @@ def test_link_stays_a_link(place: Place, folder: Path) -> None:
     assert (folder / "link.json").is_symlink()
     assert (folder / "real/out.json").read_text(encoding="utf-8").startswith("{")
     assert [path.name for path in (folder / "real").iterdir()] == ["out.json"]
+
+
+def test_link_to_a_file_that_is_not_there_yet(place: Place, folder: Path) -> None:
+    (folder / "link.json").symlink_to("new.json")
+    assert run("convert", place(), "-o", "link.json").code == 0
+    assert (folder / "link.json").is_symlink()
+    assert (folder / "new.json").is_file()
 
 
 def test_device_is_written_to(place: Place) -> None:
@@ -179,6 +198,24 @@ def test_a_file_that_was_taken_for_left_behind_is_made_again(folder: Path, monke
     assert names(folder) == ["new"]
 
 
+def test_a_file_that_cannot_be_given_away_is_written_all_the_same(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / "out").write_bytes(b"old")
+    monkeypatch.setattr(os, "fstat", Mock(side_effect=lambda _: os.stat_result(range(10))))
+    monkeypatch.setattr(os, "fchown", Mock(side_effect=PermissionError))
+    with replacement(folder / "out") as stream:
+        stream.write(b"new")
+    assert (folder / "out").read_bytes() == b"new"
+
+
+def test_a_folder_whose_files_cannot_be_locked(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / LEFT).touch()
+    monkeypatch.setattr(fcntl, "flock", Mock(side_effect=OSError(37, "No locks available")))
+    write_atomically(folder / "new", b"x")
+    assert names(folder) == [LEFT, "new"]
+
+
 def test_owner_and_group_are_kept_where_they_may_be(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (folder / "out").write_bytes(b"old")
     (folder / "out").chmod(0o4750)
@@ -196,3 +233,12 @@ def test_owner_and_group_are_kept_where_they_may_be(folder: Path, monkeypatch: p
     old = (folder / "out").stat()
     assert given == [(-1, old.st_gid), (old.st_uid, -1)]
     assert old.st_mode & 0o7777 == 0o750
+
+
+def test_rewriting_leaves_other_hard_links_as_they_were(place: Place, folder: Path) -> None:
+    name = place("$MODEL\n*NODE\n 1,0,0,0\n")
+    (folder / "link.keyxm").hardlink_to(folder / name)
+    before = (folder / "link.keyxm").read_bytes()
+    assert run("format", name).code == 0
+    assert (folder / name).read_bytes() != before
+    assert (folder / "link.keyxm").read_bytes() == before

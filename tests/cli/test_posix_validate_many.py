@@ -126,6 +126,13 @@ def test_bar_is_on_standard_error_only(decks: str) -> None:
     assert outcome.out == run("validate", decks).out
 
 
+@pytest.mark.usefixtures("_bar")
+@pytest.mark.parametrize(("name", "value"), [("CI", "true"), ("TERM", "dumb")])
+def test_no_bar_where_nobody_looks(decks: str, name: str, value: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(name, value)
+    assert on_error_only("validate", decks).err == "mudline: decks/gone.keyxm: no such file or directory\n"
+
+
 def test_colours_are_those_of_the_verdicts(place: Place) -> None:
     out = run("validate", place(), place(ILLEGAL, "bad.keyxm"), "-q", "--color", "always").out
     assert "\x1b[32mno errors\x1b[0m" in out

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from tests.cli.conftest import Place
-from tests.cli.runner import run
+from tests.cli.runner import SAMPLES, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL
 
 DYNAMIC = "$LOAD CASE\n*RESTART\n LAST=static\n$MODEL\n*ELEMENT SETS\n SET=First\n SUBSET=Pipe\n"
@@ -62,3 +64,13 @@ def test_a_file_that_is_not_there(place: Place) -> None:
     place("", "soil.txt")
     place("", "Sand.txt")
     assert run("lint", name, "--select", "REF015").code == 0
+
+
+def test_the_samples(tmp_path: Path) -> None:
+    positions = str(SAMPLES / "positions.csv")
+    results = []
+    for sample in ("scr-dynamic.keyxm", "scr-touchdown.keyxm"):
+        out = tmp_path / f"{sample}.csv"
+        assert run("evaluate", str(SAMPLES / sample), "--positions", positions, "-o", str(out)).code == 0
+        results.append(out.read_bytes())
+    assert results[0] == results[1]

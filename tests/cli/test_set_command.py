@@ -11,7 +11,7 @@ import pytest
 
 from tests.cli.conftest import Place
 from tests.cli.runner import run
-from tests.helpers.builders.decks import CLEAN
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 DEEP = CLEAN.replace(" 100.0,", " 150.5,")
 EQUATION = CLEAN.replace(" 100.0,", " =[90+10],")
@@ -110,6 +110,11 @@ def test_a_remarkable_value_and_new_warnings_are_shown(place: Place) -> None:
     assert run("set", "-q", "SEABED STIFFNESS[name=Clay][ratio=0.1].force=4100", "deck.keyxm").err == ""
 
 
+def test_faults_elsewhere_in_a_deck_do_not_matter(place: Place) -> None:
+    assert run("set", "OCEAN.depth=200.0", place(BAD_NUMBER)).code == 0
+    assert text("deck.keyxm") == BAD_NUMBER.replace(" 100.0,", " 200.0,")
+
+
 def test_standard_input_is_printed() -> None:
     ran = run("set", "OCEAN.depth=5", "-", stdin=CLEAN.encode())
     assert (ran.code, ran.out) == (0, CLEAN.replace(" 100.0,", " 5,"))
@@ -132,6 +137,12 @@ def test_standard_input_is_printed() -> None:
 def test_wrong_usage(words: tuple[str, ...]) -> None:
     ran = run("set", *words)
     assert (ran.code, ran.out) == (2, "")
+    assert text("in/a.keyxm") == CLEAN
+
+
+@pytest.mark.usefixtures("decks")
+def test_a_path_that_cannot_be_read_keeps_all_from_being_written() -> None:
+    assert run("set", "OCEAN.depth=1", "in", "missing.keyxm").code == 2
     assert text("in/a.keyxm") == CLEAN
 
 

@@ -10,65 +10,6 @@ from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL, LINEAR
 
-TEXT = """\
-deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
-  $MODEL
-    model: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS
-    seabed: *SEABED PROPERTIES, *SEABED STIFFNESS
-  All 7 keywords read.
-
-Element sets
-                length
-set   elements     [m]
-──────────────────────
-ALL          2  20.008
-Pipe         2  20.008
-
-Force-embedment curves
-                                                force
-curve  keyword            points     ratio      [N/m]  elements
-───────────────────────────────────────────────────────────────
-Clay   *SEABED STIFFNESS       3  0 to 0.5  0 to 3000         2
-
-External diameters
-diameter
-     [m]  elements
-──────────────────
-     0.5         2
-
-Normal laws
-law         set   elements
-──────────────────────────
-curve:Clay  Pipe         2
-
-Static embedment
-                   weight             penetration  stiffness
-set   law           [N/m]      ratio          [m]     [N/m2]
-────────────────────────────────────────────────────────────
-Pipe  curve:Clay  348.178  0.0348178    0.0174089      20000
-
-Sheet: pipe
-                              outer     inner
-                   length  diameter  diameter
-elements  section     [m]       [m]       [m]  D/t
-──────────────────────────────────────────────────
-1 to 2    Pipe     20.008       0.5      0.46   25
-
-Sheet: mass and submerged weight
-           mass,             mass,  weight,  weight,
-           empty  contents  filled    empty   filled
-elements  [kg/m]   [kg/m3]  [kg/m]    [N/m]    [N/m]
-────────────────────────────────────────────────────
-1 to 2    236.75         0  236.75  348.178  348.178
-
-Sheet: stiffness, water and seabed
-                  EI           EA                          friction  friction
-elements      [N m2]          [N]    Cd    Ca  seabed law     along    across
-─────────────────────────────────────────────────────────────────────────────
-1 to 2    1.8011e+08  6.24297e+09  none  none  curve:Clay
-
-"""
-
 
 def test_json(place: Place) -> None:
     outcome = run("show", place(), "--output-format", "json")
@@ -145,6 +86,11 @@ def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
     assert outcome.err == "mudline: deck.keyxm has 1 error: see mudline lint\n"
 
 
+def test_length_is_that_of_the_elements_whose_nodes_are_known(place: Place) -> None:
+    outcome = run("show", place(CLEAN.replace(" 3, 0.3, 20.0\n", "")), "--output-format", "json")
+    assert outcome.json()["length"] == 10.0
+
+
 def test_length_that_overflows_is_null(place: Place) -> None:
     deck = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, 1.0E308").replace(" 3, 0.3, 20.0", " 3, 0.3, -1.0E308")
     outcome = run("show", place(deck), "--output-format", "json")
@@ -162,6 +108,11 @@ def test_many_diameters_are_shown_when_asked_for(place: Place) -> None:
     assert "2 more diameters: -v shows all\n" in text
     assert "    42.5         1" not in text
     assert "    42.5         1" in run("show", place(deck), "-v").out
+
+
+def test_repeated_keywords_are_counted(place: Place) -> None:
+    text = run("show", place("$MODEL\n*NODE\n*TENSIONER\n*NODE\n*TENSIONER\n*OCEAN\n*TENSIONER\n")).out
+    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    passed through unchanged: *TENSIONER (3 blocks)\n" in text
 
 
 def test_the_bed_and_what_it_gives(place: Place) -> None:

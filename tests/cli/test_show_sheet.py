@@ -134,6 +134,11 @@ def test_what_the_weights_leave_out(place: Place) -> None:
     assert "weights without" not in run("show", place(CLEAN)).out
 
 
+def test_a_run_ends_where_a_line_does(place: Place) -> None:
+    two = CLEAN.replace(" 3, 0.3, 20.0\n", " 3, 0.3, 20.0\n 4, 0.3, 40.0\n").replace(" 2, 2, 3\n", " 2, 3, 4\n")
+    assert [(one["first_element"], one["length"]) for one in rows(place(two))] == [(1, 10.0), (2, 20.0)]
+
+
 def test_csv_and_workbook_have_the_same_values(tmp_path: Path) -> None:
     text = run("show", CATENARY, "--output-format", "csv").out
     table = list(csv.DictReader(StringIO(text)))

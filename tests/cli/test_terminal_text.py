@@ -14,7 +14,7 @@ from mudline.cli.finding_lines import excerpt
 from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
+from tests.cli.runner import SAMPLES, Outcome, assert_fits, process, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
@@ -128,6 +128,14 @@ def test_mark_counts_the_columns_of_wide_characters() -> None:
     assert any(line[: line.index("^")] == "   | " + " " * (first - 5) and line.endswith("^^^^") for line in under)
 
 
+def test_mark_counts_what_is_escaped(place: Place) -> None:
+    name = place(CLEAN.replace(" 2, -0.1, 10.0", " 2, \u00e4\u6f22, 10.0"))
+    outcome = process("lint", name, env={"PYTHONIOENCODING": "ascii"})
+    source, under = marked(outcome)
+    assert source == " 6 |  2, \\xe4\\u6f22, 10.0"
+    assert under == "   |     ^^^^^^^^^^"
+
+
 @pytest.mark.parametrize("at", [0, 10, 60, 300, 5000])
 def test_long_line_is_cut_around_the_fault(at: int) -> None:
     line = f" 2, {' ' * at}ten, {'9' * 4000}"
@@ -148,6 +156,11 @@ def test_lines_fit_the_terminal(place: Place, monkeypatch: pytest.MonkeyPatch, w
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
+
+
+def test_message_is_not_broken_in_a_pipe(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "20")
+    assert run("lint", place(BAD_NUMBER)).out.splitlines()[0].endswith(" [bad-number]")
 
 
 @pytest.mark.parametrize(("terminal", "width"), [(True, 72), (False, 100)])

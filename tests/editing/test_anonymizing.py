@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import mudline
@@ -65,7 +65,6 @@ NAMES = st.text("qwzx", min_size=4, max_size=8)
 FAR = st.floats(-1e6, 1e6).map(lambda value: round(value, 3))
 
 
-@settings(max_examples=40)
 @given(NAMES, FAR, FAR, st.sampled_from(BEDS))
 def test_forces_are_the_same_and_no_name_is_left(hidden: str, y: float, z: float, bed: str) -> None:
     slope = math.tan(math.radians(2.0)) * y if "SLOPING" in bed else 0.0

@@ -18,6 +18,8 @@ from tests.helpers.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
+
+
 TABLES = ("deck.tables", "blocks.tables", "expression.tables")
 LONGEST_FILE = 450
 
@@ -61,6 +63,11 @@ def test_wheel_holds_every_module(wheel_names: set[str]) -> None:
     source = ROOT / "src"
     modules = {path.relative_to(source).as_posix() for path in (source / "mudline").rglob("*.py")}
     assert modules <= wheel_names
+
+
+def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) -> None:
+    assert {f"mudline/grammar/{name}" for name in (*GRAMMAR, *TABLES)} <= wheel_names
+    assert {"mudline/py.typed", "mudline/language/highlighting/words.json"} <= wheel_names
 
 
 def test_wheel_holds_the_pages_of_rules_and_the_decks_that_examples_stand_on(wheel_names: set[str]) -> None:

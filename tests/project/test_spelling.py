@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import mudline
 from mudline.basics.spelling import Effort, edits, nearest
-from tests.helpers.growth import TWOFOLD, call_growth
+from tests.helpers.growth import TWOFOLD, call_growth, calls
 
 WORDS = st.text("abcd", max_size=7)
 
@@ -37,6 +37,16 @@ def test_the_nearest_name_is_that_of_fewest_edits(word: str, known: list[str]) -
     most = 1 if len(word) < 5 else 2
     near = [(plain_edits(word, name), name) for name in known if plain_edits(word, name) <= most]
     assert nearest(word, known) == min(near, default=(0, ""))[1]
+
+
+def test_words_that_share_an_effort_share_its_bound() -> None:
+    known = [f"flowline {i:03d}" for i in range(100)]
+    effort = Effort()
+    found = [nearest(f"flowlime {i:03d}", known, effort) for i in range(2000)]
+    assert found[0] == "flowline 000"
+    assert found[-1] == ""
+    assert "" not in found[: found.index("")]
+    assert calls(lambda: nearest("flowlime 000", known, effort)) < 5
 
 
 def parameters(count: int) -> str:

@@ -96,6 +96,14 @@ def test_a_value_that_changes_the_units_is_refused() -> None:
         changed(CLEAN, "OCEAN.gravity=8", "deck.keyx")
 
 
+def test_a_character_that_the_encoding_lacks_is_refused() -> None:
+    data = CLEAN.replace("SET=Pipe", "SET=Pïpe").encode("cp1252")
+    assignment = parse_assignment("SEABED PROPERTIES.stiffness=łay")
+    target = target_of(assignment.path, Operand.of(assignment.value))
+    with pytest.raises(AssignmentError, match="encoding, cp1252, lacks"):
+        assigned(load_bytes(data, "deck.keyxm"), assignment, target)
+
+
 @pytest.mark.parametrize(
     ("condition", "holds"),
     [

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -68,6 +70,11 @@ def test_what_elements_follow_is_said_where_no_record_says_it() -> None:
     ]
 
 
+def test_an_option_that_an_earlier_set_gave() -> None:
+    text = ordered_deck().replace("7850.0\n", "7850.0\n SET=Pipe\n 207.0E9, 79.6E9, 0.4, 0.3, 7850.0\n")
+    assert differences(text, text.replace(" SET=Pipe\n 207", " OPTION=RIGID\n SET=Pipe\n 207")) == []
+
+
 def test_a_keyword_in_one_deck_only() -> None:
     more = ordered_deck() + "*POINT MASS\n 1, 2\n"
     found = differences(ordered_deck(), more)
@@ -87,6 +94,14 @@ def test_sets_of_elements_that_the_deck_does_not_show() -> None:
 def test_a_deck_with_an_unknown_value_is_refused(text: str) -> None:
     with pytest.raises(DeckError):
         differences(ordered_deck(), text)
+
+
+@given(st.randoms(use_true_random=False))
+def test_a_shuffled_deck_means_the_same(chance: random.Random) -> None:
+    def shuffled(items: list[str]) -> list[str]:
+        return chance.sample(items, len(items))
+
+    assert differences(ordered_deck(), ordered_deck(shuffled)) == []
 
 
 @given(st.sets(st.integers(0, 35)))
@@ -112,6 +127,11 @@ def test_another_way_to_write_it(written: str, other: str) -> None:
     text = ordered_deck()
     assert written in text
     assert differences(text, text.replace(written, other)) == []
+
+
+def test_records_in_another_block_mean_the_same() -> None:
+    apart = ordered_deck().replace(" SET=Rest\n STIFF", "*SEABED PROPERTIES\n SET=Rest\n STIFF")
+    assert differences(ordered_deck(), apart) == []
 
 
 def test_a_tolerance() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mudline.editing.comparison.comparing import compare
+from mudline.editing.comparison.model import Difference
 from mudline.language.deck.loading import load_path
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import ordered_deck
@@ -42,6 +43,11 @@ def test_a_type_of_all_records_is_said_of_each_once() -> None:
     lean = ordered_deck().partition("*SEABED PROPERTIES")[0]
     found = brief(differences(lean + bed, lean + bed.replace("ELASTIC", "RIGID")))
     assert found == [("*SEABED PROPERTIES/Pipe/type", "ELASTIC", "RIGID")]
+
+
+def test_a_later_record_of_a_set_replaces_an_earlier_one() -> None:
+    twice = FRICTION + " SET=PIPE\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n"
+    assert between(twice, "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n") == []
 
 
 def test_the_order_of_boundary_conditions_does_not_count() -> None:
@@ -110,8 +116,19 @@ def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> 
     assert len(found) == 2 * 2980 + 1
 
 
+def test_units_of_the_decks() -> None:
+    (found,) = differences(ordered_deck(), ordered_deck(), name="b.keyxi")
+    assert found == Difference("changed", "units", "units", "metric", "imperial")
+
+
 def test_values_of_equations_behind_the_model_compare() -> None:
     given = "$PREPROCESSOR\n*PARAMETERS\n x, 0.5\n"
     assert between(given + BOUNDARY, given + BOUNDARY.replace("0.5", "=[x]")) == []
     found = between(given + BOUNDARY.replace("0.5", "=[2*x]"), given + BOUNDARY)
     assert [values[1:] for values in found] == [(1.0, 0.5)]
+
+
+def test_equations_without_a_value_behind_the_model_compare_as_written() -> None:
+    one, other = (BOUNDARY.replace("0.5", f"=[strange({number})]") for number in (1, 2))
+    assert between(one, one) == []
+    assert [values[1:] for values in between(one, other)] == [("=[strange(1)]", "=[strange(2)]")]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mudline.editing.comparison.comparing import compare
@@ -136,10 +136,17 @@ def test_a_profile_that_both_decks_give_by_its_keyword_is_compared_as_ever() -> 
     assert shown(compared(old, new.replace("1.5", "1"))) == []
 
 
+def test_a_lost_law_is_no_spelling() -> None:
+    """Both families in one deck: the curve of the legacy keyword held before the number."""
+    new = PIPE_WITH_SETS + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5e4\n"
+    old = new + "*EMBEDMENT\n SET=West\n 0, 0\n 0.5, 4000\n"
+    assert shown(compared(old, new))[0] == "elements 1-6/laws: curve -> linear"
+    assert shown(compared(old.replace("SET=West\n 0", "SET=ALL\n 0"), new))[0] == "elements 1-12/laws: curve -> linear"
+
+
 NUMBER = re.compile(r"(?<![\w.+-])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.])")
 
 
-@settings(max_examples=15, deadline=None)
 @given(legacy_decks(), st.data())
 def test_any_other_number_in_a_migrated_deck_is_reported(text: str, data: st.DataObject) -> None:
     found = migrate(deck_of(text))

@@ -44,6 +44,10 @@ def test_sections_and_keywords(text: str, expected: str) -> None:
     assert record_schema(text) == expected
 
 
+def test_other_letters_stay_where_their_bytes_could_be_taken_for_others() -> None:
+    assert record_schema("$model\n * gel\xe4nde \n", "cp1252") == "$MODEL\n* gel\xe4nde\n"
+
+
 def test_settings() -> None:
     same(
         """\
@@ -88,6 +92,13 @@ def test_a_key_that_begins_with_c_in_column_one_is_data_and_is_indented() -> Non
     same(
         "*SEABED STIFFNESS\nCURVE=clay\n0,0\n1,2\nClay of the west\n",
         "*SEABED STIFFNESS\n CURVE=clay\n 0, 0\n 1, 2\nClay of the west\n",
+    )
+
+
+def test_a_name_in_brackets_does_not_become_an_equation() -> None:
+    same(
+        "*ELEMENT SETS\nSET= [a\nGEN=1,2\nSET=[b]\nGEN=3,4\nSET =[ c ]\nGEN=5,6\n",
+        "*ELEMENT SETS\n SET= [a\n GEN=1, 2\n SET=[b]\n GEN=3, 4\n SET=[ c ]\n GEN=5, 6\n",
     )
 
 
@@ -231,3 +242,10 @@ def test_the_page_shows_what_comes_out() -> None:
     page = Path(__file__).parents[3] / "docs" / "format.md"
     before, after = (block.text for block in Page.read(page).blocks if block.language == "mudline")
     assert record_schema(before) == after
+
+
+def test_lines_that_are_kept_stay_as_they_are() -> None:
+    text = "$LOAD CASE\n*FRICTION\n   MODES=3,4\nC x  \n1,2\n*BOUNDARY\nTYPE=vessel\n   12,   Semi\n"
+    wanted = "$LOAD CASE\n*FRICTION\n   MODES=3,4\nC x\n 1, 2\n*BOUNDARY\n TYPE=VESSEL\n   12,   Semi\n"
+    assert formatted(text.encode(), "deck.keyxm").decode() == wanted
+    assert formatted(wanted.encode(), "deck.keyxm").decode() == wanted

@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.editing.formatting.document import FormatError, formatted
@@ -106,7 +106,6 @@ def test_what_conversion_writes_is_canonical(path: Path, form: str) -> None:
 
 
 @given(deck_texts(), st.booleans())
-@settings(max_examples=20)
 def test_decks(text: str, bom: bool) -> None:
     check((BOM if bom else b"") + text.encode())
 
@@ -115,7 +114,6 @@ _sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES if p
 
 
 @given(mutated(st.one_of(deck_texts().map(str.encode), _sample_bytes)))
-@settings(max_examples=20)
 def test_mutated_decks(data: bytes) -> None:
     check(data.replace(b"\x00", b"\x01"))  # with a NUL, few bytes and a line end more may look like UTF-16
 
@@ -137,7 +135,6 @@ def test_an_end_of_file_mark(data: bytes) -> None:
 
 
 @given(st.text(st.sampled_from('$*C c=1-,.\t\r\nx[]{}"/\x85\u2028\u0660\x0b\x0c\xdf'), max_size=60))
-@settings(max_examples=50)
 def test_random_lines(text: str) -> None:
     check(text.encode())
     check(b"$MODEL\n*SEABED STIFFNESS\nCURVE=x\n" + text.encode())
@@ -166,7 +163,6 @@ _lines = st.lists(
 
 
 @given(_lines.map("".join), st.booleans())
-@settings(max_examples=50)
 def test_both_ways_give_the_same(text: str, cut: bool) -> None:
     text = text.rstrip("\r\n") if cut else text
     plain = PlainRows.read(text, 4)

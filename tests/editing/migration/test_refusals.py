@@ -8,6 +8,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import lint_context
 from mudline.checks.registry import rules
 from mudline.editing.migration.migrating import migrate, verify
+from mudline.editing.migration.refusals import superseded_blocks
 from mudline.editing.migration.rewriting import curve_names
 from mudline.language.diagnostics import DeckError
 from tests.helpers.builders.decks import PIPE_WITH_SETS
@@ -89,6 +90,18 @@ def test_a_misspelt_keyword_does_not_soften_a_refusal(text: str, line: int, mess
     assert found == [("MIG001", line, f"{message}: correct or remove it first")]
     lint = lint_context(LintContext(deck_of(text)), rules())
     assert not any(one.fix for one in lint if one.code == "LEG001")
+
+
+@pytest.mark.parametrize("surface", ["ELASTIC SURFACE", "RIGID SURFACE"])
+def test_surfaces_come_before_curves(surface: str) -> None:
+    deck = deck_of(f"{PIPE_WITH_SETS}{CURVE}*{surface}\n 0.3\n")
+    assert [block.keyword for _, block in superseded_blocks(deck)] == [surface, "EMBEDMENT"]
+
+
+def test_what_lines_may_define_is_no_obstacle() -> None:
+    """A set that only the lines may make is a warning, and its name stays."""
+    found = migrate(deck_of(f"{LINES_DECK}*ELASTIC SURFACE\n 1e4\n{CURVE}"))
+    assert found.content.endswith(b" SET=West\n STIFFNESS=West\n*SEABED STIFFNESS\n CURVE=West\n 0, 0\n 1, 5\n")
 
 
 VARIED = "$PREPROCESSOR\n*VARIATION\n NAME=Soil\n ACTION={}, KEYWORD={}\n"
@@ -233,3 +246,14 @@ def test_a_rigid_seabed_without_friction_is_for_all() -> None:
     )
     found = seabed_after(PIPE_WITH_SETS, f"*ELASTIC SURFACE\n , , , , , , 2.0\n*EMBEDMENT\n SET=West\n{FIRST}")
     assert found.startswith(f"*SEABED PROPERTIES\n{left} TYPE=ELASTIC\n SET=West\n STIFFNESS=West\n*SEABED STIFFNESS")
+
+
+def test_blank_lines_stay_where_they_are() -> None:
+    found = seabed_after(
+        PIPE_WITH_SETS, "*ELASTIC SURFACE\n\n 1e4\n  \n 2.5\n*EMBEDMENT\n\n SET=West\n\n 0, 0\n\n 1, 5\n"
+    )
+    assert found == (
+        "*SEABED PROPERTIES\n\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1e4\n SET=West\n STIFFNESS=West\n"
+        "*SEABED PROFILE\n  \n TYPE=SLOPING\n SLOPE=2.5\n"
+        "*SEABED STIFFNESS\n\n CURVE=West\n\n 0, 0\n\n 1, 5\n"
+    )

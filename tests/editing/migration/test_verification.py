@@ -9,7 +9,7 @@ import pytest
 from mudline.editing.migration.migrating import Migration, migrate, verify
 from mudline.language.deck.loading import load_bytes
 from mudline.model.scene.model import resolve
-from tests.editing.migration.test_migrating import SAMPLE
+from tests.editing.migration.test_migrating import MIGRATED, SAMPLE
 from tests.helpers.builders.decks import PIPE_WITH_SETS
 from tests.helpers.builders.scenes import deck_of
 
@@ -47,6 +47,14 @@ def test_every_value_counts(old: str, new: str, name: str) -> None:
     differences = verify(tampered(old, new)).differences
     assert differences
     assert any(name in difference.text for difference in differences)
+
+
+def test_the_order_of_blocks_counts() -> None:
+    """Element 9 lies in both sets: the later block wins."""
+    east = MIGRATED[MIGRATED.index(" SET=East Bank\n STIFFNESS") : MIGRATED.index(" SET=7\n STIFFNESS")]
+    seven = MIGRATED[MIGRATED.index(" SET=7\n STIFFNESS") : MIGRATED.index("*SEABED PROFILE")]
+    differences = verify(tampered(east + seven, seven + east)).differences
+    assert {difference.what for difference in differences} >= {"element 9"}
 
 
 def test_only_elements_that_differ_are_named() -> None:

@@ -14,7 +14,7 @@ from mudline.checks.registry import select
 from mudline.editing.variations.files import path_fault
 from mudline.language.deck.loading import dump, load_bytes
 from tests.helpers.builders.decks import varied_deck
-from tests.helpers.builders.scenes import only, refused
+from tests.helpers.builders.scenes import only, planned, refused
 
 BAD = [
     ("../a", "leads out of the output folder with .."),
@@ -70,6 +70,18 @@ def test_no_folder_leads_out_of_the_output_folder(folder: str, key: str) -> None
         case _:
             content = varied_deck(f" NAME=v\n PARA=Folder, VALUE={folder}\n", f" DESCRIPTION=d, SUBDIRECTORY={key}\n")
     assert only(refused(content))[0] == "EXP001"
+
+
+def test_an_empty_folder_is_refused() -> None:
+    assert (
+        "has a folder without a name"
+        in only(refused(varied_deck("", ' DESCRIPTION=d, SUBDIRECTORY="", FILENAME=a\n')))[3]
+    )
+
+
+def test_a_slash_in_a_folder_makes_folders() -> None:
+    found = planned("", " DIRECTORY=a/b/\n DESCRIPTION=d, SUBDIRECTORY=c/%Period%, FILENAME=e\n")
+    assert [new.path for new in found.decks] == ["a/b/c/08/e.keyxm"]
 
 
 NASTY = st.text("ab. /\\:%~\0*CONnul-\u00e9\u0301\u2028", max_size=12)
@@ -153,3 +165,9 @@ def test_a_parameter_that_could_not_be_read_may_be_the_one(old: str, new: str) -
 def test_a_variation_that_could_not_be_read_may_be_the_one(name: str) -> None:
     found = reported(WHOLE.replace("NAME=Near Shore", name, 1))
     assert [one for one in found if "REF001" in one] == []
+
+
+def test_a_sheet_may_hold_the_variations() -> None:
+    rest = WHOLE.replace("All", "Sheet")
+    assert [one.split()[2] for one in reported(rest)] == ["REF001"]
+    assert reported(rest + "*EXCEL VARIATIONS\n FILE=a.xls\n") == []

@@ -203,11 +203,22 @@ def test_combinations_that_cannot_be(combinations: str, column: int, code: str, 
     assert message in found[0].message
 
 
+@pytest.mark.parametrize("names", ["A, a", "\u00c9, \u00e9", "\u00e9, e\u0301"])
+def test_names_that_some_systems_take_for_one(names: str) -> None:
+    found = only(refused(varied_deck(f" NAME=v\n PARA=Folder, VALUE={names}\n", " DESCRIPTION=d, FILENAME=%Folder%\n")))
+    assert "that of the deck with" in found[3]
+
+
 def test_a_file_where_another_deck_needs_a_folder() -> None:
     combinations = " DESCRIPTION=d, SUBDIRECTORY=a.keyxm, FILENAME=b\n DESCRIPTION=e, FILENAME=a\n"
     assert "its name 'a.keyxm' is that of" in only(refused(varied_deck("", combinations)))[3]
     back = " DESCRIPTION=e, FILENAME=a\n DESCRIPTION=d, SUBDIRECTORY=A.keyxm, FILENAME=b\n"
     assert "its name 'A.keyxm/b.keyxm' is that of" in only(refused(varied_deck("", back)))[3]
+
+
+def test_the_list_of_decks_has_its_name_for_itself() -> None:
+    found = only(refused(varied_deck("", " DESCRIPTION=d, FILENAME=Manifest.json\n")))
+    assert "is that of the manifest" in found[3]
 
 
 def test_a_value_that_a_name_needs_and_that_is_none() -> None:

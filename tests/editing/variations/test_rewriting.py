@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -102,7 +102,6 @@ def studies(draw: st.DrawFn) -> tuple[list[dict[str, list[str]]], str]:
 
 
 @given(studies())
-@settings(max_examples=60)
 def test_every_combination_is_a_deck_whose_parameters_are_those_of_the_case(
     study: tuple[list[dict[str, list[str]]], str],
 ) -> None:
@@ -166,6 +165,12 @@ def test_all_blocks_of_a_keyword_are_removed_once() -> None:
     assert contents(plan(deck_of(content))) == [BARE.replace("*TOP TENSION\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
 
 
+def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
+    more = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n 0, 0\n 1, 1\nCURVE=b\nCnote\n*OCEAN\n 1\n"
+    found = plan(deck_of(acting("REMOVE, KEYWORD=SEABED STIFFNESS") + more))
+    assert contents(found) == [BARE + "$MODEL\nCnote\n*OCEAN\n 1\n"]
+
+
 @pytest.mark.parametrize(
     ("data", "added"),
     [
@@ -218,6 +223,11 @@ def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) 
 
 
 # ------------------------------------------------------------------------------------------------- other forms, samples
+
+
+def test_a_deck_from_nowhere_has_no_files_beside_it() -> None:
+    found = only(refused(acting("ADD, KEYWORD=TOP TENSION, FILE=a.txt")))
+    assert "which came from standard input" in found[3]
 
 
 @pytest.mark.parametrize("form", ["json", "yaml"])

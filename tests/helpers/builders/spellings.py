@@ -48,21 +48,12 @@ ODD_NUMBERS = [
 numbers = st.builds(_spelled, _finite, st.sampled_from(_SPELLINGS)) | st.sampled_from(ODD_NUMBERS)
 """Any finite double, as people and programs spell it."""
 
-_wholes = st.integers(-(2**53), 2**53) | st.integers(0, 200)
-wholes = st.builds(
-    lambda value, end: f"{value}{end}", _wholes, st.sampled_from(["", "", "", ".", ".0"])
-) | st.sampled_from(["+7", "007", "1e3", "2.5E1", "1D2"])
-"""Whole numbers."""
-
 EQUATIONS = [
     *("=[od]", "=[ 0.5*(OD - 2*wt) ]", "=[if(a > b, 1.0, list[2])]", '=["a, ] b"]'),
     *("=[]", "=[Tiefe \u00fc\u00e9^2]", "=[{x, y}]"),
 ]
 equations = st.sampled_from(EQUATIONS)
 labels = st.sampled_from(["{Seabed End}", "{a, b}", "{}", "{1}", "{\u00e9 \xa0}", '{"}', "{=[x]}"])
-reals = st.one_of(numbers, numbers, numbers, equations)
-whole_fields = st.one_of(wholes, wholes, wholes, equations)
-idents = st.one_of(wholes, wholes, labels)
 
 _names = st.text("abcXYZ019 ._%+-:;()'\u00e9\u00df\xa0\u2028", min_size=1, max_size=10).map(
     lambda name: name.strip(" ") or "n"

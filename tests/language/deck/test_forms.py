@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from mudline.language.deck.forms import form_of
@@ -94,7 +94,6 @@ def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> N
     st.lists(st.tuples(st.floats(allow_nan=False, allow_infinity=False), st.floats(-1e9, 1e9)), min_size=2, max_size=30)
 )
 @example([(-0.0, 5e-324), (1.7976931348623157e308, 0.1 + 0.2)])
-@settings(max_examples=15)
 def test_numbers_to_the_last_bit(points: list[tuple[float, float]]) -> None:
     text = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
     deck = deck_of(text)

@@ -79,7 +79,6 @@ def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
 
 
 @given(document())
-@settings(max_examples=10)
 def test_whole_decks(made: Values) -> None:
     deck = of(made)
     held_in_documents(deck)
@@ -97,7 +96,6 @@ def with_ends(text: str, chosen: list[str]) -> str:
 
 
 @given(texts, ends, st.booleans())
-@settings(max_examples=15)
 def test_line_ends_and_marks_change_no_model(text: str, chosen: list[str], marked: bool) -> None:
     deck = load_bytes(text.encode(), "a.keyxm")
     assume(not text.startswith("\ufeff"))

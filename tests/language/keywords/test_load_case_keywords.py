@@ -12,7 +12,6 @@ from mudline.language.keywords.keeping import is_read
 from tests.helpers.builders.scenes import deck_of, faults
 from tests.language.deck.test_forms import held
 
-KEYWORDS = ("P-Y", "T-Z", "RESTART", "TIME", "BOUNDARY", "FRICTION")
 Lines = list[str]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from lark import Lark
 
@@ -56,7 +56,6 @@ def test_samples(path: Path, end: bytes, mark: bytes) -> None:
 
 
 @given(deck_texts(), st.booleans())
-@settings(max_examples=15)
 def test_decks(text: str, bom: bool) -> None:
     source = read_back((BOM if bom else b"") + text.encode())
     assert source.text == text

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 from mudline.model.contact import ContactInput, ContactModel, ElementError, LawAssignment, PositionError
 from mudline.model.contact.laws import known_laws
@@ -22,6 +23,7 @@ from tests.helpers.builders.contact import (
     bridge_law,
     chain,
     drawn,
+    floats,
     friction,
     heave,
     on,
@@ -51,6 +53,12 @@ def test_positions_of_another_shape(shape: tuple[int, ...]) -> None:
 # ------------------------------------------------------------------------------------------ velocities, times and steps
 
 
+@pytest.mark.parametrize("present", [[True] * 3, [1, 1, 1, 1], True])
+def test_a_mask_that_does_not_fit(present: ArrayLike) -> None:
+    with pytest.raises(ValueError, match=r"present must be booleans of shape \(4,\)"):
+        ContactModel(GOOD).evaluate(np.zeros((4, 3)), present=present)
+
+
 def sucking() -> ContactModel:
     return ContactModel(chain([LINEAR], suction(bridge_law())))
 
@@ -63,6 +71,11 @@ def test_a_velocity_that_is_not_finite_is_named(rate: float, axis: int) -> None:
     with pytest.raises(PositionError, match="node 102 at step 2: its velocity is not finite") as caught:
         sucking().evaluate(positions, velocities=velocities)
     assert (caught.value.node, caught.value.step) == (102, 2)
+
+
+def test_steps_too_close_in_time_for_a_velocity() -> None:
+    with pytest.raises(PositionError, match="node 101 at step 1: its velocity is not finite"):
+        sucking().evaluate(at_depths([[0.1, 0.1], [-0.1, -0.1]]), times=[0.0, 1e-320])
 
 
 def test_a_step_without_velocities_needs_the_time_it_took() -> None:
@@ -255,6 +268,13 @@ WRONG: dict[str, Callable[[], LawAssignment]] = {
 def test_a_law_that_does_not_fit_is_refused(message: str) -> None:
     with pytest.raises(ValueError, match=message):
         chain([LINEAR, NONE], WRONG[message]())
+
+
+def test_laws_of_no_rows_are_as_if_they_were_not_there() -> None:
+    inputs = chain([LINEAR], on("suction", [], **{key: floats(1.0, 0) for key in bridge_law()._fields}), friction([]))
+    assert list(inputs.assigned) == ["linear"]
+    assert not inputs.has("suction", "friction")
+    assert not ContactModel(inputs).plan.history
 
 
 def test_rows_are_kept_in_ascending_order_with_their_parameters() -> None:

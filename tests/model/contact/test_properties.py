@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.model.contact import ContactInput, ContactModel
@@ -167,7 +167,6 @@ def test_the_order_of_the_nodes_does_not_matter(elements: int, seed: int, other:
     assert close(two.reaction, one.reaction[:, order])
 
 
-@settings(max_examples=15)
 @given(lines, seeds)
 def test_elements_do_not_know_each_other(elements: int, seed: int) -> None:
     """Without what belongs to nodes, the whole is the sum of its elements."""

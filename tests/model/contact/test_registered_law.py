@@ -14,7 +14,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.model.contact import ContactInput, ContactModel, LawKind, laws
@@ -120,7 +120,6 @@ def everything_beside(elements: int, seabed: SlopingSeabed | None = None) -> Con
     )
 
 
-@settings(max_examples=10)
 @given(st.integers(2, 12), st.integers(0, 9999), st.booleans())
 def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool) -> None:
     positions, velocities, _ = journey(elements, 12, seed)
@@ -243,3 +242,10 @@ def test_only_normal_laws_without_history_can_be_added(law: NormalLaw) -> None:
     with pytest.raises(TypeError, match="only normal laws without history can be added"):
         register(law)
     assert law.name not in set(known_laws()) - {"rigid", "unloading"}
+
+
+def test_a_name_is_given_once() -> None:
+    with pytest.raises(ValueError, match="contact law 'hyperbolic' is already registered"):
+        register(plain_law("hyperbolic"))
+    with pytest.raises(ValueError, match="contact law 'linear' is already registered"):
+        register(plain_law("linear"))

@@ -113,7 +113,6 @@ def test_loss_of_contact_and_the_way_back() -> None:
 # ----------------------------------------------------------------------------------------------------------- properties
 
 
-@settings(max_examples=15)
 @given(clay=soils, path=paths)
 def test_an_independent_program_gives_the_same_in_small_steps(clay: Clay, path: list[float]) -> None:
     walker = Walker(clay)
@@ -122,7 +121,6 @@ def test_an_independent_program_gives_the_same_in_small_steps(clay: Clay, path: 
     assert_allclose(forces(clay, path), walked, atol=5e-3 * scale, rtol=0.0)
 
 
-@settings(max_examples=15)
 @given(clay=soils, path=paths)
 def test_the_force_depends_on_the_path_and_not_on_its_steps(clay: Clay, path: list[float]) -> None:
     fine = [0.0]
@@ -133,7 +131,6 @@ def test_the_force_depends_on_the_path_and_not_on_its_steps(clay: Clay, path: li
     )
 
 
-@settings(max_examples=15)
 @given(clay=soils, path=paths)
 def test_the_force_is_bounded_and_continuous(clay: Clay, path: list[float]) -> None:
     """A step of 1e-9 D either way, before or behind a reversal, changes the force by as little."""
@@ -157,7 +154,6 @@ def leg(z: FloatArray, memory: tuple[float, ...], soil: Numbers) -> tuple[FloatA
     return force, tuple(float(np.broadcast_to(number, len(z))[-1]) for number in after)
 
 
-@settings(max_examples=15)
 @given(clay=soils, low=st.floats(1.05, 60.0), share=st.floats(0.02, 0.95))
 def test_a_settled_cycle_takes_no_energy_out_of_the_soil(clay: Clay, low: float, share: float) -> None:
     """Between two depths below D/K_max, repeated until force and work repeat."""
@@ -187,7 +183,6 @@ def test_a_settled_cycle_takes_no_energy_out_of_the_soil(clay: Clay, low: float,
 # ------------------------------------------------------------------------------------------------------------- tangents
 
 
-@settings(max_examples=15)
 @example(clay=Clay(D, 1000.0, 0.0, 5.0, 0.267578125, 50.0, 1.0, 1.0, 0.0, 0.0), path=[0.005000000000000001])
 @given(clay=soils, path=st.lists(st.floats(0.005, 0.29), min_size=1, max_size=6))
 def test_tangents_of_going_on_and_of_turning_round(clay: Clay, path: list[float]) -> None:

@@ -54,6 +54,13 @@ def test_normal_laws() -> None:
         ContactModel(inputs).stiffest()["suction"]
 
 
+def test_springs_of_nodes_are_those_of_the_stiffer_node_of_each_element() -> None:
+    stiffness, damping, per = figures(chain([NONE] * 4, on("nodal", [0, 1, 4], stiffness=[1.0, 5.0, 3.0])), "nodal")
+    np.testing.assert_array_equal(stiffness, [5.0, 5.0, NAN, 3.0])
+    np.testing.assert_array_equal(damping, [0.0, 0.0, NAN, 0.0])
+    assert per == "node"
+
+
 def test_unloading_lines_are_as_stiff_as_the_steepest_slope_of_their_path_at_least() -> None:
     inputs = chain([CURVE, LINEAR, LINEAR, NONE], on("unloading", [0, 1, 3], stiffness=[1e5, 100.0, 100.0]))
     np.testing.assert_allclose(figures(inputs, "unloading")[0], [1e5, 5e4, NAN, 100.0])

@@ -62,6 +62,13 @@ def test_a_line_that_comes_down_lies_and_goes_up() -> None:
     assert (found.reaction, found.submerged_weight, found.ratio) == (10_000.0, 1000.0, 10.0)
 
 
+def test_a_node_exactly_at_the_seabed_is_the_touchdown_point() -> None:
+    (point,) = summary(0.0, -1.0).touchdown
+    assert (point.arc_length, point.contact) == (0.0, "after")
+    (point,) = summary(-1.0, 0.0, 1.0).touchdown
+    assert (point.arc_length, point.contact) == (10.0, "before")
+
+
 def test_a_rigid_seabed_holds_what_lies_at_it() -> None:
     found = summary(0.0, 0.0, 1.0, law="rigid")
     (point,) = found.touchdown
@@ -132,6 +139,13 @@ def lines(*ends: tuple[int, int], nodes: int = 0, length: float = 2.0) -> Lines:
     pairs = np.array(ends, dtype=np.intp).reshape(-1, 2)
     count = nodes or int(pairs.max(initial=-1)) + 1
     return lines_of(pairs, np.full(len(pairs), length), count)
+
+
+def test_a_junction_ends_lines_and_belongs_to_the_first() -> None:
+    found = lines((0, 1), (1, 2), (1, 3))
+    assert found.of_element.tolist() == [0, 1, 2]
+    assert [each.tolist() for each in found.nodes] == [[0, 1], [1, 2], [1, 3]]
+    assert (found.of_node[1], found.node_arc[1]) == (0, 2.0)
 
 
 @pytest.mark.parametrize("ends", [((0, 1), (1, 2), (2, 0)), ((1, 2), (0, 1), (2, 0))])

@@ -207,6 +207,16 @@ def test_several_lines_differ_without_colours() -> None:
     assert texts[:3] == ["line 1: elements 1 to 4", "line 2: elements 5 to 8", "line 3: elements 9 to 12"]
 
 
+def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
+    data = PlotData.of_result(lines(70, 1))
+    stretch = Stretch(data)
+    assert (len(stretch.lines), stretch.left_out) == (6, 64)
+    axes = panel(data, "line")
+    legend = axes.get_legend()
+    assert legend is not None
+    assert "and 64 more lines" in [text.get_text() for text in legend.get_texts()]
+
+
 def test_four_elements_are_marked_and_a_long_line_is_thinned() -> None:
     short = drawn(panel(PlotData.of_result(lines(1)), "force"))[0]
     assert short.get_marker() == "o"
@@ -232,6 +242,28 @@ def test_panels_along_the_line_show_where_contact_changes() -> None:
     assert stretch.beyond == f"where contact changes: 0 to {low // 5 * 5:.5g} in contact, not drawn"
     figure = evaluation_figure(data)
     assert stretch.beyond in figure.get_suptitle()
+
+
+def test_springs_of_nodes_have_forces_on_nodes() -> None:
+    scene = lines(1).known
+    law = LawAssignment("nodal", np.arange(5), {"stiffness": 1e4})
+    given = ContactInput(
+        scene.node_ids, scene.coordinates, scene.element_ids, scene.element_nodes, scene.length, scene.diameter, (law,)
+    )
+    found = ContactModel(given).evaluate()
+    axes = panel(PlotData.of_result(found), "force")
+    assert axes.get_ylabel() == "seabed reaction\non a node"
+    assert np.asarray(drawn(axes)[0].get_ydata()).tolist() == found.normal_force.tolist()
+
+
+@pytest.mark.parametrize("name", ["picture.png", "picture.svg", "picture.pdf"])
+def test_a_result_draws_itself_the_same_each_time(tmp_path: Path, name: str) -> None:
+    state = raised().step(0)
+    state.plot(tmp_path / name)
+    first = (tmp_path / name).read_bytes()
+    state.plot(tmp_path / name)
+    assert (tmp_path / name).read_bytes() == first
+    assert b"/Type3" not in first
 
 
 def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:

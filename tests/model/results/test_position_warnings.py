@@ -66,3 +66,10 @@ def test_rounding_that_makes_the_friction(digits: int, mobilisation: float, expe
     told = [one.diagnostic for one in watched(pipe(law), places.round(digits))[0]]
     assert [one.code for one in told] == ["RUN008"] * bool(expected)
     assert all(expected in one.message for one in told)
+
+
+def test_caption_is_one_short_line() -> None:
+    two = watched(pipe(LAW.replace("50000", "900000") + " SET=East\n FRICTION=0.3, 0.5\n"))[0]
+    assert caption(two) == "2 warnings: reaction / submerged weight 38.4; 5 elements in contact without a seabed law"
+    assert caption([]) == ""
+    assert len(caption(two * 9)) <= 90

@@ -156,6 +156,11 @@ def test_own_coordinates_above_the_seabed() -> None:
     )
 
 
+def test_node_in_the_seabed_whose_elements_are_not() -> None:
+    found = message(pipe(LAW, "-0.1, 0.0, 0.0", "10.0, 0.0, 100.0"), "GEO005")
+    assert found.startswith("no element is in contact in the mean of its nodes, though node 1 lies 0.1 m deep; correct")
+
+
 @pytest.mark.parametrize(
     ("first", "last", "hint"),
     [
@@ -168,10 +173,20 @@ def test_height_as_the_last_coordinate(first: str, last: str, hint: str) -> None
     assert hint in message(pipe(LAW, first, last), "GEO005")
 
 
+def test_vertical_riser_is_no_line_with_its_height_as_z() -> None:
+    assert "X is up here" not in message(pipe(LAW, "1.0, 0.0, 0.0", "500.0, 0.0, 0.0"), "GEO005")
+    assert "X is up here" not in message(pipe(LAW, "1.0, 0.0, 0.0", "500.0, 0.0, -10.0"), "GEO005")
+
+
 def test_rigid_seabed_touches_at_no_depth() -> None:
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
     assert brief(pipe(rigid, "0.0, 0.0, 0.0", "0.0, 0.0, 100.0")) == [("RUN005", LINE + 2, 10, 1)]
     assert brief(pipe(rigid, "0.1, 0.0, 0.0", "0.1, 0.0, 100.0")) == [("GEO005", 5, 10, 1)]
+
+
+def test_nothing_under_the_line() -> None:
+    planes = "*SEABED PLANES\n PLANE=Far\n POINT=0, 0, 0\n SLOPE=0\n DIRECTION=0\n BOUNDS=-1, 1, 500, 600\n"
+    assert "the line lies outside the seabed" in message(pipe(planes + LAW), "GEO005")
 
 
 def test_line_that_leaves_the_surveyed_seabed_at_one_step() -> None:
@@ -215,6 +230,12 @@ def test_far_from_equilibrium_is_a_third_or_three_times_the_weight(stiffness: in
         assert found[0].brief == f"reaction / submerged weight {ratio:.3g}"
 
 
+def test_weight_with_coatings_is_not_known() -> None:
+    found, note = watched(pipe(LAW.replace("50000", "90000") + "*COATINGS\n 1\n"))
+    assert found == []
+    assert "N without *COATINGS, ratio 3.84" in note
+
+
 def test_positions_of_a_file_are_judged_in_the_mean_of_their_steps() -> None:
     """Embedments of 0.02 and 0.04 m are 1.5 and 3 times the weight at 35,000 N/m2: 2.24 in the mean."""
     law = LAW.replace("50000", "35000")
@@ -249,6 +270,12 @@ def test_a_pipe_that_floats_in_one_load_case_only() -> None:
     assert f"submerged weight {weight:.6g} N/m with the contents of load case 1 (line {line});" in message(
         text, "RUN004"
     )
+
+
+def test_contents_above_their_level_do_not_weigh() -> None:
+    """The oil stands 1 m below the line: it is empty, and floats."""
+    text = pipe(LAW, di=0.3139) + "$LOAD CASE\n*INTERNAL FLUID\n -1.0, 900.0\n"
+    assert [code for code, *_ in brief(text)] == ["RUN004"]
 
 
 def test_what_springs_of_the_soil_hold_may_float() -> None:
@@ -339,6 +366,11 @@ def test_the_reaction_of_a_rigid_seabed_is_not_known() -> None:
 def test_curve_without_effect(body: str, line: int, code: str, reason: str) -> None:
     assert brief(pipe(body)) == [(code, line, 0, None)]
     assert message(pipe(body), code).removeprefix("the ") == reason
+
+
+def test_several_later_definitions() -> None:
+    halves = LAW.replace("50000", "30000").replace("ALL", "West") + " SET=East\n STIFFNESS=31000.0\n"
+    assert message(pipe(ON_CLAY + halves), "SBD025").endswith("lines 32, 34 override it for all elements of SET='ALL'")
 
 
 def test_nodal_stiffness_in_place_of_a_curve() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -93,6 +93,13 @@ def test_a_node_between_two_nodal_laws_has_the_later_one_and_a_bare_block_takes_
 # smoothing
 
 
+def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
+    rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
+    scene = scene_of(line_deck(METRIC, rigid + NODAL))
+    assert scene.law_names == ["rigid"] * 10
+    assert refusal(rigid + NODAL).startswith("2: EXT001 *SEABED CONTACT needs an elastic seabed, and the seabed is rig")
+
+
 def test_submerged_weight() -> None:
     np.testing.assert_allclose(scene_of(line_deck(METRIC, "")).submerged_weight, WEIGHT, rtol=1e-14)
     dry = line_deck(METRIC, "").replace("*OCEAN", "*TIME").replace(" 500.0, 1025.0, 9.81\n", " 0, 1\n")
@@ -116,6 +123,14 @@ def test_a_pipe_on_a_seabed_above_the_water_has_its_weight_in_air(units: Units) 
     np.testing.assert_allclose(deep.submerged_weight, WEIGHT, rtol=1e-14)
 
 
+def test_elements_that_begin_outside_of_the_seabed_are_in_the_water() -> None:
+    """The plane begins at 70 m, where element 8 does; the bed of the water, 500 m deep, is not known."""
+    planes = "*SEABED PLANES\n PLANE=Land\n POINT=600, 0, 0\n SLOPE=0\n BOUNDS=70, 200, -10, 10\n"
+    weight = scene_of(line_deck(METRIC, planes)).submerged_weight
+    assert weight[:7] == pytest.approx(WEIGHT)
+    assert weight[7:] == pytest.approx(7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) * 9.81)
+
+
 def test_widths_of_linear_laws() -> None:
     def width(lines: str) -> list[float]:
         given = made(LINEAR_BED + f"*SEABED CONTACT\n SET=Left\n{lines}")
@@ -132,6 +147,14 @@ def test_widths_of_linear_laws() -> None:
     one_sided = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=Left\n SMOOTHING=0.01\n FORM=ONE-SIDED\n", "smoothed")
     assert one_sided.rows.tolist() == [0, 1, 2, 3, 4]
     assert one_sided["one_sided"].all()
+
+
+def test_widths_of_nodal_laws_count_half_the_elements_of_a_node() -> None:
+    widths = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000000\n", "nodal")["half_width"]
+    np.testing.assert_allclose(widths[[0, 10]], 0.1 * WEIGHT * 5.0 / 1e6)
+    np.testing.assert_allclose(widths[1:10], 0.1 * WEIGHT * 10.0 / 1e6)
+    soft = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000\n", "nodal")
+    np.testing.assert_allclose(soft["half_width"], np.full(11, 0.0025))
 
 
 def test_without_a_weight_nothing_is_smoothed_and_the_plan_says_so() -> None:
@@ -224,6 +247,14 @@ def test_friction_of_the_keyword_replaces_that_of_properties_at_its_nodes() -> N
     assert np.isnan(friction["angle"][4])
 
 
+def test_lateral_springs_take_the_transverse_coefficient_away() -> None:
+    seabed = LINEAR_BED + " FRICTION=0.3, 0.5\n SET=Left\n STIFFNESS=1\n FRICTION=0.3, 0.5\n LATERAL=70\n"
+    laws = made(seabed).assigned
+    assert laws["lateral"].rows.tolist() == [0, 1, 2, 3, 4]
+    assert laws["lateral"]["stiffness"].tolist() == [70.0] * 5
+    assert laws["friction"]["lateral_coefficient"].tolist() == [0.0] * 6 + [0.5] * 5
+
+
 def test_a_trench_counts_its_own_elements() -> None:
     seabed = (
         LINEAR_BED
@@ -287,7 +318,6 @@ def model(units: Units) -> ContactModel:
 METRES, FEET = model(METRIC), model(IMPERIAL)
 
 
-@settings(max_examples=15)
 @given(st.lists(st.tuples(*(st.floats(-0.3, 0.3),) * 3), min_size=2, max_size=5))
 def test_every_feature_is_the_same_in_feet_and_pounds(moves: list[tuple[float, float, float]]) -> None:
     start = METRES.input.coordinates
@@ -336,3 +366,10 @@ def test_linear_laws_and_curves() -> None:
     lifting = rows(CURVED_BED.replace("0.5, 4000", "0.5, -4000"))
     assert lifting[0]["ratio"] is None
     assert rows(LINEAR_BED.replace("50000", "0"))[0]["penetration"] is None
+
+
+def test_nodal_laws_have_the_ends_and_the_inside_of_a_line() -> None:
+    end, inside = rows(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n")
+    assert end["penetration"] == pytest.approx(WEIGHT * 10.0 / (2 * 90000.0))
+    assert inside["penetration"] == pytest.approx(WEIGHT * 10.0 / 90000.0)
+    assert (end["law"], end["stiffness"], end["set"]) == ("nodal", 90000.0, "ALL")

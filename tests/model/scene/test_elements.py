@@ -35,6 +35,14 @@ def test_axes_of_an_element_are_no_nodes() -> None:
     assert ends_of(scene_of(ELEMENT + " 1, 1, 2, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0\n")) == {1: [1, 2]}
 
 
+def test_an_undefined_node_is_told_at_its_field() -> None:
+    text = ELEMENT + " 1, 1, 2\n 2, 2, 30\n 3, 31, 32\n"
+    line = NODES_END + 3
+    assert reported(text) == [("E", "REF006", line, 8), ("E", "REF006", line + 1, 5), ("E", "REF006", line + 1, 9)]
+    assert ends_of(scene_of(text)) == {1: [1, 2], 2: [2, 0], 3: [0, 0]}
+    assert messages(text)[0] == "element 2 ends at node 30, which is not defined: define it"
+
+
 def test_a_generator_that_runs_beyond_the_nodes_is_told_once() -> None:
     text = ELEMENT + " 1, 1, 2\n GEN=1, 25\n"
     assert reported(text) == [("E", "REF006", NODES_END + 3, 2)]
@@ -51,6 +59,13 @@ def test_a_master_must_be_defined_before() -> None:
     text = ELEMENT + " GEN=1, 3\n 1, 1, 2\n"
     assert reported(text) == [("E", "REF005", NODES_END + 2, 6)]
     assert ends_of(scene_of(text)) == {2: [0, 0], 3: [0, 0], 1: [1, 2]}
+
+
+@pytest.mark.parametrize("line", ["GEN=1, 0", "GEN=1, -3", "GEN=1, 3, 0", "GEN=1, 3, -1"])
+def test_generators_of_nothing(line: str) -> None:
+    text = ELEMENT + f" 1, 1, 2\n {line}\n"
+    assert reported(text) == [("E", "REF010", NODES_END + 3, 2)]
+    assert ends_of(scene_of(text)) == {1: [1, 2]}
 
 
 @pytest.mark.parametrize("line", [f"GEN=1, {MOST_GENERATED + 2}", "GEN=1, 3, 9007199254740991"])
@@ -78,6 +93,11 @@ def test_rows_that_could_not_be_read_lead_to_nothing_more() -> None:
     assert ends_of(scene) == {1: [1, 2], 3: [3, 0]}
     assert np.isnan(scene.length[1])
     assert [scene.table.numbered.where(index).path[-1] for index in (0, 1)] == [0, 2]
+
+
+def test_an_element_that_was_not_read_may_be_the_one_that_a_set_lists() -> None:
+    text = ELEMENT + " 1, 1, 2\n 2x, 2, 3\n*ELEMENT SETS\n SET=a\n 1, 2\n 1, 22, 33\n GEN=1, 3\n"
+    assert reported(text) == [("E", "REF005", NODES_END + 7, 9)]
 
 
 def test_a_deck_without_elements_is_empty_and_fine() -> None:

@@ -6,7 +6,7 @@ import random
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mudline.model.scene.model import Scene
@@ -117,20 +117,17 @@ def same(one: Scene, other: Scene) -> None:
     assert [problem.code for problem in one.problems] == [problem.code for problem in other.problems]
 
 
-@settings(max_examples=25)
 @given(st.permutations(BLOCKS))
 def test_the_order_of_unrelated_blocks_does_not_matter(blocks: list[str]) -> None:
     same(scene_of("$MODEL\n" + "".join(BLOCKS)), scene_of("$MODEL\n" + "".join(blocks)))
 
 
-@settings(max_examples=25)
 @given(st.permutations(BLOCKS), st.integers(1, 8))
 def test_several_model_sections_are_one_model(blocks: list[str], cut: int) -> None:
     parted = "$MODEL\n" + "".join(blocks[:cut]) + "$LOAD CASE\n*TIME\n 0, 1\n$MODEL\n" + "".join(blocks[cut:])
     same(scene_of("$MODEL\n" + "".join(BLOCKS)), scene_of(parted))
 
 
-@settings(max_examples=15)
 @given(st.randoms(use_true_random=False))
 def test_the_case_of_names_does_not_matter(chance: random.Random) -> None:
     text = "$MODEL\n" + "".join(BLOCKS)

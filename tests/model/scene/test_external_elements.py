@@ -37,6 +37,19 @@ def test_all_columns(file: Path) -> None:
     assert {name: ids.tolist() for name, ids in found.sets.items()} == {"Riser": [1, 3], "Upper Part": [1]}
 
 
+def test_needed_columns_only(file: Path) -> None:
+    found = read(file, "\ufeffnode2, Node1,DIAMETER,element\r\n2,1,0.5,7\r\n\r\n")
+    assert found.ids.tolist() == [7]
+    assert found.nodes.tolist() == [[1, 2]]
+    assert np.isnan(found.length).all()
+    assert found.sets == {}
+
+
+def test_names_of_sets(file: Path) -> None:
+    found = read(file, f'{HEADER}\n1,1,2,0.5,1," A ; ;B,C; "\n')
+    assert list(found.sets) == ["A", "B,C"]
+
+
 FAULTS = {
     "empty": ("", 1, "the header lacks element, node1, node2, diameter: expected " + HEADER),
     "header": ("element,node1,node2,Do\n", 1, "the header lacks diameter: expected " + HEADER),

@@ -34,6 +34,16 @@ def test_a_missing_set_is_a_warning_where_something_unread_may_define_it(before:
     assert messages(text)[0].endswith(supplier)
 
 
+def test_keywords_astray_may_define_it() -> None:
+    seabed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
+    early = "*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed
+    assert messages(early)[0].endswith("the *ELEMENT SETS before the first section may define it")
+    wrong = "$LOAD CASE\n*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed
+    assert messages(wrong)[0].endswith("the *ELEMENT SETS in $LOAD CASE, where it does not belong, may define it")
+    right = "$CLEAR\n*ELEMENT SETS\n 1, 2\n 3, 4\n" + PIPE + seabed
+    assert reported(right)[0][:2] == ("E", "REF001")
+
+
 def test_a_deck_that_continues_another_needs_no_model() -> None:
     assert reported(RESTART) == []
     model = "$MODEL\n*ELEMENT SETS\n SET=a\n 1, 2\n SUBSET=b\n*EMBEDMENT\n SET=c\n 0, 0\n 1, 1\n"
@@ -76,3 +86,9 @@ def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:
     assert scene.problems == []
     assert scene.law_names == ["none"] * 10
     assert scene.laws.uncertain
+
+
+def test_elements_out_of_sight_are_told_once_for_a_list() -> None:
+    text = "$MODEL\n*LINES\n LINE=SCR\n*ELEMENT SETS\n SET=a\n 1, 2, 3\n 4\n GEN=5, 9\n"
+    assert reported(text) == [("W", "REF005", 6, 2), ("W", "REF005", 7, 2)]
+    assert messages(text)[0].startswith("3 elements of this list (first: 1) are not defined; *LINES")

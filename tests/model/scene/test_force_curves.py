@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.helpers.builders.scenes import messages, reported, scene_of
+from tests.helpers.builders.scenes import all_reported, messages, reported, scene_of
 
 STIFFNESS = "$MODEL\n*SEABED STIFFNESS\n"
 
@@ -23,9 +23,29 @@ def test_a_curve_of_embedment_has_the_name_of_its_set() -> None:
     assert list(scene.curves) == ["ALL", "East"]
 
 
+def test_of_two_curves_of_a_name_the_later_holds() -> None:
+    scene = scene_of(STIFFNESS + " CURVE=Clay\n 0, 0\n 1, 1\n*SEABED STIFFNESS\n CURVE=CLAY\n 0, 0\n 1, 2\n")
+    assert {name: curve.forces.tolist() for name, curve in scene.curves.items()} == {"CLAY": [0, 2]}
+
+
 def test_a_named_curve_goes_before_one_of_a_set_of_the_same_name() -> None:
     scene = scene_of(STIFFNESS + " CURVE=a\n 0, 0\n 1, 1\n*EMBEDMENT\n SET=a\n 0, 0\n 1, 2\n")
     assert scene.curves["a"].forces.tolist() == [0, 1]
+
+
+def test_a_curve_of_too_few_points_is_told_at_its_line() -> None:
+    assert reported(STIFFNESS + " CURVE=a\n CURVE=b\n 1, 1\n") == [("E", "CRV001", 3, 2), ("E", "CRV001", 4, 2)]
+    assert reported(STIFFNESS + " CURVE=b\n 1, 1\n 1, 1\n") == [("E", "CRV001", 3, 2)]
+    assert "curve 'a' has no point" in messages(STIFFNESS + " CURVE=a\n")[0]
+
+
+def test_two_forces_at_one_ratio_are_told_at_the_later_point() -> None:
+    text = STIFFNESS + " CURVE=a\n 0, 0\n 1, 5\n 0, 1\n 1, 5\n 1, 6\n 1, 7\n"
+    assert reported(text) == [("E", "CRV003", line, 2) for line in (6, 8, 9)]
+    entry = scene_of(text).laws.curves[0]
+    assert entry.curve is not None
+    assert entry.curve.forces.tolist() == [0, 5]
+    assert not entry.usable
 
 
 def test_a_fault_behind_points_left_out_counts_no_points() -> None:
@@ -41,6 +61,11 @@ def test_a_curve_with_a_row_that_could_not_be_read_is_not_used_and_not_told_agai
     assert entry.points.tolist() == [[0, 0]]
     assert not entry.usable
     assert "CRV001" not in [problem.code.code for problem in scene.problems]
+
+
+def test_places_skip_rows_that_could_not_be_read() -> None:
+    text = STIFFNESS + " CURVE=a\n x, 0\n 0, 0\n 1, 5\n 1, 6\n"
+    assert all_reported(text) == [("E", "SYN002", 4, 2), ("E", "CRV003", 7, 2)]
 
 
 def test_a_curve_without_a_readable_name_is_no_curve_but_may_be_the_one_that_is_missing() -> None:

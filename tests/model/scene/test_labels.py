@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.language.diagnostics import Severity
-from tests.helpers.builders.scenes import diagnostics, ends_of, legal_scene, members, scene_of
+from tests.helpers.builders.scenes import all_reported, diagnostics, ends_of, legal_scene, members, scene_of
 
 GRID = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 10.0\n 3, 0.0, 20.0\n"
 BARS = "*ELEMENT\n 7, {Anchor}, 2\n 8, 2, {HANG-OFF}\n*ELEMENT SETS\n SET=Top\n {Last Joint}\n"
@@ -45,6 +45,11 @@ def test_labels_of_lines_that_are_not_read_may_be_there_too() -> None:
     told = diagnostics(scene_of(GRID + BARS + LABELS + lines + "*MASS\n {Elsewhere}, 20.0\n {Ancor}, 1.0\n"))
     labels = [(one.code, one.severity) for one in told if "label" in one.message]
     assert labels == [("REF006", Severity.WARNING)]
+
+
+def test_what_a_broken_line_of_labels_may_have_given_is_not_missed() -> None:
+    broken = (GRID + BARS + LABELS + HELD).replace(" 3, LABEL=Hang-off", " 3")
+    assert {code for _, code, _, _ in all_reported(broken)} == {"SYN001"}
 
 
 def test_a_deck_without_labels_says_where_they_are_made() -> None:

@@ -74,6 +74,12 @@ def test_a_rigid_bed(extra: str) -> None:
     assert reported(text) == []
 
 
+@pytest.mark.parametrize(("line", "severity"), [("Clay", "E"), ("100", "W")])
+def test_a_stiffness_on_a_rigid_bed(line: str, severity: str) -> None:
+    text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n STIFFNESS={line}\n"
+    assert reported(text) == [(severity, "SBD001", LINE + 1, 12)]
+
+
 @pytest.mark.parametrize("line", ["LATERAL=100", "SUCTION=100, 0.2"])
 def test_what_only_an_elastic_bed_has(line: str) -> None:
     text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n*SEABED PROPERTIES\n SET=a\n {line}\n"
@@ -90,6 +96,13 @@ def test_an_undefined_curve_is_told_at_its_field_and_is_no_linear_law() -> None:
 
 
 # ----------------------------------------------------------------------------------------------------------- legacy
+
+
+def test_an_undefined_set_gives_nothing_to_anything() -> None:
+    text = NEW + " SET=ALL\n STIFFNESS=1\n SET=c\n STIFFNESS=Clay\n"
+    assert laws(text) == "l" * 10
+    assert reported(text) == [("E", "REF001", LINE + 2, 6)]
+    assert scene_of(text).laws.uncertain
 
 
 @pytest.mark.parametrize("order", [1, -1])
@@ -162,6 +175,13 @@ def test_two_types_in_two_model_sections_are_a_warning_because_that_is_inferred(
     assert reported(text) == [("W", "SBD002", 7, 1)]
 
 
+def test_an_elastic_surface_without_stiffness_needs_embedment() -> None:
+    text = BASE + "*ELASTIC SURFACE\n , 0.3, 0.4\n"
+    assert reported(text) == [("E", "SBD004", BASE.count("\n") + 1, 1)]
+    assert reported(text + embedment("a")) == []
+    assert reported("$LOAD CASE\n*RESTART\n LAST=x\n" + text) == [("W", "SBD004", BASE.count("\n") + 4, 1)]
+
+
 @pytest.mark.parametrize("row", ["5O000, 0.3", "=[nothing], 0.3", "-1, 0.3"])
 def test_a_stiffness_that_could_not_be_read_is_not_missing(row: str) -> None:
     scene = scene_of(BASE + f"*ELASTIC SURFACE\n {row}\n")
@@ -184,6 +204,13 @@ def test_embedment_on_a_rigid_bed_is_told_once_for_a_block() -> None:
 # -------------------------------------------------------------------------------------------------------- diameters
 
 
+def test_embedment_without_an_elastic_bed() -> None:
+    text = BASE + embedment("a")
+    assert reported(text) == [("E", "SBD005", BASE.count("\n") + 2, 2)]
+    assert reported(text + "*SEABED PROPERTIES\n SET=a\n") == [("E", "SBD003", text.count("\n") + 1, 1)]
+    assert reported(text + "*SEABED PROPERTES\n SET=a\n") == []
+
+
 def test_missing_diameters_are_told_once_for_each_place_that_gives_a_curve() -> None:
     steel = STEEL.replace("SET=ALL", "SET=a")
     text = PIPE + steel + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n" + CLAY
@@ -201,6 +228,21 @@ def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces()
     nodal = "*SEABED CONTACT\n SET={}\n NODAL STIFFNESS=5000\n"
     assert reported(text + nodal.format("ALL")) == []
     assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
+
+
+def test_a_soil_needs_a_diameter() -> None:
+    text = (
+        PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n*SEABED SOIL\n SET=ALL\n STRENGTH=5000\n"
+    )
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
+    assert "have a soil and no external diameter" in messages(text)[0]
+    assert reported(text + STEEL) == []
+
+
+def test_a_drag_diameter_of_0_is_no_diameter() -> None:
+    text = PIPE + "*GEOMETRIC SETS\n SET=ALL\n ,,,, 1, 1, 0, 0.0, 0.3\n" + CLAY
+    text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
 
 
 def test_a_section_of_a_set_of_lines_may_be_that_of_any_element() -> None:

@@ -11,6 +11,7 @@ from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import Finding, all_reported, messages, reported
+from tests.helpers.growth import call_growth
 
 GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n last, 11\n far, 13\n odd, 6.5\n"
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
@@ -79,6 +80,20 @@ def test_a_fault_is_told_once(line: str, finding: Finding) -> None:
     assert len(held("1, 1", line, "1, 2")) == 1
 
 
+def test_words() -> None:
+    assert messages(PIPE + HELD + " 99, 8\n GEN=8, 12, 1, 2, 0.0\n 1, 2, FIXATION=RELATIVE\n GEN=2, 3\n") == [
+        "node 99 is not defined: define it in *NODE, or correct the number",
+        "8 is not a degree of freedom: expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)",
+        "GEN= holds the nodes from 8 to 12 in steps of 1: 1 of these 5 are not defined; correct it, or define them",
+        "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]",
+    ]
+
+
+def test_a_long_range_takes_no_time() -> None:
+    assert held("GEN=1, 9007199254740992, 1") == [("W", "REF006", 0, 2)]
+    assert call_growth(held, "GEN=1, 12, 1", "GEN=1, 9007199254740992, 1") == 1.0
+
+
 def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
     assert held("x1, 1", "1, one", "GEN=1, x, 2", "1") == [
         ("W", "SYN016", 0, 2),
@@ -86,6 +101,14 @@ def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
         ("W", "SYN016", 2, 9),
         ("E", "SYN003", 3, 2),
     ]
+
+
+def test_nodes_on_cables_are_one_info() -> None:
+    cables = "*CABLE\n 1, 1, 2, 50.0\n*NODE,CURVILINEAR\n 99, 1, 5.0\n"
+    text = PIPE + cables + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
+    assert reported(text) == [("I", "REF006", LINE - 1, 1), ("E", "REF006", LINE + 5, 2)]
+    expected = "*NODE,CURVILINEAR may define nodes that this deck does not show: 1 use of such nodes (first: node 99)"
+    assert messages(text)[0].startswith(expected)
 
 
 def test_a_node_that_no_cable_holds_is_missing() -> None:

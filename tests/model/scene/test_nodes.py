@@ -73,6 +73,13 @@ def test_twice_in_two_model_sections_is_a_warning_because_that_is_inferred() -> 
     assert "inferred" in messages(text)[0]
 
 
+@pytest.mark.parametrize("line", ["GEN=5, 1", "GEN=1, 1", "GEN=1, 5, 3", "GEN=1, 5, 0", "GEN=1, 5, -1"])
+def test_generators_that_lead_nowhere(line: str) -> None:
+    text = NODE + f" 1, 0, 0\n 5, 0, 4\n {line}\n"
+    assert scene_of(text).node_ids.tolist() == [1, 5]
+    assert reported(text) == [("E", "REF010", 5, 2)]
+
+
 def test_a_slip_of_a_digit_does_not_fill_the_memory() -> None:
     text = NODE + f" 1, 0, 0\n {MOST_GENERATED * 3}, 0, 4\n GEN=1, {MOST_GENERATED * 3}\n"
     assert reported(text) == [("E", "REF010", 5, 2)]
@@ -84,6 +91,14 @@ def test_the_limit_holds_for_all_generators_together(monkeypatch: pytest.MonkeyP
     ends = " 1, 0, 0\n 11, 0, 1\n 13, 0, 2\n 15, 0, 3\n"
     text = NODE + ends + " GEN=1, 11\n GEN=11, 13\n GEN=13, 15\n"
     assert reported(text) == [("E", "REF010", 9, 2)]
+
+
+def test_ends_that_nothing_defines_are_told_each_and_the_nodes_still_have_numbers() -> None:
+    text = NODE + " 1, 0, 0\n GEN=1, 5\n GEN=7, 9\n*ELEMENT\n 1, 2, 8\n"
+    scene = scene_of(text)
+    assert scene.node_ids.tolist() == [1, 2, 3, 4, 8]
+    assert np.isnan(scene.coordinates[1:]).all()
+    assert reported(text) == [("E", "REF006", 4, 9), ("E", "REF006", 5, 6), ("E", "REF006", 5, 9)]
 
 
 def test_ends_that_are_defined_later_are_taken_with_a_warning() -> None:
@@ -100,6 +115,13 @@ def test_a_row_with_a_bad_field_still_defines_its_number() -> None:
     assert np.isnan(scene.coordinates[1, 0])
     assert np.isnan(scene.length).all()
     assert all_reported(text) == [("E", "SYN002", 4, 5)]
+
+
+@pytest.mark.parametrize("number", ["1.5", "1E300", "9007199254740994"])
+def test_a_number_that_is_not_whole_defines_nothing(number: str) -> None:
+    scene = scene_of(NODE + f" {number}, 0, 0\n 1, 0, 1\n 9007199254740992, 0, 2\n")
+    assert scene.node_ids.tolist() == [1, 9007199254740992]
+    assert [scene.nodes.where(index).path for index in (0, 1)] == [("entries", 0, "nodes", row) for row in (1, 2)]
 
 
 @pytest.mark.parametrize("increment", ["=[nothing]", "=[1/2]", "=[2^60]", "x"])
@@ -136,6 +158,14 @@ def test_settled_definitions_are_those_of_a_dictionary(batches: list[list[int]])
     places = [Where(0, index, ("rows", row)) for index, ids in enumerate(batches) for row in range(len(ids))]
     assert [settled.where_row(row) for row in range(len(flat))] == places
     assert [settled.where(index) for index in range(len(settled))] == [places[held[n]] for n in settled.ids.tolist()]
+
+
+@given(_BATCHES, st.integers(-7, 45), st.integers(0, 50), st.integers(1, 9))
+def test_a_range_holds_the_indices_of_its_numbers(batches: list[list[int]], start: int, span: int, step: int) -> None:
+    settled = gathered(batches).resolve(1)
+    wanted = set(range(start, start + span + 1, step))
+    expected = [index for index, number in enumerate(settled.ids.tolist()) if number in wanted]
+    assert settled.between(start, start + span, step).tolist() == expected
 
 
 def test_large_and_small_batches_are_found_alike() -> None:

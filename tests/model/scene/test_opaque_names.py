@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.language.deck.loading import load_bytes
@@ -79,7 +79,6 @@ _CASES = st.sampled_from([str.upper, str.lower, str.title])
 
 
 @given(_KEYWORDS, names, names, st.lists(names, min_size=1, max_size=4), st.data())
-@settings(max_examples=25)
 def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str], data: st.DataObject) -> None:
     key = "NAME" if keyword == "LINE SECTION GROUPS" else "LINE"
     listed = ",".join(data.draw(pads) + name + data.draw(pads) for name in more)
@@ -113,7 +112,6 @@ _pieces = st.lists(
 
 @given(_pieces | texts)
 @example('ADDITIONAL=a, "b, c" d, {e, "f}, g, LINE={h')
-@settings(max_examples=80)
 def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
     line = " " + line.replace("$", "").replace("*", "")
     wanted = {name_key(name) for name in _slowly(line)} - {""}

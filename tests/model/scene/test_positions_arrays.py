@@ -59,6 +59,13 @@ def test_a_file_that_becomes_shorter_is_refused(tmp_path: Path) -> None:
         found.values[2:4]
 
 
+@pytest.mark.parametrize("kind", ["f4", "f8", ">f8", "i4", "u2"])
+def test_kinds_of_numbers(tmp_path: Path, kind: str) -> None:
+    found = read_positions(one(tmp_path, STATE.astype(kind)), NODES)
+    assert found.values.dtype.kind == "f"
+    assert np.array_equal(found.values[0], STATE)
+
+
 @pytest.mark.parametrize(
     ("array", "message"),
     [
@@ -80,6 +87,13 @@ def test_array_that_does_not_fit(tmp_path: Path, array: NDArray[Any], message: s
 def test_objects_are_refused(tmp_path: Path) -> None:
     found = refusal(one(tmp_path, np.array([[{}, 1], [2, 3]], dtype=object)))
     assert found.message.startswith("not an NPY array: ")
+
+
+def test_array_that_python_2_wrote(tmp_path: Path) -> None:
+    header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (3L, 3L), }\n"
+    data = b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header + STATE.tobytes()
+    (tmp_path / "p.npy").write_bytes(data)
+    assert_same(read_positions(tmp_path / "p.npy", NODES), STATE[np.newaxis])
 
 
 def test_array_that_claims_too_much(tmp_path: Path) -> None:
@@ -166,6 +180,17 @@ ARCHIVES = {
 @pytest.mark.parametrize(("arrays", "message"), ARCHIVES.values(), ids=ARCHIVES)
 def test_archive_that_does_not_fit(tmp_path: Path, arrays: dict[str, NDArray[Any]], message: str) -> None:
     assert refusal(saved(tmp_path, **arrays)).message == message
+
+
+def test_objects_in_an_archive_are_refused(tmp_path: Path) -> None:
+    found = refusal(saved(tmp_path, positions=np.array([{}], dtype=object)))
+    assert found.message.startswith("not an NPZ archive: Object arrays cannot be loaded")
+
+
+def test_member_that_is_no_array(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "p.npz", "w") as archive:
+        archive.writestr("positions.npy", b"no array")
+    assert refusal(tmp_path / "p.npz").message.startswith("not an NPZ archive: ")
 
 
 def archive_bytes(*, compressed: bool) -> bytes:

@@ -46,6 +46,24 @@ def test_series_is_sorted_by_time_and_may_lack_nodes(file: Path) -> None:
     assert found.missing == 1
 
 
+SPELLINGS = {
+    "plain": ONE,
+    "windows": ONE.replace("\n", "\r\n"),
+    "mark": "\ufeff" + ONE,
+    "no last end": ONE.rstrip("\n"),
+    "blanks": ONE.replace(",", " , "),
+    "columns": "z,Y,x,NODE\n9,8,7,30\n3,2,1,10\n6,5,4,20\n",
+    "quotes": ONE.replace("4", '"4"').replace("node", '"node"'),
+    "exponents": ONE.replace("7,8,9", "+7.,.8E1,9.0e+00"),
+    "empty lines": ONE.replace("10,", "\n\n10,") + "\n\n,,,\n",
+}
+
+
+@pytest.mark.parametrize("text", SPELLINGS.values(), ids=SPELLINGS)
+def test_spelling_does_not_matter(file: Path, text: str) -> None:
+    assert_same(read_positions(write(file, text), NODES), np.array([[[1.0, 2, 3], [4, 5, 6], [7, 8, 9]]]))
+
+
 FAULTS = {
     "empty": ("", 1, "the header lacks node, x, y, z: expected time,node,x,y,z,vx,vy,vz"),
     "header": ("node,x,y\n", 1, "the header lacks z: expected time,node,x,y,z,vx,vy,vz"),

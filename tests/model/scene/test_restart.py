@@ -8,7 +8,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
@@ -107,6 +107,12 @@ def test_each_deck_has_its_own_parameters(folder: Path) -> None:
     assert any("parameter k is not defined" in line for line in lint(folder, DYNAMIC + own))
 
 
+def test_units_come_from_the_deck_before(folder: Path) -> None:
+    assert scene(folder, name="dynamic.keyx").units == "metric"
+    assert scene(folder, name="dynamic.keyxi").units == "imperial"
+    assert deck(folder, name="dynamic.keyx").units == "user"
+
+
 def test_a_profile_is_looked_for_beside_the_deck_that_names_it(folder: Path) -> None:
     (folder / "base").mkdir()
     (folder / "base" / "bed.txt").write_text("0, -1\n10, -2\n")
@@ -144,6 +150,14 @@ def test_names(tmp_path: Path, written: str, file: str) -> None:
     assert [base.deck.file for base in found.deck.bases] == [path.as_posix()]
 
 
+def test_the_suffix_of_the_deck_itself_comes_first(folder: Path) -> None:
+    (folder / "static.keyx").write_text("$MODEL\n*NODE\n 1, 2, 3\n")
+    assert len(scene(folder, name="dynamic.keyx").element_ids) == 0
+    assert len(scene(folder, name="dynamic.das").element_ids) == 10
+    (folder / "static").write_text("$MODEL\n*NODE\n 1, 2, 3\n 2, 3, 4\n")
+    assert len(scene(folder).node_ids) == 2
+
+
 def test_text_and_bytes_do_not_touch_the_disk(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     with patch("mudline.model.scene.restart.find_deck", side_effect=AssertionError):
@@ -153,6 +167,22 @@ def test_text_and_bytes_do_not_touch_the_disk(folder: Path, monkeypatch: pytest.
 
 
 # ------------------------------------------------------------------------------------------------------ chains, faults
+
+
+def test_the_last_of_several_holds(folder: Path) -> None:
+    (folder / "other.keyxm").write_text("$MODEL\n*NODE\n 1, 2, 3\n")
+    text = DYNAMIC + RESTART.format("gone") + RESTART.format("other")
+    assert scene(folder, text).node_ids.tolist() == [1]
+    (line,) = lint(folder, text, "REF015")
+    assert line.startswith("6:7 warning REF015 the deck 'gone' was not found")
+
+
+def test_a_chain_is_followed(folder: Path) -> None:
+    (folder / "second.keyxm").write_text(DYNAMIC + USES)
+    third = RESTART.format("second") + "$MODEL\n*ELEMENT SETS\n SET=Last\n SUBSET=More\n"
+    found = scene(folder, third)
+    assert found.sets["Last"].tolist() == [1, 2, 3, 4, 9]
+    assert found.problems == []
 
 
 def test_a_missing_deck_is_told_with_the_names_that_were_tried(folder: Path) -> None:
@@ -223,6 +253,15 @@ def test_a_file_that_is_no_deck(folder: Path, content: bytes, reason: str) -> No
 # ---------------------------------------------------------------------------------------------- whose finding it is
 
 
+def test_a_file_that_may_not_be_read(folder: Path) -> None:
+    (folder / "dynamic.keyxm").write_text(DYNAMIC)
+    with patch.object(restart, "load_path", side_effect=PermissionError(13, "Permission denied")):
+        found = resolve(load_path(folder / "dynamic.keyxm"))
+    (problem,) = found.problems
+    assert problem.message.startswith("the deck that LAST= continues is not read: ")
+    assert "static.keyxm: Permission denied" in problem.message
+
+
 def test_what_is_wrong_in_the_deck_before_is_told_there(folder: Path) -> None:
     broken = STATIC.replace("STIFFNESS=Clay", "STIFFNESS=Cly").replace("0.25, 0.22", "0.25, x")
     (folder / "static.keyxm").write_text(broken)
@@ -248,7 +287,6 @@ _PIECES = st.lists(
 )
 
 
-@settings(max_examples=30)
 @given(_PIECES, _PIECES)
 def test_whatever_the_decks_hold_findings_lie_in_the_deck_itself(base: list[str], own: list[str]) -> None:
     with TemporaryDirectory() as name:

@@ -32,6 +32,14 @@ def test_a_wall_that_locks_itself_is_refused_though_a_deck_before_may_give_anoth
         scene.contact()
 
 
+def test_many_findings_of_a_check_are_cut_short() -> None:
+    many = "".join(f" SET=s{number}\n STIFFNESS=Lost\n" for number in range(1200))
+    sets = "*ELEMENT SETS\n" + "".join(f" SET=s{number}\n 1\n" for number in range(1200))
+    found = scene_of(PIPE + STEEL + sets + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + many).problems
+    assert len(found) == 1001
+    assert found[-1].message == "and more of the same: the first 1000 are listed"
+
+
 @pytest.mark.parametrize(
     ("lines", "column", "message"),
     [

@@ -133,6 +133,11 @@ def left_out(lines: str) -> dict[str, str]:
     return {stage.stage: stage.why for stage in contact.plan if stage.stage in contact.input.left_out}
 
 
+def test_a_plain_deck_leaves_nothing_out() -> None:
+    assert left_out("") == {}
+    assert left_out(" FRICTION=0, 0\n LATERAL=0\n SUCTION=0\n") == {}
+
+
 def test_what_is_not_evaluated_is_said_by_stage() -> None:
     found = left_out(
         " FRICTION=0.3, 0.4, 0.1, 0.1, 5, 2\n LATERAL=5\n SUCTION=5\n SET=ALL\n STIFFNESS=Clay\n"
@@ -147,6 +152,18 @@ def test_what_is_not_evaluated_is_said_by_stage() -> None:
             "friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)"
         ),
     }
+
+
+def test_legacy_surfaces_are_evaluated_the_same_way() -> None:
+    text = PIPE + STEEL + "*ELASTIC SURFACE\n 500, 0.3, 0.4, 0, 7, 1\n 3.0\n"
+    plan = scene_of(text).contact().plan
+    assert plan["floor"].why == "plane through the origin, slope 3 deg, direction 0 deg, without end"
+    assert plan["friction"].why.startswith("11 nodes with a mobilisation length")
+    assert plan["suction"].why == "10 elements with a spring up to an extent, without history (inferred)"
+    profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
+    plan = scene_of(profile).contact().plan
+    assert plan["floor"].why.startswith("straight lines through 2 points")
+    assert plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"
 
 
 DECK = """$MODEL
@@ -166,6 +183,12 @@ DECK = """$MODEL
  0, 0
  1, 9
 """
+
+
+@pytest.mark.parametrize("name", ["Fatigue Hot Spot", "FATIGUE hot spot", "{fatigue hot spot}"])
+def test_set_is_found_without_case(name: str) -> None:
+    assert scene_of(DECK).sets[name].tolist() == [1]
+    assert scene_of(DECK).sets["all"].tolist() == [1]
 
 
 def test_names_are_those_of_the_deck() -> None:
@@ -197,6 +220,20 @@ def test_missing_name_says_which_there_are() -> None:
     assert message_of(scene.curves, 2) == "a curve is found by its name, a str, not by int"
     assert message_of(scene_of("$MODEL\n").curves, "a") == "no curve 'a': there are no curves"
     assert message_of(scene_of("$MODEL\n").sets, "a") == "no set 'a': there is 'ALL'"
+
+
+def test_many_names_are_cut() -> None:
+    many = ByName("curve", [(f"Soil {number:03}", number) for number in range(300)])
+    assert message_of(many, "Soil 2999") == (
+        "no curve 'Soil 2999' (did you mean Soil 299?): there are 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', "
+        "'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', 'Soil 008', 'Soil 009', and 290 more"
+    )
+    assert repr(many) == (
+        "<300 curves: 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', 'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', "
+        "'Soil 008', 'Soil 009', and 290 more>"
+    )
+    long = ByName("set", [("x" * 500, 1)])
+    assert len(message_of(long, "y" * 500)) < 200
 
 
 LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n"

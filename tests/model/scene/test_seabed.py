@@ -61,6 +61,13 @@ def test_a_text_file_of_points(tmp_path: Path) -> None:
     assert "SBD023" not in [code for code, _, _ in reported(scene)]
 
 
+def test_three_columns_make_a_surface(tmp_path: Path) -> None:
+    (tmp_path / "bed.txt").write_text("1, 2, 3\n4, 5, 6\n7, 8, 10\n", encoding="utf-8")
+    seabed = scene_in(tmp_path, PIPE + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n").seabed
+    assert seabed.kind is SeabedKind.SURFACE
+    assert seabed.points.tolist() == [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]]
+
+
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -95,11 +102,32 @@ def test_a_compiled_profile_is_kept_and_reported_unless_the_file_is_missing(tmp_
         assert scene.seabed.file == "Bed.FCSBD"
 
 
+def test_a_deck_without_a_path_reads_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
+    assert scene_of(PIPE + PROFILE.format("bed.txt")).seabed.missing == "'bed.txt' was not found"
+
+
 @pytest.mark.parametrize("name", ["nothing.txt", "folder", "a\0b", "n" * 5000, "=[x]", '""'])
 def test_a_file_that_is_not_there_is_no_fault_of_the_profile(tmp_path: Path, name: str) -> None:
     (tmp_path / "folder").mkdir()
     scene = scene_in(tmp_path, PIPE + PROFILE.format(name))
     assert scene.seabed.missing.endswith("was not found")
+
+
+def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
+
+    def refuse(path: Path) -> bytes:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    path = tmp_path / "deck.keyxm"
+    path.write_text(PIPE + PROFILE.format("bed.txt"), encoding="utf-8")
+    deck = load_path(path)
+    monkeypatch.setattr(Path, "read_bytes", refuse)
+    scene = resolve(deck)
+    assert scene.seabed.missing == "Permission denied"
+    assert ("SBD023", PIPE.count("\n") + 4, 7) in reported(scene)
 
 
 def test_a_file_of_enormous_size_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

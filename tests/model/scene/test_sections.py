@@ -7,7 +7,7 @@ import math
 import pytest
 
 from tests.helpers.builders.decks import PIPE
-from tests.helpers.builders.scenes import all_reported, scene_of
+from tests.helpers.builders.scenes import all_reported, reported, scene_of
 
 SETS = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n"
 GEOMETRY = SETS + "*GEOMETRIC SETS\n"
@@ -66,6 +66,11 @@ def test_a_set_named_very_often_counts_with_its_last_entry() -> None:
     scene = scene_of(GEOMETRY + lines)
     assert set(scene.diameter.tolist()) == {0.1999}
     assert set(scene.section_table.of_element.tolist()) == {1998}
+
+
+def test_a_set_that_is_not_defined_is_told_at_its_name() -> None:
+    text = GEOMETRY + " OPTION=MOORING\n SET=c\n 1, 1, 0.1\n"
+    assert reported(text) == [("E", "REF001", GEOMETRY.count("\n") + 2, 6)]
 
 
 @pytest.mark.parametrize("field", ["-0.3", "0.0"])

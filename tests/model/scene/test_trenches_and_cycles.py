@@ -108,6 +108,26 @@ def test_a_sloped_wall_turns_the_normal_force(units: Units, length: float, force
     assert length == units.length
 
 
+def test_a_number_and_the_model_peak_are_the_default() -> None:
+    trench = " GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n"
+    plain = lateral(METRIC, trench, [0.6, 1.0, 1.3])
+    assert plain == lateral(METRIC, trench + " MODEL=PEAK\n", [0.6, 1.0, 1.3])
+    expected = [0.5 * PRESSED + 20000.0 * share for share in (0.2, 1.0, 0.4)]
+    np.testing.assert_allclose(plain, expected, rtol=1e-9)
+
+
+def test_blocks_with_tables_of_their_own_and_one_without() -> None:
+    trench = (
+        " GEOMETRY=0.5, 1, 3\n PEAK=TABLE\n 0, 900\n 9, 900\n"
+        " SET=Left\n GEOMETRY=0.5, 1, 3\n MODEL=WALL\n PEAK=TABLE\n 0, 7\n 9, 7\n"
+        " SET=Right\n GEOMETRY=0.5, 1, 3\n PEAK=TABLE\n 0, 100\n 9, 100\n"
+    )
+    friction = moved(METRIC, bed(METRIC, trench), [1.0]).friction
+    assert friction is not None
+    limit = np.abs(friction[1, [2, 8], 1])
+    np.testing.assert_allclose(limit, [PRESSED * 1.0 / 0.75, 0.5 * PRESSED + 1000.0], rtol=1e-9)
+
+
 def cycles(units: Units, cyclic: str, count: int) -> NDArray[np.float64]:
     """The pull of each of some uplifts in a row, to the middle of the plateau and back, in the deck's units."""
     u = units.value

@@ -106,6 +106,11 @@ def test_another_line_may_define_it(other: str) -> None:
 # --------------------------------------------------------------------------------------- sets, vessels, files, values
 
 
+@pytest.mark.parametrize("other", ["*DAMPER\n 1, CURVE=Damp\n", "*DAMPER\nC CURVE=Damp\n", "*DAMPER\n CURVE=Damper\n"])
+def test_uses_comments_and_parts_of_names_define_none(other: str) -> None:
+    assert "REF002 curve 'Damp' is not defined" in told(f"*COATINGS\n SET=Riser, CURVE=Damp\n{other}")[0]
+
+
 @pytest.mark.parametrize(
     ("block", "found"),
     [

@@ -17,7 +17,6 @@ from tests.project.integration.recipes import ROOT, checkout, installed, shell
 
 PAGE = Page.read(ROOT / "docs" / "ci.md")
 EXAMPLES = [yaml.safe_load(block.text) for block in PAGE.blocks if block.language == "yaml"]
-HOOKS = {hook["id"] for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))}
 
 
 def example(key: str) -> Json:

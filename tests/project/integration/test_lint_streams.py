@@ -66,3 +66,10 @@ def test_statistics_are_the_result_when_asked_for(form: str) -> None:
     assert outcome.out == "     1  SYN002  bad-number\n"
     assert all(line.startswith("mudline: ") for line in outcome.err.splitlines())
     assert COUNTED[form](Path("report").read_text(encoding="utf-8")) == 1
+
+
+@pytest.mark.parametrize("form", form_names())
+@pytest.mark.usefixtures("decks")
+def test_nothing_found_is_a_whole_result(form: str) -> None:
+    outcome = run("lint", "clean.keyxm", "--output-format", form)
+    assert (outcome.code, outcome.err, COUNTED[form](outcome.out)) == (0, "", 0)

@@ -93,6 +93,12 @@ def test_no_message_shows_the_text_of_a_file_outside(
         assert "root:x" not in outcome.out + outcome.err
 
 
+def test_a_fault_outside_has_its_line(project: Path) -> None:
+    (project / "theirs" / "profile.txt").write_text("0, 0\n10, hunter2\n", encoding="utf-8")
+    outcome = run("lint", deck(project, MODEL + PROFILE.format("../../theirs/profile.txt")))
+    assert "line 2 is not as it should be; its text is not shown" in outcome.out
+
+
 @pytest.mark.parametrize(
     "text", [MODEL + PROFILE.format("../../theirs/profile.txt"), RESTART.format("../../theirs/base")]
 )
@@ -115,6 +121,13 @@ def test_a_configuration_refuses_them_for_every_command(project: Path, command: 
     given = deck(project, RESTART.format("../../theirs/base"))
     outcome = run(command, given)
     assert outcome.code == FOUND
+    assert "outside of the project" in outcome.out + outcome.err
+
+
+def test_a_batch_refuses_them_too(project: Path) -> None:
+    (project / "ours" / "mudline.toml").write_text("no-outside = true\n", encoding="utf-8")
+    deck(project, RESTART.format("../../theirs/base"))
+    outcome = run("batch", str(project / "ours"), "-o", str(project / "out"), "--output-format", "json", "--jobs", "2")
     assert "outside of the project" in outcome.out + outcome.err
 
 

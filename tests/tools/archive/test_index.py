@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from mudline.cli import index_command
+from mudline.tools.archive.tables import TABLES
 from mudline.tools.running import executors
 from tests.cli.runner import run
 from tests.tools.archive.trial import ask, contents, deck, index, summary, write
@@ -93,6 +95,16 @@ def test_parameters_and_sets(tmp_path: Path, archive: Path) -> None:
     }
 
 
+def test_unchanged_decks_are_not_read(decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    index(decks, archive=archive)
+    before = {path: path.stat().st_mtime_ns for path in archive.glob("*.parquet")}
+    assert len(before) == len(TABLES)
+    monkeypatch.setattr(index_command, "read_deck", None)
+    (decks / "a.keyxm").touch()
+    assert summary(index(decks, decks.parent / "decks" / ".." / "decks", archive=archive)) == "3 decks: 3 unchanged"
+    assert {path: path.stat().st_mtime_ns for path in archive.glob("*.parquet")} == before
+
+
 def test_changed_renamed_copied_and_gone_decks(decks: Path, archive: Path) -> None:
     index(decks, archive=archive)
     write(decks, a=deck("a", depth=700.0))
@@ -133,6 +145,12 @@ def test_only_what_lies_below_the_paths_is_dropped(decks: Path, tmp_path: Path, 
     assert "other/x.keyxm" in files(archive)
     assert summary(index(decks, "--prune", archive=archive)) == "2 decks: 2 unchanged, 1 gone"
     assert files(archive) == ["decks/b.keyxm", "decks/c.keyxm"]
+
+
+def test_other_settings_read_the_decks_again(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    assert summary(index(decks, "--units", "imperial", archive=archive)) == "3 decks: 3 changed"
+    assert ask(archive, "SELECT DISTINCT units FROM decks") == [{"units": "imperial"}]
 
 
 def test_decks_that_cannot_be_read_stay_and_set_the_exit_code(decks: Path, archive: Path) -> None:

@@ -155,6 +155,13 @@ def test_a_fill_value_that_nobody_declared_is_refused_with_its_cell(fill: str, t
         read_bed(tmp_path / "bed.asc", "esri-asc")
 
 
+def test_points_above_the_sea_are_told(tmp_path: Path) -> None:
+    (tmp_path / "bed.asc").write_text(ASC.replace("-", ""))
+    outcome = run("convert", str(tmp_path / "bed.asc"), "-o", str(tmp_path / "bed.keyxm"), "--within", "0.1")
+    assert outcome.code == 0
+    assert "5 of 5 points are above the sea: are they depths, not elevations?" in outcome.err
+
+
 @pytest.mark.parametrize(
     ("scale", "offset", "unit", "first"),
     [(0.1, 0.0, "", -10.0), (0.01, -5.0, "metre", -6.0), (1.0, 0.0, "ft", -30.48), (1.0, 0.0, "cm", -1.0)],
@@ -167,6 +174,17 @@ def test_scale_offset_and_unit_of_a_band(scale: float, offset: float, unit: str,
         target.write(np.full((3, 4), -100, dtype=np.int16), 1)
         target.scales, target.offsets, target.units = (scale,), (offset,), (unit,)
     assert read_bed(tmp_path / "bed.tif", "geotiff")[:, 0] == pytest.approx([first] * 12, rel=1e-12)
+
+
+def test_an_unknown_unit_of_a_band_is_refused(tmp_path: Path) -> None:
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:32631"}
+    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
+    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
+        target.write(np.ones((3, 4), dtype=np.float32), 1)
+        target.units = ("furlong",)
+    with pytest.raises(DeckError, match="its elevations are in 'furlong': convert them to metres"):
+        read_bed(tmp_path / "bed.tif", "geotiff")
 
 
 @pytest.mark.parametrize(
@@ -199,3 +217,10 @@ def test_a_picture_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr("mudline.tools.exporting.bathymetry.MOST_CELLS", 11)
     with pytest.raises(DeckError, match="cut out what lies around the line"):
         read_bed(tmp_path / "bed.tif", "geotiff")
+
+
+def test_a_text_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "bed.asc").write_text(ASC)
+    monkeypatch.setattr("mudline.tools.exporting.bathymetry.LARGEST_FILE", 10)
+    with pytest.raises(DeckError, match="million bytes"):
+        read_bed(tmp_path / "bed.asc", "esri-asc")

@@ -106,6 +106,13 @@ def test_the_one_stiffness_is_that_around_touchdown_with_the_range_over_the_line
     assert not flat.at_touchdown
 
 
+def test_a_rigid_section_has_the_stiffness_of_its_wall() -> None:
+    model = model_of(text(sections=" OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.2, 0.16, 7850.0\n"))
+    area, second = np.pi / 4 * (0.04 - 0.0256), np.pi / 64 * (0.2**4 - 0.16**4)
+    (pipe,) = model.sections
+    assert (pipe.axial, pipe.bending, pipe.torsion) == pytest.approx((2e11 * area, 2e11 * second, 1.6e11 * second))
+
+
 def test_curves_of_stiffness_have_their_slope_at_0() -> None:
     flowline, straked, touchdown = sorted(sample("scr-vessel.keyxm").sections, key=lambda each: each.name)
     assert touchdown.name == "Touchdown"
@@ -128,6 +135,13 @@ def test_a_curve_is_its_secant_where_it_carries_the_weight() -> None:
     assert soil.stiffness == pytest.approx(WEIGHT / (ratio * 0.1))
     assert soil.tangent == pytest.approx(2000.0 / 0.1)
     assert soil.says().startswith("curve 'Soft': secant 20 kN/m2 at W (21.1 mm), tangent there 20 kN/m2")
+
+
+def test_a_buoyant_pipe_has_the_secant_of_the_first_loaded_point() -> None:
+    light = PIPE.replace("50.0", "5.0")
+    (soil,) = model_of(text(bed=CURVE, sections=light)).soils
+    assert soil.stiffness == pytest.approx(200.0 / 0.01)
+    assert "W is not above 0" in soil.says()
 
 
 def test_a_hysteretic_soil_is_its_secant_on_first_penetration() -> None:
@@ -184,6 +198,15 @@ def test_what_no_target_can_hold_is_refused_with_its_line(deck: str, message: st
     assert message in refused(deck)
 
 
+def test_a_deck_in_units_of_its_own_is_refused() -> None:
+    assert "give --units metric" in refused(text().replace("10.0\n", "7.0\n"), name="deck.keyx")
+
+
+def test_a_closed_line_is_refused() -> None:
+    ring = text().replace("*GEOMETRIC", "*NODE\n 12, 0.0, 25.0, 20.0\n*ELEMENT\n 11, 11, 12\n 12, 12, 1\n*GEOMETRIC")
+    assert "the line of this node is closed" in refused(ring)
+
+
 def test_an_inner_node_that_is_held_divides_the_line() -> None:
     held = BOTH + "".join(f" 6, {freedom}\n" for freedom in (1, 2, 3)) + " GEN=3, 4, 3\n"
     model = model_of(text(held=held))
@@ -228,6 +251,17 @@ def test_what_is_carried_whole_is_exact(target: ModuleType) -> None:
     assert [entry for entry in model.report.lost if entry.keyword != "*ELEMENT lengths"] == []
 
 
+def test_settings_beside_stiffness_and_friction_are_listed() -> None:
+    bed = ELASTIC + " LATERAL=500.0\n SUCTION=100.0, 0.5\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=50000.0\n"
+    for target in TARGETS:
+        model = model_of(text(bed=bed, held=BOTH + " 11, 5\n 1, 1, 0.5\n"))
+        target.write(model, "out.txt")
+        lost = {entry.keyword: entry.status for entry in model.report.lost}
+        for keyword in ("*SEABED PROPERTIES LATERAL=", "*SEABED PROPERTIES SUCTION=", "*SEABED UNLOADING"):
+            assert lost[keyword] is Status.LEFT_OUT
+        assert lost["*BOUNDARY displacement 0.5"] is Status.LEFT_OUT
+
+
 def test_all_targets_are_modules_of_the_package() -> None:
     assert {import_module(f"mudline.tools.exporting.{name}") for name in ("moordyn", "orcaflex")} == set(TARGETS)
 
@@ -240,3 +274,13 @@ def test_a_motion_of_another_type_holds_and_is_listed() -> None:
     model = model_of(text(held=BOTH + " TYPE=SINUSOIDAL\n 11, 1, 0.5, 10.0\n"))
     moordyn.write(model, "a.txt")
     assert any(entry.keyword == "*BOUNDARY TYPE=SINUSOIDAL" for entry in model.report.lost)
+
+
+def test_laws_and_curves_that_no_element_follows_are_listed() -> None:
+    bed = CURVE.replace("*SEABED PROPERTIES", " CURVE=Spare\n 0.0, 0.0\n 0.1, 90.0\n*SEABED PROPERTIES")
+    model = model_of(text(bed=bed.replace(" SET=ALL\n", " SET=ALL\n STIFFNESS=9000.0\n SET=ALL\n")))
+    orcaflex.write(model, "a.yml")
+    unused = [
+        (entry.keyword, entry.line) for entry in model.report.lost if entry.effect.startswith("no element follows")
+    ]
+    assert [keyword for keyword, _ in unused] == ["*SEABED STIFFNESS", "*SEABED PROPERTIES"]

@@ -10,7 +10,7 @@ import pytest
 from mudline.tools.exporting import moordyn
 from mudline.tools.exporting.line_model import LineModel
 from mudline.tools.exporting.report import Status
-from tests.tools.exporting.decks import ELASTIC, WEIGHT, model_of, sample, text
+from tests.tools.exporting.decks import BOTH, ELASTIC, WEIGHT, model_of, sample, text
 
 
 def tables(content: str) -> dict[str, list[list[str]]]:
@@ -45,6 +45,12 @@ def test_a_line_on_a_linear_seabed() -> None:
     assert option(options, "FrictionCoefficient") == 0.3
     assert (option(options, "WtrDnsty"), option(options, "WtrDpth"), option(options, "g")) == (1000.0, 100.0, 10.0)
     assert option(options, "dtM") == pytest.approx(0.4 * 5.0 / (1e8 / 50.0) ** 0.5, rel=0.05)
+
+
+def test_lengths_that_differ_by_rounding_are_as_many_segments() -> None:
+    model = model_of(text().replace("*ELEMENT\n", " 6, 0.0, 24.9993\n*ELEMENT\n", 1))
+    assert written(model)["LINES"] == [["1", "ALL", "1", "2", "50.0", "10", "p"]]
+    assert not [entry for entry in model.report.entries if entry.keyword == "*ELEMENT lengths"]
 
 
 def test_sections_of_the_same_numbers_are_one_line_type() -> None:
@@ -118,3 +124,13 @@ def test_the_grid_is_the_seabed_of_the_deck_below_the_line(bed: str, tmp_path: P
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROFILE")
     assert entry.status is (Status.APPROXIMATED if "10.0" in bed else Status.CARRIED)
     assert ["my_deck_v2-seabed.txt", "SeafloorFile"] in tables(files["my deck.v2.txt"])["OPTIONS"]
+
+
+def test_planes_are_a_grid_with_its_error() -> None:
+    planes = "*SEABED PLANES\n PLANE=A\n POINT=0.0, 0.0, 0.0\n SLOPE=1.0\n BOUNDS=-500.0, 30.05, -50.0, 50.0\n"
+    planes += " PLANE=B\n POINT=0.0, 30.05, 0.0\n SLOPE=-3.0\n BOUNDS=30.05, 500.0, -50.0, 50.0\n"
+    model = model_of(text(bed=ELASTIC + planes, held=BOTH))
+    moordyn.write(model, "a.txt")
+    (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PLANES")
+    assert entry.status is Status.APPROXIMATED
+    assert float(entry.effect.split()[-2]) < 0.3

@@ -14,7 +14,7 @@ from mudline.language.diagnostics import DeckError
 from mudline.tools.exporting import orcaflex
 from mudline.tools.exporting.line_model import LineModel
 from mudline.tools.exporting.report import Status
-from tests.tools.exporting.decks import ELASTIC, EXPORTABLE, WEIGHT, model_of, sample, text
+from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, WEIGHT, model_of, sample, text
 
 SOIL = ELASTIC + "*SEABED SOIL\n SET=ALL\n STRENGTH=2000.0, 1000.0\n BUOYANCY=1.5, 6000.0\n"
 
@@ -64,6 +64,11 @@ def test_a_line_on_a_linear_seabed() -> None:
         ["Fixed", 0.0, 0.0, -100.0, 0.0, 90.0, 0.0, None],
         ["Fixed", 50.0, 0.0, -100.0, 0.0, 90.0, 0.0, None],
     ]
+
+
+def test_ends_that_are_held_against_rotation_are_clamped() -> None:
+    (line,) = written(model_of(text(held=BOTH + " 1, 5\n 1, 6\n")))["Lines"]
+    assert line["ConnectionxBendingStiffness, ConnectionyBendingStiffness"] == [["Infinity", None], [0.0, None]]
 
 
 def test_the_nonlinear_soil_has_strength_and_density() -> None:
@@ -118,6 +123,15 @@ def test_another_shape_is_the_profile_below_the_line_with_its_error() -> None:
     assert (len(rows), rows[0][0], rows[-1][0]) == (201, 0.0, 50.0)
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PLANES")
     assert "below Line1, level across it: up to 0 m off" in entry.effect or "e-" in entry.effect
+
+
+def test_diameters_that_differ_are_listed() -> None:
+    sets = "*ELEMENT SETS\n SET=Thick\n GEN=1, 4\n"
+    sections = " OPTION=MOORING\n SET=ALL\n 1.0E8, 50.0, 0.1\n SET=Thick\n 1.0E8, 90.0, 0.14\n"
+    model = model_of(text(sets=sets, sections=sections))
+    written(model)
+    (entry,) = (entry for entry in model.report.entries if entry.keyword == "*GEOMETRIC SETS diameter")
+    assert entry.effect.startswith("its axis touches 20 mm higher")
 
 
 def test_a_slope_that_is_too_steep_is_refused() -> None:

@@ -10,6 +10,7 @@ import pytest
 from mudline.language.diagnostics import DeckError
 from mudline.model.contact.arrays import Positions
 from mudline.model.scene.numbering import Floats
+from mudline.tools.exporting import moordyn
 from mudline.tools.exporting.line_model import LineModel
 from mudline.tools.exporting.returned import read_returned
 from tests.cli.runner import run
@@ -63,6 +64,17 @@ def test_other_nodes_are_taken_by_arc_length_in_feet(tmp_path: Path) -> None:
     found = read(tmp_path / "a_Line1.out", model).whole[0]
     assert found[np.argsort(model.scene.node_ids), 1] == pytest.approx(np.linspace(0.0, 50.0, 11), abs=1e-5)
     assert found[:, 0] == pytest.approx(np.zeros(11), abs=1e-5)
+
+
+def test_the_files_of_the_other_lines_are_read_too(tmp_path: Path) -> None:
+    model = model_of(TWO)
+    assert [len(part.lengths) for part in moordyn.pieces(model)[0]] == [4, 6]
+    line_file(tmp_path / "run_Line1.out", straight(20.0, 5))
+    assert read(tmp_path / "run_Line1.out", model).missing == 6
+    line_file(tmp_path / "run_Line2.out", straight(30.0, 7, 20.0))
+    found = read(tmp_path / "run_Line2.out", model)
+    assert found.missing == 0
+    assert np.sort(found.whole[0, :, 1]) == pytest.approx(np.linspace(0.0, 50.0, 11), abs=1e-5)
 
 
 @pytest.mark.parametrize(

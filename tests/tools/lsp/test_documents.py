@@ -10,7 +10,7 @@ from lsprotocol import types
 from mudline.language.diagnostics import Span
 from mudline.language.syntax.edits import TextEdit, apply_edits
 from mudline.language.syntax.source import Source
-from mudline.tools.lsp.documents import Document, file_of, units_of
+from mudline.tools.lsp.documents import Document, characters_of, file_of, units_of
 
 ENCODINGS = ["utf-8", "utf-16", "utf-32"]
 TEXT = "$MODEL\r\n*NODE\tä\n 1, 0.0 C 😋 x\r 2, ü\n"
@@ -33,6 +33,12 @@ def test_columns_count_in_units_of_the_encoding() -> None:
     at = TEXT.index("x")
     columns = {name: document(TEXT, name).position(at).character for name in ENCODINGS}
     assert columns == {"utf-8": 15, "utf-16": 13, "utf-32": 12}
+
+
+@pytest.mark.parametrize(("encoding", "units"), [("utf-16", 11), ("utf-8", 11), ("utf-8", 12), ("utf-8", 13)])
+def test_a_column_inside_a_character_stands_before_it(encoding: str, units: int) -> None:
+    line = TEXT.split("\n")[2].partition("\r")[0]
+    assert characters_of(line, units, encoding) == line.index("😋")
 
 
 @pytest.mark.parametrize("line", [0, 3, 4, 2**31 - 1])
@@ -71,6 +77,13 @@ def test_a_difference_leads_from_one_text_to_the_other(one: list[str], other: li
         for each in made.difference("\n".join(other).encode())
     ]
     assert apply_edits(made.text, edits) == "\n".join(other)
+
+
+def test_halves_of_pairs_are_replaced() -> None:
+    made = document("a\ud83d")
+    made.change(types.Range(types.Position(0, 1), types.Position(0, 1)), "\ude0b")
+    assert made.text == "a\ufffd\ufffd"
+    assert made.as_file().decode() == made.text
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)

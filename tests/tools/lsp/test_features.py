@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 
 from mudline.editing.formatting.document import formatted
 from mudline.tools.lsp.colours import LEGEND
-from tests.helpers.builders.decks import CLEAN
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 from tests.tools.lsp.editor import Editor, applied, document
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
@@ -51,6 +52,13 @@ async def test_a_deck_is_formatted(editor: Editor) -> None:
     options = types.FormattingOptions(tab_size=4, insert_spaces=True)
     edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
     assert applied(UGLY, list(edits or ())).encode() == formatted(UGLY.encode(), "deck.keyxm")
+
+
+async def test_a_deck_with_an_error_is_not_formatted(editor: Editor) -> None:
+    uri = await editor.open(BAD_NUMBER)
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    with pytest.raises(JsonRpcException, match=r"correct the error in line 6 first \(SYN002\)"):
+        await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
 
 
 async def test_equations_have_hints(editor: Editor) -> None:

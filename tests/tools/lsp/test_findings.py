@@ -8,7 +8,7 @@ from lsprotocol import types
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes
 from mudline.checks.fixing import lint_one
 from mudline.checks.registry import select
-from tests.helpers.builders.decks import CLEAN, UNSORTED
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.helpers.samples import SAMPLES
 from tests.tools.lsp.editor import Editor, applied, codes, document, position
 
@@ -57,6 +57,12 @@ async def test_a_change_older_than_the_text_is_dropped(editor: Editor) -> None:
     assert await editor.change(uri, 6, (types.Position(0, 0), types.Position(0, 0), "C a comment\n")) == []
 
 
+async def test_findings_go_when_a_deck_is_closed(editor: Editor) -> None:
+    uri = await editor.open(BAD_NUMBER)
+    params = types.DidCloseTextDocumentParams(document(uri))
+    assert await editor.shown(uri, lambda: editor.client.text_document_did_close(params)) == []
+
+
 async def test_a_continued_deck_is_checked_with_its_dependents(editor: Editor) -> None:
     base = await editor.open(BASE, "base.keyxm")
     uri = editor.uri("next.keyxm")
@@ -90,6 +96,26 @@ async def test_the_configuration_of_the_project_holds(editor: Editor) -> None:
     assert [(one.code, one.severity) for one in shown] == [("SYN009", types.DiagnosticSeverity.Error)]
     (editor.folder / "mudline.toml").write_text('exclude = ["deck.*"]\n', encoding="utf-8")
     assert await editor.shown(uri, lambda: editor.client.workspace_did_change_watched_files(params)) == []
+
+
+async def test_a_fault_of_the_configuration_is_shown_once(editor: Editor) -> None:
+    (editor.folder / "mudline.toml").write_text('ignroe = ["SYN009"]\n', encoding="utf-8")
+    before = len(editor.client.messages)
+    uri = await editor.open(CLEAN)
+    await editor.change(uri, 2, CLEAN + "C more\n")
+    assert [("ignroe" in one.message) for one in editor.client.messages[before:]] == [True]
+
+
+async def test_decks_in_json_and_yaml_are_checked(editor: Editor) -> None:
+    text = '{"format": "mudline-deck/1", "sections": [{"name": "MODEL"}]}'
+    uri = editor.uri("deck.json")
+    shown = await editor.shown(uri, lambda: editor.send_open(uri, text, language="json"))
+    assert codes(shown) == ["DOC002"]
+    other = editor.uri("package.json")
+    assert await editor.shown(other, lambda: editor.send_open(other, '{"name": 1}', language="json")) == []
+    uri = "untitled:Untitled-1"
+    yaml = "format: mudline-deck/1\nsections: 3\n"
+    assert codes(await editor.shown(uri, lambda: editor.send_open(uri, yaml, language="yaml"))) == ["DOC002"]
 
 
 async def test_a_finding_has_its_fix(editor: Editor) -> None:

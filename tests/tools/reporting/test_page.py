@@ -78,6 +78,14 @@ def test_values_are_written_for_people(tmp_path: Path) -> None:
     assert "curve:Clay | Free | 1 | 0 |  | 0" in re.sub('</td><td(?: class="number")?>', " | ", text)
 
 
+def test_sets_of_lines_that_are_not_read_may_have_more_elements(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "lines-deck.keyxm"))
+    assert row_of(text, "Static Section").startswith("Static Section | 0+")
+    assert row_of(text, "elements") == "elements | 0+"
+    assert row_of(text, "curve:Clay").startswith("curve:Clay | Static Section | 0+")
+    assert text.count("+ a block that is not read may add elements to this set") == 2
+
+
 def test_a_study_is_on_the_page_only_where_it_is_asked_for(tmp_path: Path) -> None:
     deck = str(SAMPLES / "legacy-flowline.keyxm")
     page = checked(made(tmp_path, deck, sections="verdict,study"))
@@ -95,6 +103,12 @@ def test_a_faulty_deck_gets_a_page_that_says_what_is_missing(tmp_path: Path) -> 
     assert "No contact was computed: line" in page.text
     assert "finding-1" in page.ids
     assert "rule-SYN011" in page.ids
+
+
+def test_a_file_that_holds_no_deck_gets_a_page(tmp_path: Path) -> None:
+    (tmp_path / "deck.json").write_text('{"format": "mudline-deck/1", "sections": 5}', encoding="utf-8")
+    page = checked(made(tmp_path, str(tmp_path / "deck.json"), code=FOUND))
+    assert "the file holds no deck" in page.text
 
 
 def test_suppressed_findings_stand_with_their_reason(tmp_path: Path) -> None:

@@ -195,3 +195,8 @@ def test_what_goes_wrong_at_a_scheduler_is_named(error: BaseException, why: str)
     future.set_exception(error)
     with pytest.raises(RunError, match=f"tcp://h:1: {why}"):
         Pool(0, "tcp://h:1", ExitStack()).result(future)
+
+
+def test_a_worker_of_another_version_is_named() -> None:
+    with pytest.raises(RunError, match=r"a worker has mudline .*, the command 9\.9: install the same version"):
+        executors._done("9.9", squared, [(1,)])

@@ -109,6 +109,20 @@ def test_the_verdicts_of_two_samples(name: str, errors: tuple[float, ...], verdi
     assert (found.run_times > 0.0).all()
 
 
+def test_the_scheme_of_the_deck() -> None:
+    hughes = studied(Riser(loads=f"{WAVES}*TIME STEPPING\n TYPE=HILBER-HUGHES\n -0.2\n").text())
+    assert hughes.zone is not None
+    assert (hughes.zone.scheme.name, hughes.zone.scheme.alpha) == ("hilber-hughes", -0.2)
+    given = studied(Riser(loads=f"{WAVES}*TIME STEPPING\n TYPE=GENERALISED-ALPHA\n 0.25, 0.0\n").text())
+    assert given.zone is not None
+    assert (given.zone.scheme.alpha_f, given.zone.scheme.alpha_m) == (0.25, 0.0)
+
+
+def test_a_scheme_that_hardly_damps_is_no_reference() -> None:
+    found = studied(Riser(loads=f"{WAVES}*TIME STEPPING\n TYPE=GENERALISED-ALPHA, P-INFINITY=1.0\n").text())
+    assert found.notes["accuracy"] == ["The reference is run with generalised-alpha (0.4), which damps."]
+
+
 def test_a_variable_step_has_its_largest_and_its_first_step() -> None:
     loads = WAVES.replace("FIXED\n 0.0, 100.0, 0.2, 20.0", "VARIABLE\n 0.0, 100.0, 20.0\n 0.05, 0.001, 0.2")
     found = studied(Riser(loads=loads).text())
@@ -136,6 +150,12 @@ def test_a_step_that_is_too_long_is_told_which_one_is_not() -> None:
     found = studied(Riser(loads=WAVES.replace("0.2, 20.0", "1.4, 20.0")).text())
     assert found.advice.verdict == "too long"
     assert (" use " in found.advice.text) == (found.advice.step is not None)
+
+
+def test_coarse_elements_are_the_finding() -> None:
+    found = studied(Riser(elements=50).text())
+    assert "Elements of 20" in found.advice.text
+    assert "The mesh is the finding" in found.advice.text
 
 
 def test_without_operators_and_waves_the_motion_is_assumed() -> None:
@@ -169,6 +189,12 @@ def test_a_lazy_wave_in_the_other_order_of_nodes() -> None:
     mirrored = replace(riser, top_first=True, sets=other_way)
     other = studied(mirrored.text())
     assert found.errors == pytest.approx(other.errors, rel=1e-3, abs=1e-6)
+
+
+def test_along_a_slope_what_is_left_out_is_said() -> None:
+    found = studied(Riser(slope=5.0, model="*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=5.0\n").text())
+    assert found.zone is not None
+    assert any("which slopes: the weight along it is left out" in note for note in found.zone.notes)
 
 
 def touchdown_zone_of(text: str) -> Zone:
@@ -252,6 +278,11 @@ def test_stiff_and_extreme_cases() -> None:
 
 
 LINEAR = " TYPE=ELASTIC\n SET=ALL\n STIFFNESS={}\n"
+
+
+def test_a_soil_that_is_as_stiff_as_rock_is_made_no_stiffer() -> None:
+    found = studied(Riser(law=LINEAR.format("1.0E9"), soil="").text(), "stability")
+    assert [row.case for row in found.extremes] == ["period x 0.5", "soil x 0.01"]
 
 
 def test_the_stiffest_soils_converge() -> None:

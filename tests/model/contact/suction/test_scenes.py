@@ -92,6 +92,16 @@ def test_net_force_on_a_slow_pull_out() -> None:
     assert [result.force.item() for result in results] == pytest.approx(expected, rel=1e-9)
 
 
+def test_work_to_breakout() -> None:
+    corners = np.array([0.0, 0.2, 0.8, 1.0])
+    shares = np.unique(np.concatenate([np.linspace(0.0, 1.0, 101), corners]))
+    contact = ContactModel(chain([NONE], suction(bridge_law())))
+    uplifts = shares * DEPTH
+    results = walk(contact, *heave([0.01, *(0.0 - uplifts)], [0.0, *[0.1] * len(uplifts)]))
+    pull = np.array([-result.reaction[:, 0].sum() for result in results[1:]]) / 2.0
+    assert np.sum(0.5 * (pull[1:] + pull[:-1]) * np.diff(uplifts)) == pytest.approx(178.18238727, rel=1e-9)
+
+
 @pytest.mark.parametrize(("v", "force"), [(5e-4, 424.24484398), (0.0, 0.0), (1e-300, 0.0)])
 def test_cap_below_the_regularisation_velocity(v: float, force: float) -> None:
     result = walk(pipe(), *heave([0.01, -0.02], [0.0, v]))[1]
