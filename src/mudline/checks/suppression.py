@@ -1,8 +1,8 @@
 """Findings that are hidden: by comments, `C mudline: ignore CRV005`, `ignore-block`, `ignore-file`; by a baseline.
 
-A comment applies to the next line that is neither blank nor a comment, to the block that it is in (from its keyword to
-the next one), or to the whole file. What it names are codes, prefixes of codes and slugs; naming none means all. A
-baseline records known findings by path, code and the text of their line, not by its number.
+A comment applies to the next line that is neither blank nor a comment, to its block (from the keyword to the next one),
+or to the whole file. It names codes, prefixes of codes and slugs; without a name it applies to all codes. A baseline
+records known findings by path, code and the text of their line, not by its number.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from mudline.language.syntax.tree import Kind, Leaf
 STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 
 MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
-"""The beginning of a comment for mudline."""
+"""Beginning of a comment for mudline."""
 
 _NAMED = re.compile(r"mudline", re.IGNORECASE)
 _ORDER = re.compile(r"[\w-]+")
@@ -41,13 +41,13 @@ _WORD = re.compile(r"[^,\s]+")
 _REASON = r"(?:(?<=[\s,])|^)--(?=\s|$)"
 _PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
 _NOWHERE = ("outside",)
-"""The scope of what is in no block."""
+"""Scope of lines outside of any block."""
 _NOTHING = ("nothing",)
-"""The scope of a comment that applies to nothing."""
+"""Scope of a comment that applies to nothing."""
 
 
 class Word(NamedTuple):
-    """What a comment names: the text, its place, and the codes of the rules behind it (none: no rule has that name)."""
+    """Name in a comment: its text, its place, and the codes of the rules that it names, if any."""
 
     text: str
     span: Span
@@ -56,9 +56,10 @@ class Word(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class Directive:
-    """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line.
+    """Suppression comment.
 
-    `reason` is the text behind `--`, "" without one.
+    scope: the line, the block or the file that it applies to; nothing after the last line.
+    reason: the text behind `--`, "" without one.
     """
 
     order: str
@@ -72,9 +73,10 @@ class Directive:
 
 @dataclass(slots=True, eq=False)
 class Suppressions:
-    """All comments of a deck that hide findings, and those that look like one (`misspelt`: the word, what was meant).
+    """Comments of a deck that hide findings, and those that look like one.
 
-    `origin` gives the places: that of the deck's own text, or of the text that a JSON or YAML deck would be.
+    origin: places in the deck's own text, or in the text that a JSON or YAML deck would be.
+    misspelt: the words of comments that look like one, each with the word that was meant.
     """
 
     origin: TextOrigin
@@ -84,10 +86,9 @@ class Suppressions:
     blocks: list[tuple[int, Hashable]] = field(default_factory=list)
 
     def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
-        """The problems that are reported, and those that are hidden.
+        """Return the problems that are reported, and those that are hidden.
 
-        The reported ones have STY010 besides for what hides nothing, where that rule and the ones named are among the
-        chosen.
+        STY010 is added for comments that hide nothing, if that rule and the rules named there are among the chosen.
         """
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
@@ -103,12 +104,19 @@ class Suppressions:
         return reported, hidden
 
     def hiding(self, problem: Problem) -> Directive | None:
-        """The comment that hides a problem."""
+        """Return the comment that hides a problem."""
         scopes, code = self._scopes(problem), problem.code.code
-        return next((one for one in self.directives if one.scope in scopes and _covers(_named(one), code)), None)
+        return next(
+            (
+                directive
+                for directive in self.directives
+                if directive.scope in scopes and _covers(_named(directive), code)
+            ),
+            None,
+        )
 
     def unknown(self) -> Iterator[Problem]:
-        """Names that no rule has and unknown instructions in comments."""
+        """Yield problems for names that no rule has, and for unknown instructions in comments."""
         for word, meant, where in self.misspelt:
             message = f"{word.text!r} is not an instruction: did you mean {meant}?"
             yield self._problem(message, word.span, where, self._replacing(word, meant))
@@ -121,7 +129,7 @@ class Suppressions:
                     yield self._problem(f"{word.text!r} names no rule: {hint}", word.span, directive.where, repair)
 
     def _present(self, problems: Iterable[Problem]) -> dict[Hashable, set[str]]:
-        """The codes of the findings in every scope."""
+        """Return the codes of the findings in every scope."""
         present: dict[Hashable, set[str]] = {}
         for problem in problems:
             for scope in self._scopes(problem):
@@ -158,7 +166,7 @@ class Suppressions:
         return Repair("unsafe", f"write {meant}", ((word.span, meant),))
 
     def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
-        """Without a word and the separator beside it, or without the comment when nothing else is named."""
+        """Return a repair that removes a word and its separator, or the comment if nothing else is named."""
         words = directive.words
         if len(words) <= 1:
             return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
@@ -169,7 +177,7 @@ class Suppressions:
 
 
 def _place(directive: Directive) -> str:
-    """What a comment applies to, in words."""
+    """Return the scope of a comment in words."""
     if directive.scope != _NOTHING:
         return _PLACES[directive.order]
     return "what is not a block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
@@ -180,14 +188,14 @@ def _named(directive: Directive) -> set[str]:
 
 
 def _covers(named: set[str], code: str) -> bool:
-    """Whether a code is hidden; a comment that names none does not hide that it is unused."""
+    """Return True if a code is hidden; a comment without codes does not hide that it is unused."""
     return code in named or ("" in named and code != STY010.code)
 
 
 def suppressions(context: LintContext) -> Suppressions | None:
-    """What the comments of a deck hide; None for a deck without such comments. Rules ask `context.once` for it.
+    """Return the suppressions of a deck's comments; None for a deck without such comments. Rules call `context.once`.
 
-    A deck in JSON or YAML is seen as the keyword text that it would be; one that has no such text hides nothing.
+    A deck in JSON or YAML is seen as the keyword text that it would be; a deck without such a text hides nothing.
     """
     deck = context.deck
     if isinstance(deck.origin, TextOrigin):
@@ -225,7 +233,7 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
 
 
 def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
-    """The leaves in their order with the block that they are in; the first lines of blocks go to `blocks`."""
+    """Yield the leaves in their order with their block; the first lines of blocks are added to `blocks`."""
     for index, section in enumerate((origin.tree.preamble, *origin.tree.sections), -1):
         if section.head is not None:
             blocks.append((origin.source.position(section.head.span.start)[0], _NOWHERE))
@@ -251,8 +259,8 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
     end = leaf.start + len(text[slice(*leaf)].rstrip())
     reason = re.search(_REASON, text[order.end() : end])
     names = list(_WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end))
-    codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {one.group() for one in names}}
-    words = [Word(one.group(), Span(*one.span()), codes[one.group()]) for one in names]
+    codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {each.group() for each in names}}
+    words = [Word(each.group(), Span(*each.span()), codes[each.group()]) for each in names]
     directive = Directive(name, leaf, Span(leaf.start, end), words, where)
     directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
     if name == "ignore-file":
@@ -264,7 +272,7 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
 
 
 def _names() -> Iterator[str]:
-    """The codes and slugs of all rules."""
+    """Yield the codes and slugs of all rules."""
     for rule in rules():
         yield from (rule.code.code, rule.code.slug)
 
@@ -274,15 +282,15 @@ def _names() -> Iterator[str]:
 FORMAT = "mudline-baseline/1"
 _KEYS = {"path", "code", "content", "count"}
 _RECORDED = 500
-"""Characters of a line that are recorded."""
+"""Number of characters of a line that are recorded."""
 
 
 class BaselineError(ValueError):
-    """A file that is not a baseline; the message says why."""
+    """File that is not a baseline; the message gives the reason."""
 
 
 class Entry(NamedTuple):
-    """What findings are known by: the path from the baseline's folder, the code, and the line without outer blanks."""
+    """Key of known findings: path from the baseline's folder, code, and line without outer spaces."""
 
     path: str
     code: str
@@ -303,7 +311,7 @@ class Baseline:
         self.known.update(self._entries(found, data, path))
 
     def unknown(self, found: Sequence[Diagnostic], data: bytes, path: str) -> list[Diagnostic]:
-        """The findings of a file that are not recorded, or more of a kind than are."""
+        """Return the findings of a file that are not recorded, or that exceed the recorded number of their kind."""
         self.seen.add(relative_path(path, self.folder))
         new: list[Diagnostic] = []
         for one, entry in zip(found, self._entries(found, data, path), strict=True):
@@ -313,11 +321,11 @@ class Baseline:
         return new
 
     def gone(self) -> int:
-        """How many recorded findings of the files seen are no longer there."""
+        """Return the number of recorded findings of the files seen that are no longer there."""
         return sum(max(count - self.met[entry], 0) for entry, count in self.known.items() if entry.path in self.seen)
 
     def text(self) -> str:
-        """The content of the file: sorted, an entry a line, ends with LF."""
+        """Return the content of the file: sorted, an entry a line, ends with LF."""
         entries = sorted((entry, count) for entry, count in self.known.items() if count)
         lines = [json.dumps({**entry._asdict(), "count": count}, ensure_ascii=True) for entry, count in entries]
         inner = ",\n".join(f"  {line}" for line in lines)
@@ -333,7 +341,7 @@ class Baseline:
 
 
 def read_baseline(path: Path) -> Baseline:
-    """The baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
+    """Return the baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
     reading(path)
     try:
         document = json.loads(path.read_bytes())
@@ -347,16 +355,16 @@ def read_baseline(path: Path) -> Baseline:
     if not isinstance(findings, list):
         raise BaselineError('it has no list "findings"')
     baseline = Baseline(path.parent)
-    for number, given in enumerate(findings):
-        entry, count = _entry(given, number)
+    for number, finding in enumerate(findings):
+        entry, count = _entry(finding, number)
         baseline.known[entry] += count
     return baseline
 
 
-def _entry(given: object, number: int) -> tuple[Entry, int]:
-    if not isinstance(given, dict) or given.keys() != _KEYS:
+def _entry(finding: object, number: int) -> tuple[Entry, int]:
+    if not isinstance(finding, dict) or finding.keys() != _KEYS:
         raise BaselineError(f"findings[{number}] must have the keys {', '.join(sorted(_KEYS))}, and no others")
-    path, code, content, count = (given[key] for key in ("path", "code", "content", "count"))
+    path, code, content, count = (finding[key] for key in ("path", "code", "content", "count"))
     if not (isinstance(path, str) and isinstance(code, str) and isinstance(content, str)):
         raise BaselineError(f"findings[{number}]: path, code and content must be texts")
     if not isinstance(count, int) or isinstance(count, bool) or count < 1:

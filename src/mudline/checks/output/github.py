@@ -13,7 +13,7 @@ _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """A command a line; columns are given where a finding begins and ends in one line, the last one included."""
+    """Yield a command for each finding; columns, the last one included, are given if a finding lies in one line."""
     for found in diagnostics:
         values: dict[str, str | int] = {
             "file": found.file.removeprefix("./"),

@@ -17,7 +17,7 @@ _SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """One array, an object a line; `[]` when there is nothing."""
+    """Return one array, an object a line; `[]` without findings."""
     fingerprints = Fingerprints()
     placed = (replace(found, file=_path(found.file)) for found in diagnostics)
     return array(_issue(found, fingerprints.of(found)) for found in placed)
@@ -34,6 +34,6 @@ def _issue(found: Diagnostic, fingerprint: str) -> dict[str, Any]:
 
 
 def _path(file: str) -> str:
-    """GitLab knows paths from the top of the repository only, which is where its jobs run."""
+    """Return a path from the top of the repository, as GitLab needs it; its jobs run there."""
     path, top = Path(file), Path.cwd()
     return path.relative_to(top).as_posix() if path.is_relative_to(top) else file.removeprefix("./")

@@ -14,12 +14,12 @@ SUMMARY = "an [array of objects](json.md#findings)"
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """One array, an object a line; `[]` when there is nothing."""
+    """Return one array, an object a line; `[]` without findings."""
     return array(map(as_object, diagnostics))
 
 
 def array(objects: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """The text of an array, in pieces."""
+    """Yield the text of an array, in pieces."""
     mark = "["
     for found in objects:
         yield f"{mark}\n {json.dumps(found, ensure_ascii=False)}"
@@ -28,7 +28,7 @@ def array(objects: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def as_object(found: Diagnostic) -> dict[str, Any]:
-    """A finding as a dict."""
+    """Return a finding as a dict."""
     return {
         "file": found.file,
         "code": found.code,

@@ -1,6 +1,6 @@
-"""Findings as the XML of test reports: a suite a file, a failed case a finding, one passed case for a clean file.
+"""Findings as the XML of test reports: a suite for each file, a failed case for each finding, a passed case if none.
 
-The text of a failure is there twice: some readers show the attribute, others the element.
+The text of a failure is given twice: some readers show the attribute, others the element.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ SUMMARY = (
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """The document in pieces; all files that were linted are in it, in their order."""
+    """Yield the document in pieces, with all files that were linted, in their order."""
     by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
     for found in diagnostics:
         by_file.setdefault(found.file, []).append(found)
@@ -47,5 +47,5 @@ def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
 
 
 def _value(text: str) -> str:
-    """An attribute in quotes; what XML forbids does not print either, and is replaced."""
+    """Return an attribute in quotes; characters that XML forbids do not print either, and are replaced."""
     return quoteattr(visible(text))

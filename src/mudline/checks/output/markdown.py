@@ -1,6 +1,6 @@
-"""Findings as a table in Markdown, for the summary of a job and for a note on a change: errors first, and not too many.
+"""Findings as a table in Markdown, for a job's summary or a note on a change: errors first, limited in number.
 
-A host takes about a million characters; nothing of a deck's text is markup, a link or a mention there.
+A host takes about a million characters. No text of a deck can act as markup, link or mention there.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _MARKUP = re.compile(r"[\\`*_{}\[\]<>#|~@&!$]|:(?=//)|(?<=www)\.")
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """A heading with the totals, then a row a finding; the heading alone where there is none."""
+    """Yield a heading with the totals, then a row for each finding; the heading alone without findings."""
     listed = sorted(diagnostics, key=lambda found: (-found.severity.rank, found.sort_key))
     files = counted(len(run.files), "file")
     if not listed:
@@ -43,12 +43,12 @@ def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
 
 
 def _rule(found: Diagnostic) -> str:
-    """The code, as a link where its page is on a site, and the slug."""
+    """Return the code, as a link if its page is on a site, and the slug."""
     address = page(found.code) or ""
     code = f"[{found.code}]({address})" if address.startswith("http") else found.code
     return f"{code} {_plain(found.slug)}"
 
 
 def _plain(text: str) -> str:
-    """A text in which no character is markup."""
+    """Return a text in which no character is markup."""
     return _MARKUP.sub(lambda char: f"&#{ord(char[0])};", visible(text))

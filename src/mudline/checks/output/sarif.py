@@ -1,4 +1,4 @@
-"""Findings in SARIF 2.1.0, the interchange form of static analysis."""
+"""Findings in SARIF 2.1.0, the interchange format of static analysis."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NO_RULE = "This is not a rule and cannot be ignored; the message says why the f
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """One log with one run; its rules are those that something was found by."""
+    """Yield one log with one run; its rules are those with findings."""
     listed = list(diagnostics)
     first = {found.code: found for found in reversed(listed)}
     codes = sorted(first)
@@ -80,7 +80,7 @@ def _location(file: str) -> dict[str, str]:
 
 
 def _bytes(path: str) -> bytes:
-    """The bytes of a name, those of the file system if it may have such a name."""
+    """Return the bytes of a name, those of the file system if it may have this name."""
     try:
         return os.fsencode(path)
     except UnicodeEncodeError:
@@ -96,7 +96,7 @@ def _edit(edit: Edit) -> dict[str, Any]:
 
 
 def _descriptor(found: Diagnostic) -> dict[str, Any]:
-    """The reporting descriptor of the code of a finding."""
+    """Return the reporting descriptor of the code of a finding."""
     rule = next((rule for rule in rules() if rule.code.code == found.code), None)
     title = rule.page.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
     why = rule.page.why if rule else _NO_RULE
@@ -115,6 +115,6 @@ def _descriptor(found: Diagnostic) -> dict[str, Any]:
 
 
 def _markdown(rule: Rule) -> str:
-    said = rule.page
-    examples = f"Bad:\n\n```text\n{said.bad.rstrip()}\n```\n\nGood:\n\n```text\n{said.good.rstrip()}\n```\n"
-    return f"# {said.title}\n\n{said.why}\n\n{examples}"
+    content = rule.page
+    examples = f"Bad:\n\n```text\n{content.bad.rstrip()}\n```\n\nGood:\n\n```text\n{content.good.rstrip()}\n```\n"
+    return f"# {content.title}\n\n{content.why}\n\n{examples}"

@@ -25,7 +25,8 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     """Elements have no hydrodynamic properties in a load case with waves or a current.
 
     No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right in a moonpool,
-    and a slip elsewhere. Inner pipes of *PIP SECTION need none. Put the elements into a set with coefficients.
+    and a mistake elsewhere. Inner pipes of *PIP SECTION need no coefficients. Put the elements into a set with
+    coefficients.
 
     Example on held:
          $MODEL
@@ -69,10 +70,10 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
 def added_mass_order(context: LintContext) -> Iterator[Problem]:
     """A line of `*HYDRODYNAMIC SETS` gives two different added mass coefficients, whose order is inferred.
 
-    mudline reads the normal one first, as decks of the older program (.das) have them; the manual's page on theory
+    mudline reads the normal coefficient first, as in decks of the older program (.das). The manual's page on theory
     lists the tangential one first, and no public page shows the line itself. Nothing that mudline evaluates depends on
-    it, but whoever copies the values should know. Where the coefficients are the defaults, the normal inertia minus 1
-    and 0, leave the two fields out: then there is no doubt.
+    the order, but it matters if the values are copied. If the coefficients are the defaults, the normal inertia minus 1
+    and 0, leave both fields empty: then there is no doubt.
 
     Example on sets:
           GEN=3, 4

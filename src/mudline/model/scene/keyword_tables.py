@@ -1,6 +1,6 @@
-"""Tables in the form of the manual: sheets whose headings are those of a keyword's page, to the lines of a deck.
+"""Tables in the form of the manual: sheets whose headings are those of a keyword's page, as lines of a deck.
 
-The rows become the lines of the keyword and are read as these, so that what a deck cannot hold a sheet cannot either.
+The rows become lines of the keyword and are read as such, so a sheet cannot hold more than a deck can.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _NOT_LETTERS = re.compile(r"[\W_]+")
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """A column that a form has, and the headings by which it is known, without blanks and case."""
+    """Column of a form, and the headings by which it is known, without spaces and case."""
 
     spec: FieldSpec
     headings: frozenset[str]
@@ -47,15 +47,19 @@ class Column:
 
     @property
     def label(self) -> str:
-        """What the column is called in a message."""
+        """Name of the column in a message."""
         return self.spec.about.heading or self.spec.label.removesuffix("=")
 
 
 @dataclass(frozen=True, eq=False)
 class TableForm:
-    """The rows of a keyword as a table: a column that names their set, curve or thing, if they have one, and values.
+    """Rows of a keyword as a table.
 
-    `opening` is the line that says which of several kinds of rows follow.
+    declared: the keyword.
+    name: column that names their set, curve or object, if they have one.
+    values: columns of their values.
+    opening: the line that selects one of several kinds of rows.
+    curve: declaration of the rows, if they are a curve.
     """
 
     declared: type[Block]
@@ -66,12 +70,12 @@ class TableForm:
 
     @property
     def keyword(self) -> str:
-        """The name of the keyword."""
+        """Name of the keyword."""
         return str(self.declared.model_fields["keyword"].default)
 
     @property
     def section(self) -> str:
-        """The section where its lines are written."""
+        """Section in which its lines are written."""
         return self.declared.sections[0]
 
     @property
@@ -81,13 +85,13 @@ class TableForm:
 
     @property
     def required(self) -> list[Column]:
-        """The columns of values that a table must have."""
+        """Columns of values that a table must have."""
         return [column for column in self.values if column.spec.required]
 
 
 @cache
 def table_forms() -> tuple[TableForm, ...]:
-    """The tables of all keywords."""
+    """Return the tables of all keywords."""
     classes = catalogue.block_classes()
     records = ((one, record) for one in classes for slot in record_schema(one).slots for record in slot.record.values())
     return tuple(form for declared, record in records for form in _of_record(declared, record))
@@ -116,49 +120,50 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
 
 
 def plain(text: str) -> str:
-    """A heading as headings compare."""
+    """Return a heading in the form in which headings are compared."""
     return _NOT_LETTERS.sub("", text).casefold()
 
 
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(]\s*(?P<unit>[^\[(]*?)\s*[\])])?\s*", re.DOTALL)
 _UNITS = {"metric": ("N", "m", "kg", "s"), "imperial": ("lbf", "ft", "slug", "s")}
-"""What force, length, mass and time are in a unit system."""
+"""Units of force, length, mass and time in a unit system."""
 
 
 class TableDeck(NamedTuple):
-    """The deck of some tables, and the sheets that are not tables of a keyword."""
+    """Deck of some tables, and the sheets that are not tables of a keyword."""
 
     deck: Deck
     left_out: Sequence[str]
 
 
 def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) -> TableDeck:
-    """The deck that some sheets describe, a block for each keyword in the order of its first sheet.
+    """Return the deck that some sheets describe, with a block for each keyword in the order of its first sheet.
 
-    The first row of a sheet has the headings, in any order and case, maybe with a unit in brackets; the keyword is the
-    one whose page has them. A sheet without a column for the name of its curve is a curve of its own name. A blank name
-    continues the one above; in the first row it stands for all elements, where the keyword allows that. Rows without a
-    value are skipped, and so are sheets with no heading of a keyword. The units are those given, else those in
-    brackets, else metric.
+    * The first row of a sheet has the headings, in any order and case, with or without a unit in brackets. The keyword
+      is the one whose page has them.
+    * A sheet without a column for the name of its curve is a curve with the sheet's name.
+    * A blank name continues the one above. In the first row it stands for all elements, if the keyword allows that.
+    * Rows without a value are skipped, and so are sheets without a heading of a keyword.
+    * The units are those given, else those in brackets, else metric.
 
-    Raises DeckError where something cannot be a line of the keyword; the message names the cell.
+    Raises DeckError if something cannot be a line of the keyword; the message names the cell.
     """
-    made: dict[TableForm, list[_Entry]] = {}
+    entries_by_form: dict[TableForm, list[_Entry]] = {}
     left_out: list[str] = []
     systems: dict[str, str] = {}
     for sheet in sheets:
-        found = _head(sheet)
-        if found is None:
+        head = _head(sheet)
+        if head is None:
             left_out.append(sheet.title)
             continue
-        systems |= dict.fromkeys(_systems(sheet, found), sheet.title)
-        _add(made.setdefault(found.form, []), _entries(sheet, found), found.form)
-    if not made:
+        systems |= dict.fromkeys(_systems(sheet, head), sheet.title)
+        _add(entries_by_form.setdefault(head.form, []), _entries(sheet, head), head.form)
+    if not entries_by_form:
         raise data_error(file, "no table of a keyword: expected the headings of its page in the first row")
     if len(systems) > 1:
         what = " and ".join(f"{system} on {listed([sheet])}" for system, sheet in systems.items())
         raise data_error(file, f"the headings have different units: {what}; a deck has one unit system")
-    return TableDeck(_deck(made, file, units or next(iter(systems), "metric")), left_out)
+    return TableDeck(_deck(entries_by_form, file, units or next(iter(systems), "metric")), left_out)
 
 
 # --------------------------------------------------------------------------------------------------- headings
@@ -166,7 +171,7 @@ def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) ->
 
 @dataclass(frozen=True)
 class _Head:
-    """The columns of a sheet by the headings in its first row."""
+    """Columns of a sheet by the headings in its first row."""
 
     form: TableForm
     places: Mapping[Column, int]
@@ -174,9 +179,9 @@ class _Head:
 
 
 def _head(sheet: Sheet) -> _Head | None:
-    """Which keyword a sheet is a table of; None where it is none.
+    """Return the keyword and columns of a sheet; None if it is not a table of a keyword.
 
-    Raises DeckError for most of the headings of a keyword, or for one that it does not have.
+    Raises DeckError if it has most of the headings of a keyword, or a heading that the keyword does not have.
     """
     given: dict[str, tuple[Cell, str]] = {}
     for cell in sheet.rows[0] if sheet.rows else ():
@@ -231,7 +236,7 @@ def _placed(sheet: Sheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]
 
 
 def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
-    """The unit systems that the units in the headings tell. Raises DeckError for another unit than that of a system."""
+    """Yield the unit systems of the units in the headings. Raises DeckError for a unit of no system."""
     units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
     for column, unit in head.units.items():
         dimension = column.spec.about.unit
@@ -251,7 +256,7 @@ def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
 
 @dataclass
 class _Entry:
-    """Rows that belong together: the name that they have, its cell, and each row with its cells."""
+    """Rows that belong together: their name, its cell, and each row with its cells."""
 
     sheet: Sheet
     name: str
@@ -262,34 +267,34 @@ class _Entry:
 
 
 def _entries(sheet: Sheet, head: _Head) -> list[_Entry]:
-    """The rows of a sheet by what they name, in the order of their first rows."""
+    """Return the rows of a sheet by their names, in the order of their first rows."""
     form = head.form
-    found: dict[str, _Entry] = {}
+    entries: dict[str, _Entry] = {}
     named = form.name if form.name in head.places else None
     first = min(head.places[column] for column in form.values if column in head.places)
     name = None if named or form.name is None else sheet.title
     if name is not None:
-        found[name.casefold()] = _Entry(sheet, name, (1, first), first=first)
+        entries[name.casefold()] = _Entry(sheet, name, (1, first), first=first)
     for cells in sheet.rows[1:]:
-        given = {cell.column: cell for cell in cells}
+        cells_by_column = {cell.column: cell for cell in cells}
         for cell in cells:
             if cell.column not in head.places.values():
                 what = "a value in a column without a heading: give it one, or remove it"
                 raise sheet.fault(cell.row, cell.column, what)
-        if not given:
+        if not cells_by_column:
             continue
         row = cells[0].row
         if named:
-            name = _name(sheet, head.places[named], named, given, row, name)
+            name = _name(sheet, head.places[named], named, cells_by_column, row, name)
         place = row, head.places[named] if named else first
-        entry = found.setdefault((name or "").casefold(), _Entry(sheet, name or "", place, first=first))
-        entry.lines.append(_line(sheet, head, given, row))
+        entry = entries.setdefault((name or "").casefold(), _Entry(sheet, name or "", place, first=first))
+        entry.lines.append(_line(sheet, head, cells_by_column, row))
         entry.rows.append(row)
-    return list(found.values())
+    return list(entries.values())
 
 
 def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], row: int, above: str | None) -> str:
-    """The name of a row; a blank one is that above, in the first row that of all elements."""
+    """Return the name of a row; a blank name is that of the row above, in the first row that of all elements."""
     cell = given.get(place)
     if cell is not None:
         return str(_value(sheet, cell, "a name")).strip()
@@ -299,7 +304,7 @@ def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], r
 
 
 def _line(sheet: Sheet, head: _Head, given: Mapping[int, Cell], row: int) -> str:
-    """The fields of a row; empty ones at the end are left out."""
+    """Return the fields of a row; empty fields at the end are left out."""
     fields: list[str] = []
     for column in head.form.values:
         place = head.places.get(column, 0)
@@ -344,7 +349,7 @@ def _value(sheet: Sheet, cell: Cell, expected: str) -> object:
 
 
 def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
-    """Put the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
+    """Add the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
     for entry in more:
         same = next((one for one in known if one.name.casefold() == entry.name.casefold() and form.name), None)
         if same is not None:
@@ -359,7 +364,7 @@ def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
 
 @dataclass
 class _Text:
-    """The lines of a deck, and the cell of each that comes from a table."""
+    """Lines of a deck, and the cell of each line that comes from a table."""
 
     lines: list[str] = field(default_factory=list)
     places: dict[int, tuple[Sheet, int, int]] = field(default_factory=dict)
@@ -372,7 +377,7 @@ class _Text:
 
 
 def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> Deck:
-    """The deck with the lines of all tables; raises DeckError at the cells of what it cannot hold."""
+    """Return the deck with the lines of all tables; raises DeckError at cells that a deck cannot hold."""
     text = _Text()
     section = ""
     for form, entries in sorted(made.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
@@ -396,7 +401,7 @@ def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> 
 
 
 def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
-    """Raise DeckError for a name that reads otherwise in a deck, and for points that make no curve."""
+    """Raise DeckError for a name that reads otherwise in a deck, and for points that do not form a curve."""
     for form, entries in made.items():
         block = next(block for _, block in deck.blocks(form.keyword, form.section))
         slot = next(slot for slot in record_schema(form.declared).slots if slot.record)

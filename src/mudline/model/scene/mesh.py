@@ -1,4 +1,4 @@
-"""Nodes and elements: tables and generators to numbers, coordinates, node indices and lengths."""
+"""Nodes and elements: tables and generators as numbers, coordinates, node indices and lengths."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class _NodeLine(NamedTuple):
     ends: tuple[int, int]
 
     def place(self, first: Floats, last: Floats) -> None:
-        """Evenly spaced, exactly so where the spacing is a whole number."""
+        """Place the nodes at even distances, exactly if the spacing is a whole number."""
         count = len(self.batch.ids)
         for block in blocks_of(count):
             steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
@@ -45,7 +45,7 @@ class _NodeLine(NamedTuple):
 
 
 def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
-    """The nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
+    """Return the nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
 
     Nodes that only `external` elements name have no coordinates.
     """
@@ -82,7 +82,7 @@ def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: 
 
 
 def _coordinates(table: Table) -> Floats:
-    """The coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
+    """Return the coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
     if not (table.full and table.values.shape[1] == 3):
         return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
     found = np.zeros((len(table), 3))
@@ -91,7 +91,7 @@ def _coordinates(table: Table) -> Floats:
 
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
-    """Add the rows of a table that have a number; returns the others."""
+    """Add the rows of a table that have a number; return the other rows."""
     ids, known = whole_numbers(numbers)
     if np.count_nonzero(known) == len(known):
         gathered.add(Batch(ids, values, where, table))
@@ -129,7 +129,7 @@ def _most(made: str) -> str:
 
 
 def _between(gathered: Definitions, line: _NodeLine) -> bool:
-    """Place the nodes of a line, if its ends are defined by now."""
+    """Place the nodes of a line if its ends are defined by now; return True if they are."""
     first, last = (gathered.find(number) for number in line.ends)
     if first is None or last is None:
         return False
@@ -138,7 +138,7 @@ def _between(gathered: Definitions, line: _NodeLine) -> bool:
 
 
 def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
-    """Place a line whose ends were not defined before it, if they stand behind it; whether they do."""
+    """Place a line whose ends are defined only after it; return True if they are."""
     where = line.batch.where
     if _between(gathered, line):
         first, last = line.ends
@@ -167,7 +167,7 @@ class ElementTable(NamedTuple):
 
 
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
-    """The elements of the model, then those of a file, which replace them."""
+    """Return the elements of the model, then those of a file, which replace them."""
     gathered = Definitions()
     for where, block in context.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
@@ -199,7 +199,7 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
-    """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
+    """Report labels of nodes in a deck without unread blocks: only such blocks make labelled nodes."""
     labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
     if not labels or context.external_definers:
         return
@@ -249,13 +249,13 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
 
 
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
-    """Node indices; each end that names an undefined node is reported, a generator's once."""
+    """Return node indices; each end at an undefined node is reported, a generator's once."""
     indices = np.empty(elements.values.shape, dtype=np.intp)
     found: list[Indices] = []
     for block in blocks_of(len(elements)):
-        given, numbers = _node_numbers(elements.values[block])
-        indices[block] = np.where(given, nodes.indices(numbers), -1)
-        lacks = given & (indices[block] < 0)
+        numbered, numbers = _node_numbers(elements.values[block])
+        indices[block] = np.where(numbered, nodes.indices(numbers), -1)
+        lacks = numbered & (indices[block] < 0)
         if np.count_nonzero(lacks):
             found.append(np.argwhere(lacks))
             found[-1][:, 0] += block.start
@@ -276,13 +276,13 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
 
 
 def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
-    """Where values are numbers of nodes, and these; 0 elsewhere."""
+    """Return a mask of values that are numbers of nodes, and the numbers, 0 elsewhere."""
     given = np.abs(values) <= 2 * LARGEST_WHOLE
     return given, np.where(given, values, 0).astype(np.int64)
 
 
 def _lengths(ends: Indices, coordinates: Floats) -> Floats:
-    """Distances between the nodes, NaN where one is not known."""
+    """Return distances between the nodes, NaN if one is not known."""
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
         if np.minimum.reduce(ends[block], axis=None) >= 0:
@@ -299,7 +299,7 @@ _SMALLEST_SQUARE, _LARGEST_SQUARE = 1e-280, 1e280
 
 
 def distances(points: Floats, others: Floats) -> Floats:
-    """Return the distances (m,) between points (m, 3); infinite only where a float64 cannot hold them."""
+    """Return the distances (m,) between points (m, 3); infinite only if a float64 cannot hold them."""
     with np.errstate(all="ignore"):
         span = np.subtract(others, points)
         square = np.add.reduce(span**2, axis=1)

@@ -1,4 +1,4 @@
-"""Pipe of a deck as its own weight and the water see it: weight, mass, contents, added mass, drag and stiffness."""
+"""Pipe of a deck: weight, mass, contents, added mass, drag and stiffness."""
 
 from __future__ import annotations
 
@@ -18,18 +18,21 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
 
 _DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
-"""Coefficients of an element without any in the deck, and those that a line may leave out."""
+"""Coefficients of an element without any in the deck, and defaults of fields that a line may omit."""
 
 
 class Pipe(NamedTuple):
     """Elements (m,) of a deck, per unit length and in its units; NaN where a value is not known.
 
     weight: submerged weight with contents.
-    mass: of the pipe alone. contents: mass of what flows in it in the last load case. added_mass: Ca rho pi D^2 / 4.
-    drag: Cd rho D / 2, the force of water across at a velocity of 1.
-    drag_coefficient, added_mass_coefficient: Cd and Ca. has_coefficients: False where these are assumed.
-    bending, axial: EI and EA, of curves their slope at 0; 0 for sections that do not bend.
-    axial_drag_coefficient, axial_added_mass: those along, 0 where none is given.
+    mass: mass of the pipe alone.
+    contents: mass of the contents in the last load case.
+    added_mass: Ca rho pi D^2 / 4.
+    drag: Cd rho D / 2, the transverse force of water at a velocity of 1.
+    drag_coefficient, added_mass_coefficient: Cd and Ca.
+    has_coefficients: False where these are assumed.
+    bending, axial: EI and EA, for curves their slope at 0; 0 for sections without bending stiffness.
+    axial_drag_coefficient, axial_added_mass: values along the pipe, 0 if not given.
     """
 
     weight: Floats
@@ -78,9 +81,9 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
 
 
 def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floats]:
-    """Ca and Cd (m,), which elements have them from the deck, and which take the buoyancy diameter for inertia.
+    """Return Ca (m,), Cd (m,), two masks (m,), and Cd and Ca along the pipe (m, 2).
 
-    Last Cd and Ca along (m, 2).
+    The masks are the elements with coefficients in the deck, and those whose inertia uses the buoyancy diameter.
     """
     count = len(scene.element_ids)
     added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)

@@ -49,10 +49,10 @@ _ARRAYS = frozenset({"positions", "node", "time", "velocities"})
 
 
 class StepFile(StepReader):
-    """The steps of an NPY file, an array (steps, nodes, 3) in C order, read when they are asked for.
+    """Steps of an NPY file, an array (steps, nodes, 3) in C order, read on demand.
 
-    They are read and not mapped: a file that becomes shorter while it is mapped ends the program. `order` (nodes,) says
-    which node of the file is each of the deck.
+    They are read and not mapped: a file that becomes shorter while it is mapped ends the program. `order` (nodes,)
+        gives the node of the file for each node of the deck.
     """
 
     def __init__(
@@ -69,11 +69,11 @@ class StepFile(StepReader):
     def __len__(self) -> int:
         return self.shape[0]
 
-    def __getitem__(self, wanted: slice | int) -> Reals:
-        """Some steps (steps, nodes, 3), or one (nodes, 3). Raises OSError, DeckError."""
-        if not isinstance(wanted, slice):
-            return cast("Reals", self[wanted : wanted + 1][0])
-        first, last, _ = wanted.indices(len(self))
+    def __getitem__(self, steps: slice | int) -> Reals:
+        """Return some steps (steps, nodes, 3), or one (nodes, 3). Raises OSError, DeckError."""
+        if not isinstance(steps, slice):
+            return cast("Reals", self[steps : steps + 1][0])
+        first, last, _ = steps.indices(len(self))
         found = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
         left = found.reshape(-1).view(np.uint8).data
         self._stream.seek(self._offset + first * found[:1].nbytes)
@@ -87,12 +87,12 @@ class StepFile(StepReader):
 
 
 def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
-    """Positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
+    """Return positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
 
     `headings` are those of a CSV whose columns have other names, by the name in `COLUMNS`; the values stay as they are.
 
-    Raises OSError, or DeckError for a file with faults: nodes that the deck lacks, numbers that are none, steps with
-    different nodes.
+    Raises OSError, or DeckError for a file with faults: undefined nodes, values that are not numbers, steps with
+        different nodes.
     """
     file, suffix = path.as_posix(), path.suffix.lower()
     if suffix == ".npy":
@@ -107,9 +107,9 @@ def positions_of(
     nodes: Numbered,
     headings: Mapping[str, str] | None = None,
 ) -> Positions:
-    """Positions in a pandas frame or an xarray data set, or array, of which `read_positions` says what a file holds.
+    """Return positions in a pandas frame or an xarray data set or array, with the contents that `read_positions` gives.
 
-    A frame has the columns of a CSV, also in its index; a data set has the arrays of an NPZ, a data array is its
+    A frame has the columns of a CSV, also in its index. A data set has the arrays of an NPZ. A data array is its
     `positions`, with the dimensions `time`, `node` and one for the axes.
 
     Raises DeckError as `read_positions` does.
@@ -132,7 +132,7 @@ def positions_of(
 
 
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
-    """Rows of some nodes among rows of all."""
+    """Return rows of some nodes as rows of all nodes, NaN for the others."""
     spread = np.full((len(values), count, 3), np.nan)
     spread[:, where] = values
     return spread
@@ -158,7 +158,7 @@ def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
 
 
 def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> None:
-    """Every step must hold every node of the file once."""
+    """Raise DeckError unless every step has every node of the file once."""
     given, index = np.unique(ids, return_inverse=True)
     cells = step * len(given) + index
     order = np.argsort(cells, kind="stable")
@@ -188,14 +188,14 @@ def _scatter(
 
 
 def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
-    """Nodes that the deck lacks."""
+    """Return the error of nodes that the deck lacks."""
     numbers = np.unique(ids).tolist()
     noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
     return data_error(file, f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck", line)
 
 
 def _from_npy(path: Path, nodes: Numbered) -> Positions:
-    """One array; of a series few steps are in memory. Raises OSError, or DeckError for anything else."""
+    """Return one array; of a series few steps are in memory. Raises OSError, or DeckError for any other content."""
     file = path.as_posix()
     try:
         with _from_old_python():
@@ -209,7 +209,7 @@ def _from_npy(path: Path, nodes: Numbered) -> Positions:
 
 
 def _load_npz(path: Path) -> dict[str, Reals]:
-    """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
+    """Return an archive with `positions` and optional `node`, `time` and `velocities`. Raises OSError, DeckError."""
     file = path.as_posix()
     with path.open("rb") as stream:
         try:
@@ -229,13 +229,13 @@ def _load_npz(path: Path) -> dict[str, Reals]:
 
 
 _DEFLATED = 1032
-"""A byte of a compressed file gives at most so many."""
+"""Largest number of bytes that a byte of a compressed file can give."""
 
 
 def _member(archive: zipfile.ZipFile, name: str, most: int) -> NDArray[np.generic]:
-    """An array; raises ValueError for one that promises more than there is, before memory is taken for it.
+    """Return an array; raises ValueError before memory is taken if it claims more bytes than there are.
 
-    `most` is what a file of this size can hold: what it says of its members need not be true.
+    `most` is the number of bytes that a file of this size can hold: its own statements about its members may be false.
     """
     held = min(archive.getinfo(f"{name}.npy").file_size, most)
     with archive.open(f"{name}.npy") as stream:
@@ -252,21 +252,21 @@ _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.r
 
 @contextmanager
 def _from_old_python() -> Iterator[None]:
-    """Without the warning of numpy that Python 2 spelled the header, which the file's reader cannot help."""
+    """Suppress the warning of numpy about a header written by Python 2, which a reader of the file cannot change."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         yield
 
 
 def _ranks(nodes: Numbered) -> Indices | None:
-    """The place of each node among their ascending numbers; None where they are in that order."""
+    """Return the place of each node among the ascending numbers; None if they are in ascending order."""
     if not (nodes.ids[1:] <= nodes.ids[:-1]).any():
         return None
     return np.sort(nodes.ids).searchsorted(nodes.ids)
 
 
 def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordered: bool = False) -> Positions:
-    """Arrays (steps, nodes, 3) or (nodes, 3) in ascending order of the node numbers, or in that of the array `node`.
+    """Return arrays (steps, nodes, 3) or (nodes, 3) in ascending order of the node numbers, or of the array `node`.
 
     With `ordered` they are left as they are.
     """
@@ -305,7 +305,7 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
 
 
 def _times(file: str, given: Reals, steps: int) -> Floats:
-    """The time of each step; that of one state may stand alone."""
+    """Return the time of each step; a single state may have a scalar."""
     if given.shape != (steps,) and not (given.shape == () and steps == 1):
         raise _wrong_shape(file, "time", given, f"({steps},)")
     return finite(file, "time", given)
