@@ -94,7 +94,7 @@ class Configuration:
         return relative_path(path, os.curdir if self.path is None else self.path.parent)
 
 
-class Given(NamedTuple):
+class CallerSettings(NamedTuple):
     """Settings of a caller that findings depend on; None or empty if the caller leaves them open."""
 
     chosen: tuple[str, ...] = ()
@@ -160,10 +160,10 @@ def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Co
         if values is None and not demanded:
             return None
         values = {} if values is None else values
-    return _Reading(path, content, text, code_fault).checked(values)
+    return _ConfigurationFile(path, content, text, code_fault).checked(values)
 
 
-class _Reading:
+class _ConfigurationFile:
     """Checker of one file's values."""
 
     def __init__(self, path: Path, content: bytes, text: str, code_fault: CodeFault | None) -> None:

@@ -63,7 +63,7 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
 
 
 def _lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> FileReport:
-    result = Fixed(None, (), "")
+    result = FixResult(None, (), "")
     if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
         result = fix_bytes(data, name, settings, folder)
     content = data if result.changed is None else result.changed
@@ -94,7 +94,7 @@ def _with_severity(found: Diagnostic, severities: Mapping[str, Severity]) -> Dia
 # -------------------------------------------------------------------------------------------------------------- fixes
 
 
-class Fixed(NamedTuple):
+class FixResult(NamedTuple):
     """Result of fixing: the new content (None if unchanged), the fixed findings, why the others remain, or ""."""
 
     changed: bytes | None
@@ -102,26 +102,26 @@ class Fixed(NamedTuple):
     note: str
 
 
-def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | None = None) -> Fixed:
+def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | None = None) -> FixResult:
     """Return the content of a keyword deck with the fixes that the settings ask for; never raises for content.
 
     A deck with errors of reading (SYN...) stays as it is, unless fixes clear all of them.
     """
-    run = _Run(Reader(name, settings, folder), settings)
+    run = _FixRun(StageReader(name, settings, folder), settings)
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
         fault = last.deck.diagnose(last.unreadable)[0]
         note = f"not fixed: correct what cannot be read first, {fault.code} in line {fault.line}"
-        return Fixed(None, (), note if run.wanted(first) else "")
+        return FixResult(None, (), note if run.wanted(first) else "")
     changed = last.data if last.data != data else None
-    return Fixed(changed, tuple(run.fixed), run.note())
+    return FixResult(changed, tuple(run.fixed), run.note())
 
 
-class _Run:
+class _FixRun:
     """Passes over one deck."""
 
-    def __init__(self, reader: Reader, settings: LintSettings) -> None:
+    def __init__(self, reader: StageReader, settings: LintSettings) -> None:
         self.reader = reader
         self.settings = settings
         self.fixed: list[Diagnostic] = []
@@ -299,7 +299,7 @@ class FixState:
                     yield index, number
 
 
-class Reader(NamedTuple):
+class StageReader(NamedTuple):
     """Reader and linter of the stages of one file."""
 
     name: str

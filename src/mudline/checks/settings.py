@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass, field
 
 from mudline.basics.patterns import matches
-from mudline.checks.configuration import NO_OUTSIDE, Configuration, Configured, Given
+from mudline.checks.configuration import NO_OUTSIDE, CallerSettings, Configuration, Configured
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
@@ -21,7 +21,7 @@ def hidden_codes(found: Configuration, path: str) -> tuple[str, ...]:
 
 def merged_settings(
     found: Configuration,
-    given: Given,
+    given: CallerSettings,
     hidden: tuple[str, ...] = (),
     *,
     fail_on: str | None = None,
@@ -72,7 +72,7 @@ class Settings:
     """Settings of each deck, shared by decks with the same ones; methods raise ConfigurationError and UnknownRule."""
 
     configured: Configured
-    given: Given
+    given: CallerSettings
     fail_on: str | None = None
     fixing: Fixing = Fixing.NONE
     _made: dict[object, LintSettings] = field(default_factory=dict)
@@ -98,4 +98,4 @@ class Settings:
 
 def nearest_settings() -> Settings:
     """Return the settings of decks that depend on their configurations alone."""
-    return Settings(Configured(code_fault=code_fault), Given())
+    return Settings(Configured(code_fault=code_fault), CallerSettings())

@@ -289,7 +289,7 @@ class BaselineError(ValueError):
     """File that is not a baseline; the message gives the reason."""
 
 
-class Entry(NamedTuple):
+class BaselineEntry(NamedTuple):
     """Key of known findings: path from the baseline's folder, code, and line without outer spaces."""
 
     path: str
@@ -302,8 +302,8 @@ class Baseline:
     """Known findings and how often each is there; `folder` is that of the baseline's file."""
 
     folder: Path
-    known: Counter[Entry] = field(default_factory=Counter)
-    met: Counter[Entry] = field(default_factory=Counter)
+    known: Counter[BaselineEntry] = field(default_factory=Counter)
+    met: Counter[BaselineEntry] = field(default_factory=Counter)
     seen: set[str] = field(default_factory=set)
 
     def record(self, found: Iterable[Diagnostic], data: bytes, path: str) -> None:
@@ -331,13 +331,13 @@ class Baseline:
         inner = ",\n".join(f"  {line}" for line in lines)
         return f'{{\n "format": "{FORMAT}",\n "findings": [' + (f"\n{inner}\n ]\n}}\n" if lines else "]\n}\n")
 
-    def _entries(self, found: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[Entry]:
+    def _entries(self, found: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[BaselineEntry]:
         source = Source.from_bytes(data, "")
         relative = relative_path(path, self.folder)
         lines = len(source.line_starts)
         for one in found:
             content = source.line(one.line).strip()[:_RECORDED] if one.line <= lines else ""
-            yield Entry(relative, one.code, content)
+            yield BaselineEntry(relative, one.code, content)
 
 
 def read_baseline(path: Path) -> Baseline:
@@ -361,7 +361,7 @@ def read_baseline(path: Path) -> Baseline:
     return baseline
 
 
-def _entry(finding: object, number: int) -> tuple[Entry, int]:
+def _entry(finding: object, number: int) -> tuple[BaselineEntry, int]:
     if not isinstance(finding, dict) or finding.keys() != _KEYS:
         raise BaselineError(f"findings[{number}] must have the keys {', '.join(sorted(_KEYS))}, and no others")
     path, code, content, count = (finding[key] for key in ("path", "code", "content", "count"))
@@ -369,4 +369,4 @@ def _entry(finding: object, number: int) -> tuple[Entry, int]:
         raise BaselineError(f"findings[{number}]: path, code and content must be texts")
     if not isinstance(count, int) or isinstance(count, bool) or count < 1:
         raise BaselineError(f"findings[{number}]: count must be a whole number from 1")
-    return Entry(path, code, content), count
+    return BaselineEntry(path, code, content), count

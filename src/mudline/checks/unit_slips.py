@@ -69,7 +69,7 @@ Specific weights are listed as densities.
 """
 
 
-class Units(NamedTuple):
+class DeckUnits(NamedTuple):
     """Units of a deck: the name that `unit_text` knows, and sizes in SI, which are 1 if the units are not `known`."""
 
     name: str
@@ -104,15 +104,15 @@ class Units(NamedTuple):
 
 
 _KNOWN = {
-    "metric": Units("metric"),
-    "imperial": Units("imperial", FOOT, POUND, _SLUG),
+    "metric": DeckUnits("metric"),
+    "imperial": DeckUnits("imperial", FOOT, POUND, _SLUG),
 }
-_TONNES = Units("tonnes", force=1e3, mass=1e3)
+_TONNES = DeckUnits("tonnes", force=1e3, mass=1e3)
 _LIGHT = (0.9, 1.3)
 """Range of densities of water in t/m3."""
 
 
-def units_of(context: LintContext) -> Units:
+def units_of(context: LintContext) -> DeckUnits:
     """Return the units of a deck; user units are tonnes and kilonewtons if the last *OCEAN shows it."""
     if known := _KNOWN.get(context.scene.units):
         return known
@@ -120,7 +120,7 @@ def units_of(context: LintContext) -> Units:
         density, gravity = number(ocean, "density"), number(ocean, "gravity")
         if _LIGHT[0] <= density <= _LIGHT[1] and abs(gravity - _GRAVITY) < 0.02 * _GRAVITY:
             return _TONNES
-    return Units("user", known=False)
+    return DeckUnits("user", known=False)
 
 
 _STRICT = 1.2
@@ -142,7 +142,7 @@ def is_placeholder(value: float) -> bool:
 
 
 def meant_unit(
-    usual: Usual, value: float, unit: str, units: Units, measured: Measured = float, *, strict: bool = False
+    usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float, *, strict: bool = False
 ) -> str:
     """Return the other unit in which a number (as in the deck) has the usual value of its field, or "".
 
@@ -160,7 +160,7 @@ def meant_unit(
     return next((name for name, distance in away.items() if distance <= within), "")
 
 
-def likely_slips(usual: Usual, value: float, unit: str, units: Units, measured: Measured = float) -> str:
+def likely_slips(usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float) -> str:
     """Return the other units, in words, in which a number (as in the deck) would be usual; "" for none, or too many."""
     own = units.size(unit)
     known = SLIPS.get(unit, {}) if math.isnan(usual.meant) else {}

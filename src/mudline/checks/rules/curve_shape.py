@@ -278,7 +278,7 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
-class PlainRows(NamedTuple):
+class CurveRows(NamedTuple):
     """Lines of a table, without white space and line ends after them; `before` is the text of the curve above them."""
 
     source: str
@@ -298,7 +298,7 @@ class PlainRows(NamedTuple):
         return False
 
 
-def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
+def plain_rows(text: TextOrigin, curve: SceneCurve) -> CurveRows | None:
     """Return the rows of a curve; None if there are very many, or equations, whose parameters may change."""
     block = text.read.get((curve.where.section, curve.where.block))
     if block is None or len(curve.points) > MOST_REPORTED:
@@ -314,7 +314,7 @@ def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
     opening = block.places.find(curve.where.path).start
     if opening >= lines[0].start:  # rows of *EMBEDMENT that stand under no SET=
         opening = block.places.block.start
-    return PlainRows(source, lines, source[opening : lines[0].start])
+    return CurveRows(source, lines, source[opening : lines[0].start])
 
 
 def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
@@ -336,7 +336,7 @@ def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     return Repair("safe", "put the points in order", tuple(edits)) if edits else None
 
 
-def removal(rows: PlainRows, row: int) -> Repair:
+def removal(rows: CurveRows, row: int) -> Repair:
     """Return a repair that removes a row."""
     line = rows.lines[row]
     following = rows.source.find("\n", line.end)

@@ -77,7 +77,7 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
             yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
 
 
-class OperatorFile(NamedTuple):
+class OperatorRows(NamedTuple):
     """File of the operators of a vessel: its place in the deck, its name, and its rows in the form of LAYOUT=LINE."""
 
     where: Where
@@ -85,13 +85,13 @@ class OperatorFile(NamedTuple):
     rows: list[list[float]]
 
 
-def operator_files(context: LintContext) -> list[OperatorFile]:
+def operator_files(context: LintContext) -> list[OperatorRows]:
     """Return the files of operators that a deck names and that can be used."""
     files = []
     for named, path in _there(context):
         if named.slot.about.holds is Contents.OPERATORS and _is_own(named):
             with suppress(OSError, ValueError):  # DAT002 says why
-                files.append(OperatorFile(named.where, path.name, operators(path, _layout(named))))
+                files.append(OperatorRows(named.where, path.name, operators(path, _layout(named))))
     return files
 
 

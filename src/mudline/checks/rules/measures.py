@@ -11,7 +11,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_shape import swapped
-from mudline.checks.unit_slips import Units, is_placeholder, meant_unit
+from mudline.checks.unit_slips import DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.keeping import kept_lines
@@ -74,7 +74,7 @@ class Numbers:
     """
 
     context: LintContext
-    units: Units
+    units: DeckUnits
     weighs: bool = True
     deep: bool = True
     part: Any = None

@@ -114,7 +114,7 @@ def beyond_the_survey(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO017, f"{which} {survey.end}: {survey.consequence}", where=scene.nodes.where(int(left[0])))
 
 
-class _Line(NamedTuple):
+class _LineExtent(NamedTuple):
     """Nodes (n,) that belong to elements with a seabed law, and their extent; NaN where a value is not known.
 
     used: the nodes.
@@ -160,7 +160,7 @@ def _water_depth(context: LintContext) -> float:
     return number(oceans[-1][1], "depth") if oceans else math.nan
 
 
-def _line(context: LintContext) -> _Line | None:
+def _line(context: LintContext) -> _LineExtent | None:
     """Return the extent of the line; None if nothing is known of it."""
     scene = context.scene
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
@@ -179,7 +179,7 @@ def _line(context: LintContext) -> _Line | None:
         low = scene.coordinates[used, 2] - z[0] <= diameter
     flat = int(near[:, 0].sum()), int(near[:, 2].sum()), int(low.sum())
     level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
-    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
+    return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:
@@ -187,7 +187,7 @@ def _extent(values: Floats, used: Mask) -> tuple[float, float]:
     return float(values.min(where=used, initial=np.inf)), float(values.max(where=used, initial=-np.inf))
 
 
-def _above(line: _Line) -> str:
+def _above(line: _LineExtent) -> str:
     """Return the fault of a line that hangs above the seabed in words, or ""."""
     lowest, highest = line.heights
     if lowest > line.depth > 0.0:
@@ -204,7 +204,7 @@ def _above(line: _Line) -> str:
     return ""
 
 
-def _along_z(line: _Line) -> str:
+def _along_z(line: _LineExtent) -> str:
     """Return the fault of a line whose last coordinate is its height in words, or ""."""
     near = NEAR * line.depth
     first, last = line.z

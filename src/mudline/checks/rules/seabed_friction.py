@@ -238,7 +238,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
             yield Problem(SBD019, message, where=where.inside(*path))
 
 
-class Given(NamedTuple):
+class FrictionEntry(NamedTuple):
     """Set of *SEABED PROPERTIES, or first line of a legacy surface; `type_` is None where it is not known."""
 
     part: Any
@@ -263,14 +263,14 @@ class Given(NamedTuple):
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
 
 
-def given(context: LintContext) -> list[Given]:
+def given(context: LintContext) -> list[FrictionEntry]:
     """Return legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
     return context.once(_found)
 
 
-def _found(context: LintContext) -> list[Given]:
+def _found(context: LintContext) -> list[FrictionEntry]:
     found = [
-        Given(
+        FrictionEntry(
             getattr(surface, "properties", None),
             where.inside("properties"),
             surface.facts.seabed_type,
@@ -280,11 +280,11 @@ def _found(context: LintContext) -> list[Given]:
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
-            found.append(Given(entry, where.inside("sets", index), type_, legacy=False))
+            found.append(FrictionEntry(entry, where.inside("sets", index), type_, legacy=False))
     return found
 
 
-def resisting(context: LintContext) -> list[Given]:
+def resisting(context: LintContext) -> list[FrictionEntry]:
     """Return the surfaces and sets that give more than a stiffness, which the rules about friction need."""
     return [
         entry
@@ -301,13 +301,13 @@ def positive(value: float | None) -> bool:
     return value is not None and value > 0.0
 
 
-def absent(entry: Given, name: str) -> bool:
+def absent(entry: FrictionEntry, name: str) -> bool:
     """Return True if the deck gives no value, or zero."""
     value = entry.value(name)
     return value is None or value == 0.0
 
 
-def friction_replaced(context: LintContext, entry: Given) -> bool:
+def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
     """Return True if `*SEABED FRICTION` replaces the friction of every element that follows this place.
 
     For sets whose elements the deck does not show only the names are compared.

@@ -336,7 +336,7 @@ def _on_slope(context: LintContext) -> Mask:
     return sloping
 
 
-class Held(NamedTuple):
+class HeldNodes(NamedTuple):
     """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
 
     where: Where
@@ -345,7 +345,7 @@ class Held(NamedTuple):
     how: tuple[object, object]
 
 
-def held_nodes(scene: Scene) -> Iterator[Held]:
+def held_nodes(scene: Scene) -> Iterator[HeldNodes]:
     """Yield the nodes that each line of `*BOUNDARY` holds; lines whose form is not public are left out."""
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
         for i, type_ in enumerate(cast("Boundary", block).types):
@@ -365,4 +365,4 @@ def held_nodes(scene: Scene) -> Iterator[Held]:
                 whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
                 if whole and cast("int", numbers[2]) > 0 and dof in _FREEDOMS:
                     nodes = scene.nodes.between(*cast("tuple[int, int, int]", numbers))
-                    yield Held(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))
+                    yield HeldNodes(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))

@@ -170,7 +170,7 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 5:12
     """
-    numbers = _Numbers()
+    numbers = _NumberFinder()
     for leaf, read in data_leaves(text):
         for match in first_of_lines(_SEEN, source, leaf.span):
             line = line_around(source, match.start())
@@ -187,7 +187,7 @@ def _problem(source: str, numbers: list[Span]) -> Problem:
     return Problem(STY003, message, numbers[0], repair=repair)
 
 
-class _Numbers:
+class _NumberFinder:
     """Finder of numbers among the values of a block; its knowledge of the last block is remembered."""
 
     def __init__(self) -> None:

@@ -17,7 +17,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
 from mudline.checks.rules.data_files import operator_files
 from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
-from mudline.checks.unit_slips import Units, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
+from mudline.checks.unit_slips import DeckUnits, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
@@ -136,7 +136,7 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
 
 
 @lru_cache(512)
-def _ranges(part: type[Part], units: Units) -> list[tuple[FieldSpec, float, float]]:
+def _ranges(part: type[Part], units: DeckUnits) -> list[tuple[FieldSpec, float, float]]:
     """Return the fields of a part that have usual values, each with the range (as in the deck) that needs no check.
 
     If a field compares more than the number itself, every value needs a check: the range is NaN.

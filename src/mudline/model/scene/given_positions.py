@@ -69,9 +69,9 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
     apart = float(distances(ends[:1], ends[1:])[0])
     message = (
         f"the positions are not in ascending order of the node numbers: nodes {first_node} and {second_node} of "
-        f"element {scene.element_ids[first]} are {shown(apart)} apart, and its length is {shown(float(scene.length[first]))} "
-        f"({len(off)} of {counted(len(known), 'element')} differ by over {GROSS[0]:g} times); sort them, or give their "
-        "numbers in a CSV, or in the array node of an NPZ"
+        f"element {scene.element_ids[first]} are {shown(apart)} apart, and its length is "
+        f"{shown(float(scene.length[first]))} ({len(off)} of {counted(len(known), 'element')} differ by over "
+        f"{GROSS[0]:g} times); sort them, or give their numbers in a CSV, or in the array node of an NPZ"
     )
     raise data_error(file, message)
 

@@ -28,20 +28,20 @@ from mudline.language.syntax.source import Source
 from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.sets import ALL
-from mudline.model.scene.workbook import Cell, Sheet
+from mudline.model.scene.workbook import Cell, WorkbookSheet
 
 _NOT_LETTERS = re.compile(r"[\W_]+")
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
+class TableColumn:
     """Column of a form, and the headings by which it is known, without spaces and case."""
 
     spec: FieldSpec
     headings: frozenset[str]
 
     @classmethod
-    def of(cls, spec: FieldSpec, *headings: str) -> Column:
+    def of(cls, spec: FieldSpec, *headings: str) -> TableColumn:
         """Return the column of a field that is known by some headings."""
         return cls(spec, frozenset(map(plain, headings)) - {""})
 
@@ -63,8 +63,8 @@ class TableForm:
     """
 
     declared: type[Block]
-    name: Column | None
-    values: tuple[Column, ...]
+    name: TableColumn | None
+    values: tuple[TableColumn, ...]
     opening: str
     curve: Rows | None
 
@@ -79,12 +79,12 @@ class TableForm:
         return self.declared.sections[0]
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[TableColumn, ...]:
         """All columns, that of the name first."""
         return ((self.name,) if self.name else ()) + self.values
 
     @property
-    def required(self) -> list[Column]:
+    def required(self) -> list[TableColumn]:
         """Columns of values that a table must have."""
         return [column for column in self.values if column.spec.required]
 
@@ -112,8 +112,8 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
         opening = f"{record.sticky.upper()}={spec.json.upper()}" if record.sticky and len(rows) > 1 else ""
         yield TableForm(
             declared,
-            None if name is None else Column.of(name, name.key, f"{name.key} name", name.about.heading),
-            tuple(Column.of(value, value.json, value.label, value.about.heading) for value in values),
+            None if name is None else TableColumn.of(name, name.key, f"{name.key} name", name.about.heading),
+            tuple(TableColumn.of(value, value.json, value.label, value.about.heading) for value in values),
             opening,
             curve=spec.about if isinstance(spec.about, Rows) and spec.about.curve else None,
         )
@@ -136,7 +136,7 @@ class TableDeck(NamedTuple):
     left_out: Sequence[str]
 
 
-def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) -> TableDeck:
+def read_tables(sheets: Sequence[WorkbookSheet], file: str, units: str | None = None) -> TableDeck:
     """Return the deck that some sheets describe, with a block for each keyword in the order of its first sheet.
 
     * The first row of a sheet has the headings, in any order and case, with or without a unit in brackets. The keyword
@@ -148,7 +148,7 @@ def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) ->
 
     Raises DeckError if something cannot be a line of the keyword; the message names the cell.
     """
-    entries_by_form: dict[TableForm, list[_Entry]] = {}
+    entries_by_form: dict[TableForm, list[_NamedRows]] = {}
     left_out: list[str] = []
     systems: dict[str, str] = {}
     for sheet in sheets:
@@ -174,11 +174,11 @@ class _Head:
     """Columns of a sheet by the headings in its first row."""
 
     form: TableForm
-    places: Mapping[Column, int]
-    units: Mapping[Column, str]
+    places: Mapping[TableColumn, int]
+    units: Mapping[TableColumn, str]
 
 
-def _head(sheet: Sheet) -> _Head | None:
+def _head(sheet: WorkbookSheet) -> _Head | None:
     """Return the keyword and columns of a sheet; None if it is not a table of a keyword.
 
     Raises DeckError if it has most of the headings of a keyword, or a heading that the keyword does not have.
@@ -209,7 +209,7 @@ def _head(sheet: Sheet) -> _Head | None:
     return _placed(sheet, best[0], given)
 
 
-def _refuse(sheet: Sheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
+def _refuse(sheet: WorkbookSheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
     """Raise DeckError for a sheet that has most of the headings of a keyword, or half of those of a curve."""
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
     newer = [form for form in forms if not catalogue.is_superseded(form.keyword)]
@@ -222,9 +222,9 @@ def _refuse(sheet: Sheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence
             raise sheet.fault(cell.row, cell.column, f"{what}: *{form.keyword} needs both, in the first row")
 
 
-def _placed(sheet: Sheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]) -> _Head:
-    places: dict[Column, int] = {}
-    units: dict[Column, str] = {}
+def _placed(sheet: WorkbookSheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]) -> _Head:
+    places: dict[TableColumn, int] = {}
+    units: dict[TableColumn, str] = {}
     for word, (cell, unit) in given.items():
         column = next((one for one in form.columns if word in one.headings), None)
         if column is None or column in places:
@@ -235,7 +235,7 @@ def _placed(sheet: Sheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]
     return _Head(form, places, units)
 
 
-def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
+def _systems(sheet: WorkbookSheet, head: _Head) -> Iterator[str]:
     """Yield the unit systems of the units in the headings. Raises DeckError for a unit of no system."""
     units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
     for column, unit in head.units.items():
@@ -255,10 +255,10 @@ def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
 
 
 @dataclass
-class _Entry:
+class _NamedRows:
     """Rows that belong together: their name, its cell, and each row with its cells."""
 
-    sheet: Sheet
+    sheet: WorkbookSheet
     name: str
     cell: tuple[int, int]
     lines: list[str] = field(default_factory=list)
@@ -266,15 +266,15 @@ class _Entry:
     first: int = 1
 
 
-def _entries(sheet: Sheet, head: _Head) -> list[_Entry]:
+def _entries(sheet: WorkbookSheet, head: _Head) -> list[_NamedRows]:
     """Return the rows of a sheet by their names, in the order of their first rows."""
     form = head.form
-    entries: dict[str, _Entry] = {}
+    entries: dict[str, _NamedRows] = {}
     named = form.name if form.name in head.places else None
     first = min(head.places[column] for column in form.values if column in head.places)
     name = None if named or form.name is None else sheet.title
     if name is not None:
-        entries[name.casefold()] = _Entry(sheet, name, (1, first), first=first)
+        entries[name.casefold()] = _NamedRows(sheet, name, (1, first), first=first)
     for cells in sheet.rows[1:]:
         cells_by_column = {cell.column: cell for cell in cells}
         for cell in cells:
@@ -287,13 +287,15 @@ def _entries(sheet: Sheet, head: _Head) -> list[_Entry]:
         if named:
             name = _name(sheet, head.places[named], named, cells_by_column, row, name)
         place = row, head.places[named] if named else first
-        entry = entries.setdefault((name or "").casefold(), _Entry(sheet, name or "", place, first=first))
+        entry = entries.setdefault((name or "").casefold(), _NamedRows(sheet, name or "", place, first=first))
         entry.lines.append(_line(sheet, head, cells_by_column, row))
         entry.rows.append(row)
     return list(entries.values())
 
 
-def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], row: int, above: str | None) -> str:
+def _name(
+    sheet: WorkbookSheet, place: int, column: TableColumn, given: Mapping[int, Cell], row: int, above: str | None
+) -> str:
     """Return the name of a row; a blank name is that of the row above, in the first row that of all elements."""
     cell = given.get(place)
     if cell is not None:
@@ -303,7 +305,7 @@ def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], r
     return ALL.upper() if above is None else above
 
 
-def _line(sheet: Sheet, head: _Head, given: Mapping[int, Cell], row: int) -> str:
+def _line(sheet: WorkbookSheet, head: _Head, given: Mapping[int, Cell], row: int) -> str:
     """Return the fields of a row; empty fields at the end are left out."""
     fields: list[str] = []
     for column in head.form.values:
@@ -320,11 +322,11 @@ def _line(sheet: Sheet, head: _Head, given: Mapping[int, Cell], row: int) -> str
     return ", ".join(fields)
 
 
-def _expected(column: Column) -> str:
+def _expected(column: TableColumn) -> str:
     return "a name" if column.spec.kind is Kind.NAME else "a number"
 
 
-def _field(sheet: Sheet, column: Column, cell: Cell) -> str:
+def _field(sheet: WorkbookSheet, column: TableColumn, cell: Cell) -> str:
     value = _value(sheet, cell, _expected(column))
     if isinstance(value, int | float) and not isinstance(value, bool):
         whole = column.spec.kind in (Kind.WHOLE, Kind.IDENT) and float(value).is_integer()
@@ -341,14 +343,14 @@ def _field(sheet: Sheet, column: Column, cell: Cell) -> str:
     raise sheet.fault(cell.row, cell.column, f"expected a number, found {text}{advice}")
 
 
-def _value(sheet: Sheet, cell: Cell, expected: str) -> object:
+def _value(sheet: WorkbookSheet, cell: Cell, expected: str) -> object:
     if cell.uncalculated:
         what = "a formula that was never calculated: open the workbook in a spreadsheet program and save it"
         raise sheet.fault(cell.row, cell.column, f"expected {expected}, found {what}")
     return cell.value
 
 
-def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
+def _add(known: list[_NamedRows], more: Sequence[_NamedRows], form: TableForm) -> None:
     """Add the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
     for entry in more:
         same = next((one for one in known if one.name.casefold() == entry.name.casefold() and form.name), None)
@@ -363,22 +365,22 @@ def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
 
 
 @dataclass
-class _Text:
+class _DeckText:
     """Lines of a deck, and the cell of each line that comes from a table."""
 
     lines: list[str] = field(default_factory=list)
-    places: dict[int, tuple[Sheet, int, int]] = field(default_factory=dict)
+    places: dict[int, tuple[WorkbookSheet, int, int]] = field(default_factory=dict)
 
-    def add(self, line: str, entry: _Entry, place: tuple[int, int]) -> None:
+    def add(self, line: str, entry: _NamedRows, place: tuple[int, int]) -> None:
         if "\n" in line or "\r" in line:
             raise entry.sheet.fault(*place, "a line end in a cell: a name is on one line")
         self.lines.append(f" {line}")
         self.places[len(self.lines)] = entry.sheet, *place
 
 
-def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> Deck:
+def _deck(made: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: str) -> Deck:
     """Return the deck with the lines of all tables; raises DeckError at cells that a deck cannot hold."""
-    text = _Text()
+    text = _DeckText()
     section = ""
     for form, entries in sorted(made.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
         if form.section != section:
@@ -400,7 +402,7 @@ def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> 
     return deck
 
 
-def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
+def _check(deck: Deck, made: Mapping[TableForm, Sequence[_NamedRows]]) -> None:
     """Raise DeckError for a name that reads otherwise in a deck, and for points that do not form a curve."""
     for form, entries in made.items():
         block = next(block for _, block in deck.blocks(form.keyword, form.section))
@@ -414,7 +416,7 @@ def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
                 _check_curve(form.curve, table, entry)
 
 
-def _check_curve(curve: Rows, table: Table, entry: _Entry) -> None:
+def _check_curve(curve: Rows, table: Table, entry: _NamedRows) -> None:
     points = np.column_stack([table.column(index) for index in curve.axes])
     if np.isnan(points).any():  # an equation: the deck's own checks see its value
         return

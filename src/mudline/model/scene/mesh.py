@@ -13,7 +13,7 @@ from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.table import LARGEST_WHOLE, Table
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import (
-    Batch,
+    DefinitionBatch,
     Definitions,
     Floats,
     Ids,
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 class _NodeLine(NamedTuple):
     """Nodes between two others, not yet placed."""
 
-    batch: Batch
+    batch: DefinitionBatch
     ends: tuple[int, int]
 
     def place(self, first: Floats, last: Floats) -> None:
@@ -65,7 +65,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
         known = gathered.resolve(3)
         extra = np.unique(external.nodes)
         extra = extra[known.indices(extra) < 0]
-        gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
+        gathered.add(DefinitionBatch(extra, np.full((len(extra), 3), np.nan), Where()))
     nodes = gathered.resolve(3)
     repeats = nodes.repeats
     if placeless and repeats.size:  # where a line of nodes ends is not known, nor which numbers it has
@@ -94,10 +94,10 @@ def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Whe
     """Add the rows of a table that have a number; return the other rows."""
     ids, known = whole_numbers(numbers)
     if np.count_nonzero(known) == len(known):
-        gathered.add(Batch(ids, values, where, table))
+        gathered.add(DefinitionBatch(ids, values, where, table))
         return []
     rows = np.flatnonzero(known)
-    gathered.add(Batch(ids[rows], values[rows], where, table, rows))
+    gathered.add(DefinitionBatch(ids[rows], values[rows], where, table, rows))
     unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
     return unknown
 
@@ -121,7 +121,7 @@ def _node_line(context: Context, gathered: Definitions, given: NodeRange, where:
         context.doubtful.setdefault("NODE", []).append((min(start, end), max(start, end)))
         return None
     ids = np.arange(start + step, end, step, dtype=np.int64)
-    return _NodeLine(Batch(ids, np.full((count, 3), np.nan), place), (start, end))
+    return _NodeLine(DefinitionBatch(ids, np.full((count, 3), np.nan), place), (start, end))
 
 
 def _most(made: str) -> str:
@@ -155,7 +155,7 @@ def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
     return False
 
 
-class ElementTable(NamedTuple):
+class MeshElements(NamedTuple):
     """Elements with the indices of their nodes (m, 2), -1 for a node that is not known, and their lengths (m,)."""
 
     numbered: Numbered
@@ -166,7 +166,7 @@ class ElementTable(NamedTuple):
         return short_repr(self)
 
 
-def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
+def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> MeshElements:
     """Return the elements of the model, then those of a file, which replace them."""
     gathered = Definitions()
     for where, block in context.blocks("ELEMENT"):
@@ -178,7 +178,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
                 _add_pattern(context, gathered, entry.generate, place)
     own = sum(len(batch.ids) for batch in gathered.batches)
     if external is not None:
-        gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
+        gathered.add(DefinitionBatch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.resolve(2)
     if elements.repeats.size:
         report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
@@ -187,7 +187,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     if external is not None:
         at = elements.indices(external.ids)
         length[at] = np.where(np.isnan(external.length), length[at], external.length)
-    return ElementTable(elements, indices, length)
+    return MeshElements(elements, indices, length)
 
 
 def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
@@ -232,7 +232,7 @@ def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern,
         context.report_missing(REF005, message, place.inside(0), "ELEMENT", master)
         ends = np.full(2, np.nan)
     steps = np.arange(1, count, dtype=np.int64) * step
-    gathered.add(Batch(master + steps, ends + steps[:, np.newaxis], place))
+    gathered.add(DefinitionBatch(master + steps, ends + steps[:, np.newaxis], place))
 
 
 def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) -> str:

@@ -49,7 +49,7 @@ def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
     return np.where(known, column, 0.0).astype(np.int64), known
 
 
-class Batch(NamedTuple):
+class DefinitionBatch(NamedTuple):
     """Definitions that were given together: rows of a table, or all of one generator (`table` "").
 
     `rows` are their places in the table; None stands for all of them in order.
@@ -76,7 +76,7 @@ class Batch(NamedTuple):
 class Definitions:
     """Definitions in the order of the file, numbered through as rows."""
 
-    batches: list[Batch] = field(default_factory=list)
+    batches: list[DefinitionBatch] = field(default_factory=list)
     generated: int = 0
     _starts: list[int] = field(default_factory=lambda: [0])
     _indexed: int = 0
@@ -86,7 +86,7 @@ class Definitions:
 
     __repr__ = short_repr
 
-    def add(self, batch: Batch) -> None:
+    def add(self, batch: DefinitionBatch) -> None:
         """Add a batch."""
         self.batches.append(batch)
         self._starts.append(self._starts[-1] + len(batch.ids))
@@ -170,7 +170,7 @@ class Numbered:
     rows: Indices
     repeats: Indices
     starts: Indices
-    batches: list[Batch]
+    batches: list[DefinitionBatch]
     _runs: list[_Run] | None = None
 
     __repr__ = short_repr

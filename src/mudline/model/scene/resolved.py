@@ -26,7 +26,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
-from mudline.model.scene.mesh import ElementTable
+from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
@@ -142,7 +142,7 @@ class ResolvedDeck:
 
     deck: EvaluatedDeck
     nodes: Numbered
-    table: ElementTable
+    table: MeshElements
     set_table: Sets
     section_table: SectionTable
     laws: LawTable

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _ADVICE = "correct the name, or put the deck there"
 
 
-class _Chain(NamedTuple):
+class _Bases(NamedTuple):
     """Decks before a deck, the nearest first.
 
     bases: the decks.
@@ -103,7 +103,7 @@ def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
             yield where.inside("last"), name
 
 
-def _follow(deck: Deck) -> _Chain:
+def _follow(deck: Deck) -> _Bases:
     """Return the decks before a deck, each followed by the deck that it continues."""
     bases: list[Base] = []
     seen = {_identity(Path(deck.folder, Path(deck.file).name))} if deck.folder is not None else set()
@@ -112,26 +112,26 @@ def _follow(deck: Deck) -> _Chain:
     while "RESTART" in current.keywords("LOAD CASE"):
         name = next((name for _, name in reversed(list(_names(current)))), None)
         if name is None:
-            return _Chain(bases, f"the *RESTART of {trail[-1]} could not be read")
+            return _Bases(bases, f"the *RESTART of {trail[-1]} could not be read")
         path = find_deck(current, name)
         if path is None:
             why, refused = _missing(current, name)
-            return _Chain(bases, why, is_own=not bases, is_refused=refused)
+            return _Bases(bases, why, is_own=not bases, is_refused=refused)
         if _identity(path) in seen:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
-            return _Chain(bases, message, is_own=path.name == trail[0])
+            return _Bases(bases, message, is_own=path.name == trail[0])
         if len(bases) == MOST_CONTINUED:
-            return _Chain(bases, f"more than {MOST_CONTINUED} decks continue each other")
+            return _Bases(bases, f"more than {MOST_CONTINUED} decks continue each other")
         base = read_base(path)
         if isinstance(base, str):
             why = without_text(base, path, deck.folder or path.parent)
-            return _Chain(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
+            return _Bases(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
         current = base.deck
-    return _Chain(bases)
+    return _Bases(bases)
 
 
 def _missing(deck: Deck, name: str) -> tuple[str, bool]:

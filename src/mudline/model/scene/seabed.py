@@ -309,7 +309,7 @@ class Survey(ABC):
             return np.asarray(self.heights(places) <= REACH * diameter)
 
 
-class _Profile(Survey):
+class _ProfileSurvey(Survey):
     def __init__(self, seabed: SeabedShape) -> None:
         points = seabed.points[np.argsort(seabed.points[:, 0], kind="stable")]
         (self._first, self._start), (self._last, self._stop) = points[0].tolist(), points[-1].tolist()
@@ -327,7 +327,7 @@ class _Profile(Survey):
         return np.asarray(x - levels)
 
 
-class _Surface(Survey):
+class _SurfaceSurvey(Survey):
     def __init__(self, seabed: SeabedShape) -> None:
         from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - only now is it needed
 
@@ -345,7 +345,7 @@ class _Surface(Survey):
         return np.where(np.isnan(self._hull.elevation(y, z)), x - self._top, np.nan)
 
 
-class _Planes(Survey):
+class _PlanesSurvey(Survey):
     def __init__(self, seabed: SeabedShape) -> None:
         self._seabed, self._shape = made_seabed(seabed), seabed
         self.end = "outside of the bounds of all planes of the seabed"
@@ -361,15 +361,15 @@ class _Planes(Survey):
 
 def survey_of(seabed: SeabedShape) -> Survey | None:
     """Return the known part of a seabed; None if it has no end, or its points are unknown or form no seabed."""
-    surveys: dict[SeabedKind, type[_Profile | _Surface | _Planes]] = {
-        SeabedKind.PROFILE: _Profile,
-        SeabedKind.SURFACE: _Surface,
-        SeabedKind.PLANES: _Planes,
+    surveys: dict[SeabedKind, type[_ProfileSurvey | _SurfaceSurvey | _PlanesSurvey]] = {
+        SeabedKind.PROFILE: _ProfileSurvey,
+        SeabedKind.SURFACE: _SurfaceSurvey,
+        SeabedKind.PLANES: _PlanesSurvey,
     }
     kind = surveys.get(seabed.kind)
-    if kind is None or seabed.missing or (kind is not _Planes and len(seabed.points) < 2):
+    if kind is None or seabed.missing or (kind is not _PlanesSurvey and len(seabed.points) < 2):
         return None
-    if kind is _Surface and find_spec("scipy") is None:
+    if kind is _SurfaceSurvey and find_spec("scipy") is None:
         return None
     try:
         return kind(seabed)

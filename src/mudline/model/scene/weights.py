@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from mudline.model.scene.resolved import ResolvedDeck
 
 
-class Contents(NamedTuple):
+class PipeContents(NamedTuple):
     """Contents of the elements (m,) in a load case, in the deck's units; 0 without contents.
 
     number: number of the load case in the file, from 1.
@@ -36,7 +36,7 @@ class Contents(NamedTuple):
     mass: Floats
 
 
-def contents(scene: ResolvedDeck) -> list[Contents]:
+def contents(scene: ResolvedDeck) -> list[PipeContents]:
     """Return the contents in each load case of the deck itself; none if `*INTERNAL FLUID` fills no pipe.
 
     An element is full or empty: full if its middle is not above the level of the fluid.
@@ -48,7 +48,7 @@ def contents(scene: ResolvedDeck) -> list[Contents]:
     area = np.nan_to_num(math.pi / 4.0 * inner * inner)
     middle = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes].mean(axis=1)
     density = np.zeros(len(area))
-    filled: list[Contents] = []
+    filled: list[PipeContents] = []
     for index, section in enumerate(scene.deck.own_sections):
         if section.name != "LOAD CASE":
             continue
@@ -57,7 +57,7 @@ def contents(scene: ResolvedDeck) -> list[Contents]:
             if where.section == index:
                 _fill(scene, cast("InternalFluid", block), middle, density)
         with np.errstate(over="ignore"):
-            filled.append(Contents(len(filled) + 1, Where(index), density, density * area))
+            filled.append(PipeContents(len(filled) + 1, Where(index), density, density * area))
     return filled
 
 

@@ -70,7 +70,7 @@ class Cell(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sheet:
+class WorkbookSheet:
     """Rows of a sheet, each the cells with a value; the only sheet of a CSV file has the name of the file."""
 
     file: str
@@ -89,7 +89,7 @@ class Sheet:
         return data_error(self.file, f"{where}: {message}", row, column)
 
 
-def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
+def workbook_sheets(data: bytes, file: str) -> list[WorkbookSheet]:
     """Return the sheets of a workbook with the values that formulas had when it was saved.
 
     Raises DeckError for a file that is not a workbook; ImportError without openpyxl.
@@ -99,7 +99,7 @@ def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
         opened_workbook(io.BytesIO(data), file, formulas=True) as written,
     ):
         pairs = zip(book.worksheets, written.worksheets, strict=True)
-        return [Sheet(file, sheet.title, list(_rows(sheet, texts)), is_workbook=True) for sheet, texts in pairs]
+        return [WorkbookSheet(file, sheet.title, list(_rows(sheet, texts)), is_workbook=True) for sheet, texts in pairs]
 
 
 def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - openpyxl has no types
@@ -123,7 +123,7 @@ def _width(line: str, separator: str) -> int:
         return 0
 
 
-def csv_sheet(data: bytes, file: str) -> Sheet:
+def csv_sheet(data: bytes, file: str) -> WorkbookSheet:
     """Return a CSV file as a sheet; its first line shows the separator: comma, semicolon or tab.
 
     Raises DeckError for a file that is not text.
@@ -137,4 +137,4 @@ def csv_sheet(data: bytes, file: str) -> Sheet:
     for fields, line in csv_rows(file, source.unified, separator):
         cells = ((column, text.strip()) for column, text in enumerate(fields, 1))
         rows.append([Cell(line, column, text) for column, text in cells if text])
-    return Sheet(file, PurePath(file).stem, rows, is_workbook=False)
+    return WorkbookSheet(file, PurePath(file).stem, rows, is_workbook=False)
