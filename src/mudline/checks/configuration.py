@@ -113,10 +113,10 @@ def read_configuration(
     Files that it extends are read too. Words for rules are checked by `code_fault`
     (`mudline.checks.registry.code_fault`), and not checked without it. Raises OSError and ConfigurationError.
     """
-    found = _read_one(path, demanded=demanded, code_fault=code_fault)
-    if found is None or EXTEND not in found.values:
-        return found
-    chain, at, whole = [path], found, [found]
+    outermost = _read_one(path, demanded=demanded, code_fault=code_fault)
+    if outermost is None or EXTEND not in outermost.values:
+        return outermost
+    chain, at, whole = [path], outermost, [outermost]
     while EXTEND in at.values:
         base, line = _base_of(chain[-1], at.values[EXTEND]), at.origins[EXTEND][1]
         place = f"{chain[-1].as_posix()}:{line}: {EXTEND}"
@@ -255,8 +255,8 @@ def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     for name in ("mudline.toml", "pyproject.toml"):
         path = folder / name
         is_there = os.path.isfile(path)  # noqa: PTH113 - Path raises for a folder that may not be searched
-        if is_there and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
-            return found
+        if is_there and (configuration := read_configuration(path, demanded=False, code_fault=code_fault)):
+            return configuration
     return None
 
 

@@ -68,27 +68,27 @@ def _lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | Non
         result = fix_bytes(data, name, settings, folder)
     content = data if result.changed is None else result.changed
     with recording_looks() as paths:
-        found, coverage = covered_findings(
+        findings, coverage = covered_findings(
             content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
         )
     fixed = with_severities(result.fixed, settings)
     return FileReport(
-        name, with_severities(found, settings), fixed, result.changed, result.note, tuple(paths), coverage
+        name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage
     )
 
 
-def with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
+def with_severities(findings: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
     """Return the findings with the severities that the settings give them."""
-    return tuple(_with_severity(finding, settings.severities) for finding in found)
+    return tuple(_with_severity(finding, settings.severities) for finding in findings)
 
 
-def _with_severity(found: Diagnostic, severities: Mapping[str, Severity]) -> Diagnostic:
+def _with_severity(diagnostic: Diagnostic, severities: Mapping[str, Severity]) -> Diagnostic:
     """Return a finding with its severity, never below that of the findings joined to it."""
-    severity = severities.get(found.code, found.severity)
-    following = tuple(_with_severity(finding, severities) for finding in found.following)
+    severity = severities.get(diagnostic.code, diagnostic.severity)
+    following = tuple(_with_severity(finding, severities) for finding in diagnostic.following)
     worst = max((severity, *(finding.severity for finding in following)), key=lambda each: each.rank)
-    changed = worst is not found.severity or following != found.following
-    return replace(found, severity=worst, following=following) if changed else found
+    changed = worst is not diagnostic.severity or following != diagnostic.following
+    return replace(diagnostic, severity=worst, following=following) if changed else diagnostic
 
 
 # -------------------------------------------------------------------------------------------------------------- fixes
@@ -175,12 +175,12 @@ class _FixRun:
 
     def _next(self, state: FixState) -> list[Problem]:
         """Return findings whose repairs do not overlap: errors of reading first, then safe repairs, then the others."""
-        wanted = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
+        fixable = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
         if state.unreadable:
             codes = {error.code.code for error in state.unreadable}
-            cleared = [one for one in wanted if one.code.code in codes and one.weight is Severity.ERROR]
+            cleared = [one for one in fixable if one.code.code in codes and one.weight is Severity.ERROR]
             return _disjoint(cleared)
-        return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
+        return _disjoint([problem for problem in fixable if _repair(problem).applicability == "safe"] or fixable)
 
     def _accepted(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
         """Return the problems whose repairs make nothing worse, and the deck after them; None if there are none."""
@@ -230,7 +230,7 @@ def _disjoint(problems: list[Problem]) -> list[Problem]:
 
 def _free(span: Span, taken: list[Span]) -> bool:
     at = bisect_left(taken, span)
-    return not any(_overlap(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
+    return not any(_overlap(span, edit) for edit in islice(taken, max(at - 1, 0), at + 1))
 
 
 def _overlap(first: Span, second: Span) -> bool:
@@ -260,14 +260,14 @@ class FixState:
         After edits of a source, lines are those before the edits, and 0 for lines that the edits brought.
         """
         text, undoing, written = self.context.text, Undoing(edits), source or self.source
-        found: Counter[tuple[str, int]] = Counter()
-        for one in (*self.deck.problems, *self.context.scene.problems, *self.findings):
-            if one.weight is Severity.ERROR:
-                start = start_of(text, one) if text else -1
+        counts: Counter[tuple[str, int]] = Counter()
+        for problem in (*self.deck.problems, *self.context.scene.problems, *self.findings):
+            if problem.weight is Severity.ERROR:
+                start = start_of(text, problem) if text else -1
                 place = Span(start, start + 1)
                 new = start < 0 or undoing.is_in_new_lines(place)
-                found[one.code.code, 0 if new else written.position(undoing.before(place).start)[0]] += 1
-        return found
+                counts[problem.code.code, 0 if new else written.position(undoing.before(place).start)[0]] += 1
+        return counts
 
     @property
     def unreadable(self) -> list[Problem]:
@@ -312,8 +312,8 @@ class StageReader(NamedTuple):
         deck = read_source(source, units=self.settings.units)
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
-        found = joined_problems(context, self.settings.rules)
-        return FixState(data, source, context, [each for one in found for each in (one, *one.following)])
+        problems = joined_problems(context, self.settings.rules)
+        return FixState(data, source, context, [each for problem in problems for each in (problem, *problem.following)])
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
         """Return the stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""

@@ -44,28 +44,30 @@ def joined_findings(context: LintContext, problems: list[Problem]) -> list[Probl
     repeated = _repeated(text, by_code) if text else ()
     under: dict[int, Problem] = {}
     hidden: set[int] = set()
-    for one in chain(*declared, repeated, _alike(origin, by_code)):
-        if id(one.first) not in hidden and (one.others or one.message):
-            cause = under.get(id(one.first), one.first)
-            cause = replace(cause, message=one.message or cause.message, span=one.place or cause.span)
-            others = [under.get(id(each), each) for each in one.others]
-            under[id(one.first)] = _joined(cause, others, one.words) if others else cause
-            hidden.update(map(id, one.others))
-    return [under.get(id(one), one) for one in problems if id(one) not in hidden]
+    for joined in chain(*declared, repeated, _alike(origin, by_code)):
+        if id(joined.first) not in hidden and (joined.others or joined.message):
+            cause = under.get(id(joined.first), joined.first)
+            cause = replace(cause, message=joined.message or cause.message, span=joined.place or cause.span)
+            others = [under.get(id(each), each) for each in joined.others]
+            under[id(joined.first)] = _joined(cause, others, joined.words) if others else cause
+            hidden.update(map(id, joined.others))
+    return [under.get(id(joined), joined) for joined in problems if id(joined) not in hidden]
 
 
 def _joined(cause: Problem, others: Sequence[Problem], words: str) -> Problem:
     """Return a finding with others joined to it: as severe as the worst, and an error if one prevents evaluation."""
     everything = (cause, *others)
     blocks = strongest(everything)
-    severity = max((one.weight for one in everything), key=lambda severity: severity.rank)
-    below = tuple(each for one in others for each in (replace(one, following=()), *one.following))
+    severity = max((item.weight for item in everything), key=lambda severity: severity.rank)
+    below = tuple(each for item in others for each in (replace(item, following=()), *item.following))
     return replace(
         cause,
         message=f"{cause.message}; {words or _left_out(len(others))}",
         severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
         blocks=blocks,
-        repair=cause.repair and _of_all(everything) if all(one.code is cause.code for one in others) else cause.repair,
+        repair=cause.repair and _of_all(everything)
+        if all(item.code is cause.code for item in others)
+        else cause.repair,
         following=(*cause.following, *below),
     )
 
@@ -78,7 +80,7 @@ def _left_out(count: int) -> str:
 
 def _of_all(problems: Sequence[Problem]) -> Repair | None:
     """Return the repair of a finding with the edits of equal findings; None if one of them has no repair."""
-    repairs = [one.repair for one in problems if one.repair]
+    repairs = [problem.repair for problem in problems if problem.repair]
     if len(repairs) < len(problems):
         return None
     return replace(repairs[0], edits=tuple(sorted({edit for repair in repairs for edit in repair.edits})))
@@ -140,6 +142,6 @@ def _alike(origin: Origin, by_code: dict[str, list[Problem]]) -> Iterator[Joined
                 alike.setdefault((_lacking(problem), 0), []).append(problem)
             elif has_rows and code not in _OF_ROWS:
                 alike.setdefault((problem.message, origin.place(problem).line), []).append(problem)
-        for first, *others in (sorted(found, key=lambda one: origin.place(one).line) for found in alike.values()):
+        for first, *others in (sorted(same, key=lambda one: origin.place(one).line) for same in alike.values()):
             fields = f"and {counted(len(others), 'more field')} of it"
             yield Joined(first, others, also_in(origin, others) if others and first.lacks else fields)

@@ -31,5 +31,5 @@ def overview(deck: Deck) -> Overview:
     """Return the overview of a deck; never raises for its content."""
     context = LintContext(deck)
     scene = context.scene
-    errors = [*errors_of(all_findings(context)), *(one for one in scene.errors() if of_base(deck, one))]
+    errors = [*errors_of(all_findings(context)), *(problem for problem in scene.errors() if of_base(deck, problem))]
     return Overview(summarise(scene), sheet_of(scene), scene.deck.diagnose(errors))

@@ -39,5 +39,5 @@ def page(code: str) -> str | None:
 def _documentation(name: str) -> str | None:
     """Return the address of the documentation of an installed package."""
     addresses = project_addresses(name)
-    found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
-    return found if found.startswith(("https://", "http://")) else None
+    address = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
+    return address if address.startswith(("https://", "http://")) else None

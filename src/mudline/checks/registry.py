@@ -85,19 +85,19 @@ def select(chosen: Iterable[str] = (), ignored: Iterable[str] = (), also: Iterab
 
     Raises UnknownRule, with a suggestion, for a word that names no rule.
     """
-    wanted = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
-    wanted = (wanted | _named(also)) - _named(ignored)
-    return tuple(rule for rule in rules() if rule.code.code in wanted)
+    codes = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
+    codes = (codes | _named(also)) - _named(ignored)
+    return tuple(rule for rule in rules() if rule.code.code in codes)
 
 
 def _named(words: Iterable[str]) -> set[str]:
-    found: set[str] = set()
+    codes: set[str] = set()
     for word in words:
         named = find(word)
         if not named:
             raise UnknownRule(f"{word!r} names no rule{_hint(word)}")
-        found |= {rule.code.code for rule in named}
-    return found
+        codes |= {rule.code.code for rule in named}
+    return codes
 
 
 def _hint(word: str) -> str:
@@ -198,13 +198,13 @@ class Guarded:
 
     def __call__(self, context: LintContext) -> Iterator[Problem]:
         """Yield the rule's findings as far as they come, then RUN002 if it failed, even by ending the program."""
-        found: Iterator[Problem] = iter(())
+        problems: Iterator[Problem] = iter(())
         started = False
         while True:
             try:
                 if not started:
-                    found, started = iter(self.check(context)), True
-                problem = next(found, None)
+                    problems, started = iter(self.check(context)), True
+                problem = next(problems, None)
                 if problem is None:
                     return
                 self._examine(problem, context)

@@ -12,10 +12,10 @@ from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
 
 
-def hidden_codes(found: Configuration, path: str) -> tuple[str, ...]:
+def hidden_codes(configuration: Configuration, path: str) -> tuple[str, ...]:
     """Return the codes that a configuration ignores in a file."""
-    ignores = found.table("per-file-ignores")
-    relative = found.relative(path) if ignores else ""
+    ignores = configuration.table("per-file-ignores")
+    relative = configuration.relative(path) if ignores else ""
     return tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
 
 
@@ -57,9 +57,9 @@ def merged_settings(
     )
 
 
-def _unfixable(found: Configuration) -> frozenset[str]:
-    unfixable = _codes(found.words("unfixable"))
-    fixable = found.words("fixable")
+def _unfixable(configuration: Configuration) -> frozenset[str]:
+    unfixable = _codes(configuration.words("unfixable"))
+    fixable = configuration.words("fixable")
     return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
 
 

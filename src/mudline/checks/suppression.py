@@ -100,20 +100,13 @@ class Suppressions:
         hidden: list[Problem] = []
         for problem in [*problems, *unused]:
             codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
-            (hidden if any(_covers(found, problem.code.code) for found in codes) else reported).append(problem)
+            (hidden if any(_covers(named, problem.code.code) for named in codes) else reported).append(problem)
         return reported, hidden
 
     def hiding(self, problem: Problem) -> Directive | None:
         """Return the comment that hides a problem."""
         scopes, code = self._scopes(problem), problem.code.code
-        return next(
-            (
-                directive
-                for directive in self.directives
-                if directive.scope in scopes and _covers(_named(directive), code)
-            ),
-            None,
-        )
+        return next((each for each in self.directives if each.scope in scopes and _covers(_named(each), code)), None)
 
     def unknown(self) -> Iterator[Problem]:
         """Yield problems for names that no rule has, and for unknown instructions in comments."""
@@ -145,14 +138,14 @@ class Suppressions:
     def _unused(self, present: dict[Hashable, set[str]], selected: set[str]) -> Iterator[Problem]:
         everything = {rule.code.code for rule in rules() if not rule.off}
         for directive in self.directives:
-            found = present.get(directive.scope, set()) - {STY010.code}
+            codes_found = present.get(directive.scope, set()) - {STY010.code}
             place = _place(directive)
-            if not directive.words and not found and everything <= selected:
+            if not directive.words and not codes_found and everything <= selected:
                 message = f"nothing is found in {place}: remove this comment"
                 yield self._problem(message, directive.span, directive.where, self._removing(directive, 0, "safe"))
             for number, word in enumerate(directive.words):
                 judged = (word.codes & everything) or word.codes
-                if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & found:
+                if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & codes_found:
                     message = f"{word.text} is not found in {place}: remove it from this comment"
                     repair = self._removing(directive, number, "safe")
                     yield self._problem(message, word.span, directive.where, repair)
@@ -162,8 +155,8 @@ class Suppressions:
             return Problem(STY010, message, span, repair=repair)
         return Problem(STY010, message, where=where)
 
-    def _replacing(self, word: Word, meant: str) -> Repair:
-        return Repair("unsafe", f"write {meant}", ((word.span, meant),))
+    def _replacing(self, word: Word, replacement: str) -> Repair:
+        return Repair("unsafe", f"write {replacement}", ((word.span, replacement),))
 
     def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
         """Return a repair that removes a word and its separator, or the comment if nothing else is named."""
@@ -217,11 +210,11 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
         return None
     if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None
-    found = Suppressions(origin, own_text)
+    suppressions_ = Suppressions(origin, own_text)
     waiting: list[Directive] = []
-    for leaf, where in _placed(origin, found.blocks):
+    for leaf, where in _placed(origin, suppressions_.blocks):
         if leaf.kind is Kind.COMMENT:
-            directive = _directive(text, leaf.span, where, found)
+            directive = _directive(text, leaf.span, where, suppressions_)
             if directive is not None and directive.order == "ignore":
                 waiting.append(directive)
         elif leaf.kind is not Kind.BLANK:
@@ -229,7 +222,7 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
             for directive in waiting:
                 directive.scope = ("line", line)
             waiting.clear()
-    return found
+    return suppressions_
 
 
 def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
@@ -331,13 +324,13 @@ class Baseline:
         inner = ",\n".join(f"  {line}" for line in lines)
         return f'{{\n "format": "{FORMAT}",\n "findings": [' + (f"\n{inner}\n ]\n}}\n" if lines else "]\n}\n")
 
-    def _entries(self, found: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[BaselineEntry]:
+    def _entries(self, findings: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[BaselineEntry]:
         source = Source.from_bytes(data, "")
         relative = relative_path(path, self.folder)
         lines = len(source.line_starts)
-        for one in found:
-            content = source.line(one.line).strip()[:_RECORDED] if one.line <= lines else ""
-            yield BaselineEntry(relative, one.code, content)
+        for finding in findings:
+            content = source.line(finding.line).strip()[:_RECORDED] if finding.line <= lines else ""
+            yield BaselineEntry(relative, finding.code, content)
 
 
 def read_baseline(path: Path) -> Baseline:

@@ -92,8 +92,8 @@ def judge(context: LintContext) -> Judgement:
     deck = context.deck
     problems = all_findings(context)
     errors = deck.diagnose(errors_of(problems))
-    known = {(one.code, one.line) for one in errors}
-    warnings = [one for one in _warnings(context, problems, ok=not errors) if (one.code, one.line) not in known]
+    known = {(each.code, each.line) for each in errors}
+    warnings = [each for each in _warnings(context, problems, ok=not errors) if (each.code, each.line) not in known]
     counts = (len(deck.sections), coverage_of(deck), len(context.scene.laws.curves), len(context.scene.element_ids))
     return Judgement(Verdict(deck.file, len(errors), len(warnings), *counts), errors, warnings)
 
@@ -111,10 +111,10 @@ def _warnings(context: LintContext, problems: list[Problem], *, ok: bool) -> lis
     """Return the warnings of lint; for a deck without errors also those of its evaluation at the deck's coordinates."""
     codes = _default_codes()
     kept = unsuppressed(context, problems, rules())
-    found = [one for one in kept if one.weight is Severity.WARNING and one.code.code in codes]
-    reported = {one.code.code for one in problems if one.weight is Severity.WARNING}
+    own = [each for each in kept if each.weight is Severity.WARNING and each.code.code in codes]
+    reported = {each.code.code for each in problems if each.weight is Severity.WARNING}
     more = seabed_warnings(context.scene) if ok and SBD006.code not in reported else []
-    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in reported)]
+    return [*context.deck.diagnose(own), *(each.diagnostic for each in more if each.diagnostic.code not in reported)]
 
 
 @cache

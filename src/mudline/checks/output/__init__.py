@@ -37,7 +37,7 @@ class LintRun(NamedTuple):
 
 def form_names() -> list[str]:
     """Return the name of every format except text, without importing one."""
-    return sorted(found.name for found in iter_modules(__path__))
+    return sorted(module.name for module in iter_modules(__path__))
 
 
 def form_module(name: str) -> ModuleType:

@@ -12,6 +12,6 @@ SUMMARY = "`file:line:column: CODE message`, a line each"
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Yield the lines, with their ends."""
-    for found in diagnostics:
-        place = f"{found.file}:{found.line}:{found.column}"
-        yield f"{visible(place)}: {found.code} {visible(found.message)}\n"
+    for finding in diagnostics:
+        place = f"{finding.file}:{finding.line}:{finding.column}"
+        yield f"{visible(place)}: {finding.code} {visible(finding.message)}\n"

@@ -14,5 +14,5 @@ SUMMARY = "the same objects, one a line"
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Yield an object a line."""
-    for found in diagnostics:
-        yield f"{json.dumps(as_object(found), ensure_ascii=False)}\n"
+    for finding in diagnostics:
+        yield f"{json.dumps(as_object(finding), ensure_ascii=False)}\n"

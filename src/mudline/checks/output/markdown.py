@@ -25,28 +25,28 @@ _MARKUP = re.compile(r"[\\`*_{}\[\]<>#|~@&!$]|:(?=//)|(?<=www)\.")
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
     """Yield a heading with the totals, then a row for each finding; the heading alone without findings."""
-    listed = sorted(diagnostics, key=lambda found: (-found.severity.rank, found.sort_key))
+    listed = sorted(diagnostics, key=lambda finding: (-finding.severity.rank, finding.sort_key))
     files = counted(len(run.files), "file")
     if not listed:
         yield f"### mudline: no findings in {files}\n"
         return
-    counts = Counter(found.severity for found in listed)
+    counts = Counter(finding.severity for finding in listed)
     words = {each: counted(counts[each], each.value) for each in (Severity.ERROR, Severity.WARNING)}
     words[Severity.INFO] = f"{counts[Severity.INFO]} info"
     yield f"### mudline: {', '.join(word for each, word in words.items() if counts[each])} in {files}\n\n"
     yield "| severity | place | rule | message |\n| --- | --- | --- | --- |\n"
-    for found in listed[:_MOST]:
-        place = _plain(f"{found.file.removeprefix('./')}:{found.line}:{found.column}")
-        yield f"| {found.severity.value} | {place} | {_rule(found)} | {_plain(found.message)} |\n"
+    for finding in listed[:_MOST]:
+        place = _plain(f"{finding.file.removeprefix('./')}:{finding.line}:{finding.column}")
+        yield f"| {finding.severity.value} | {place} | {_rule(finding)} | {_plain(finding.message)} |\n"
     if len(listed) > _MOST:
         yield f"\nand {counted(len(listed) - _MOST, 'finding')} more.\n"
 
 
-def _rule(found: Diagnostic) -> str:
+def _rule(finding: Diagnostic) -> str:
     """Return the code, as a link if its page is on a site, and the slug."""
-    address = page(found.code) or ""
-    code = f"[{found.code}]({address})" if address.startswith("http") else found.code
-    return f"{code} {_plain(found.slug)}"
+    address = page(finding.code) or ""
+    code = f"[{finding.code}]({address})" if address.startswith("http") else finding.code
+    return f"{code} {_plain(finding.slug)}"
 
 
 def _plain(text: str) -> str:

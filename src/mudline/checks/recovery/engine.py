@@ -113,12 +113,12 @@ class Recovered:
         """Read the deck with some corrections; return True if these could be made."""
         if (text := self.context.text) is None or not corrections:
             return False
-        made = [replace(one, edits=tuple(with_line_ends(text.source, one.edits))) for one in corrections]
-        edits = [edit for one in made for edit in one.edits]
+        ready = [replace(item, edits=tuple(with_line_ends(text.source, item.edits))) for item in corrections]
+        edits = [edit for item in ready for edit in item.edits]
         after = self._edited(self.context, text.source, edits)
         if after is None:
             return False
-        self.causes += self.as_written(map(_cause, made))
+        self.causes += self.as_written(map(_cause, ready))
         self.steps.append(Undoing(edits))
         self.context = after
         return True
@@ -133,7 +133,7 @@ class Recovered:
 
     def without_errors(self, written: LintContext) -> LintContext | None:
         """Return the deck as written with only those causes corrected that are errors; None if one cannot be."""
-        repairs = [one.repair for one in self.causes if one.weight is Severity.ERROR]
+        repairs = [cause.repair for cause in self.causes if cause.weight is Severity.ERROR]
         if not repairs:
             return written
         edits = [TextEdit(*edit) for repair in repairs if repair for edit in repair.edits]
@@ -186,8 +186,8 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
 
 def _cause(correction: Correction) -> Problem:
     cause = correction.cause
-    made = tuple((edit.span, edit.text) for edit in correction.edits)
-    repair = Repair("unsafe", correction.does, made) if correction.does else cause.repair
+    edits = tuple((edit.span, edit.text) for edit in correction.edits)
+    repair = Repair("unsafe", correction.does, edits) if correction.does else cause.repair
     return replace(cause, message=correction.message or cause.message, repair=repair)
 
 
@@ -206,14 +206,14 @@ class _Round:
         """Return the first correction of each fault that makes its block better."""
         taken: list[Correction] = []
         for last in (False, True):
-            made: list[Correction] = []
+            proposed: list[Correction] = []
             for recovery in (one for one in RECOVERIES if one.last is last):
                 asked = [one for one in problems if one.code in recovery.codes]
                 if asked or recovery.always:
-                    made += recovery.corrector(self.blocks, asked)
-            made.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
-            for one in made:
-                apart = self._is_sayable(one) and not any(_meet(one.region, other.region) for other in taken)
+                    proposed += recovery.corrector(self.blocks, asked)
+            proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
+            for one in proposed:
+                apart = self._is_sayable(one) and not any(_meet(one.region, accepted.region) for accepted in taken)
                 if apart and self._is_better(one):
                     taken.append(one)
             explained = {id(one.cause) for one in taken}
@@ -257,9 +257,9 @@ class _Round:
         edited = apply_edits(text, moved)
         behind = ("" if edited.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
         source = Source(self.text.source.name, f"{head}{edited}{behind}", clean=self.text.source.clean)
-        for one in read_source(source, units="user", read=self.read).problems:
-            if one.weight is Severity.ERROR or one.code in (SYN009, SYN013):
-                yield one.code, one.message
+        for problem in read_source(source, units="user", read=self.read).problems:
+            if problem.weight is Severity.ERROR or problem.code in (SYN009, SYN013):
+                yield problem.code, problem.message
 
 
 def _meet(first: Span, second: Span) -> bool:
@@ -276,29 +276,29 @@ def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
         if problem.repair is not None:
             alike.setdefault((problem.code.code, problem.message), []).append(problem)
     text = blocks.text
-    for found in alike.values():
-        problem = min(found, key=lambda one: start_of(text, one))
-        repairs = [one.repair.edits for one in found if one.repair is not None]
+    for uses in alike.values():
+        problem = min(uses, key=lambda use: start_of(text, use))
+        repairs = [use.repair.edits for use in uses if use.repair is not None]
         edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
         first = edits[0].span
         region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
-        others = [one for one in found if one is not problem]
+        others = [use for use in uses if use is not problem]
         message = f"{problem.message}; {also_in(text, others)}" if others else ""
         does = problem.repair.message if problem.repair else ""
         if all(_differs(text.source.unified[slice(*edit.span)], edit.text) for edit in edits):
             yield Correction(problem, edits, region, message, does, joins=edits[0].text.startswith("C "))
 
 
-def _differs(written: str, meant: str) -> bool:
+def _differs(written: str, corrected: str) -> bool:
     """Return True if two names differ in more than their digits, which distinguish objects of a kind."""
-    return _DIGITS.sub("", meant).casefold() != _DIGITS.sub("", written).casefold()
+    return _DIGITS.sub("", corrected).casefold() != _DIGITS.sub("", written).casefold()
 
 
 def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield a `$SECTION` line for blocks before any section."""
     text = blocks.text
     tree = text.tree
-    outside = {start_of(text, one): one for one in problems}
+    outside = {start_of(text, problem): problem for problem in problems}
     run = [(head_start(text, block), block.name) for block in tree.preamble.blocks]
     if not run or any(head not in outside for head, _ in run):  # a deck of another program is reported once
         return

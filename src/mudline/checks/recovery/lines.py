@@ -59,7 +59,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     Lines without a problem are considered in column 1 only.
     """
     text = blocks.text
-    problems_by_line = {line_at(text, start_of(text, one)).start: one for one in reversed(problems)}
+    problems_by_line = {line_at(text, start_of(text, item)).start: item for item in reversed(problems)}
     for section in text.tree.sections:
         for leaf in (*section.leaves, *(leaf for block in section.blocks for leaf in block.leaves)):
             if leaf.kind not in (Kind.TEXT, Kind.UNDECIDED):
@@ -106,10 +106,10 @@ def _known() -> frozenset[str]:
 def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections that put a keyword in front of lines that read well as its lines."""
     text = blocks.text
-    wanted = sorted((start_of(text, one), number) for number, one in enumerate(problems))
-    for section, block in blocks.blocks if wanted else ():
-        first, end = (bisect_left(wanted, (at, 0)) for at in (block.head.span.end, whole(block).end))
-        inside = wanted[first:end]
+    by_start = sorted((start_of(text, problem), number) for number, problem in enumerate(problems))
+    for section, block in blocks.blocks if by_start else ():
+        first, end = (bisect_left(by_start, (at, 0)) for at in (block.head.span.end, whole(block).end))
+        inside = by_start[first:end]
         if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
             yield from _missing_line(blocks, section, block, problems[inside[0][1]], inside[0][0])
 
@@ -125,9 +125,9 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     places = [*([] if is_own else [line]), *settings[-1:]]
     for place in (at for at in places if at > first):  # the block has lines of its own before it
         legal = () if place == line else blocks.keywords
-        found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
-        if found:
-            yield from found
+        corrections = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
+        if corrections:
+            yield from corrections
             return
 
 
@@ -139,20 +139,20 @@ def _keyword_line(
     For `present` see `reads_as`.
     """
     unified = blocks.text.source.unified
-    found = reads_as(blocks, section, own, unified[slice(*lines)], present)
+    keywords = reads_as(blocks, section, own, unified[slice(*lines)], present)
     which = "this line and those below it"
     if unified.count("\n", lines.start, start_of(blocks.text, cause)):
         which = f"the lines from line {blocks.text.source.position(lines.start)[0]} on"
     above = Span(lines.start, lines.start)
-    if len(found) == 1:
-        message = f"{which} read as *{found[0]}: that line seems to be missing above them"
-        edits = (TextEdit(above, f"*{found[0]}\n"),)
-        yield Correction(cause, edits, lines, message, does=f"write *{found[0]} above them")
-    elif found:
-        names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
+    if len(keywords) == 1:
+        message = f"{which} read as *{keywords[0]}: that line seems to be missing above them"
+        edits = (TextEdit(above, f"*{keywords[0]}\n"),)
+        yield Correction(cause, edits, lines, message, does=f"write *{keywords[0]} above them")
+    elif keywords:
+        names = " or ".join(f"*{keyword}" for keyword in keywords[:MOST_NAMED])
         message = f"{which} are of another keyword, {names}: its line seems to be missing above them"
-        lacked = any(map(blocks.missing, _defined_by(section, found[0])))  # all of them define such names
-        edit = TextEdit(above, f"*{found[0]}\n") if lacked else TextEdit(lines, "")
+        lacked = any(map(blocks.missing, _defined_by(section, keywords[0])))  # all of them define such names
+        edit = TextEdit(above, f"*{keywords[0]}\n") if lacked else TextEdit(lines, "")
         yield Correction(cause, (edit,), lines, message)
 
 
@@ -208,7 +208,7 @@ def _defined_by(section: str, keyword: str) -> frozenset[Names]:
 
 def _of_whole_numbers(declared: type[Block]) -> bool:
     """Return True if every required value in the rows of a keyword is a whole number."""
-    tables = [one.table.row for one in schemas_of(declared) if one.table and one.table.row]
+    tables = [schema.table.row for schema in schemas_of(declared) if schema.table and schema.table.row]
     columns = [slot for row in tables for slot in record_schema(row).columns if slot.required]
     return bool(columns) and all(slot.kind in (Value.WHOLE, Value.IDENT) for slot in columns)
 
@@ -250,8 +250,8 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     for line in lines_of(text, block) if lacking else ():
         number = ROW_NUMBER.match(unified, *line)
         if number and number[1] in numbers:
-            said = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
-            yield Problem(REF007, said, Span(*number.span(1)))
+            beginning = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
+            yield Problem(REF007, beginning, Span(*number.span(1)))
             return
         numbers.update(number.groups() if number else ())
     # Rows fit many keywords.
@@ -259,9 +259,9 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     again = read.places.find(path) if read and path else None
     for start in [again.start] if again else _foreign_lines(text, block, read):
         line = trimmed(unified, *line_at(text, start))
-        said = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
+        beginning = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
         code = SBD008 if again else SBD006 if _is_telling(unified, line) else SYN001
-        yield Problem(code, said, line, Severity.WARNING)
+        yield Problem(code, beginning, line, Severity.WARNING)
 
 
 def _is_telling(unified: str, line: Span) -> bool:
@@ -299,7 +299,7 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
         return [line.start for line in lines_of(text, block) if _is_telling(unified, line)]
     leaves = data_of(block.leaves) if read.lost else []
     kept = read.places.kept if leaves else frozenset()
-    found: list[int] = []
+    offsets: list[int] = []
     declared, behind = type(read.model), False
     for above, leaf in pairwise(leaves[:-1]):
         line = line_at(text, leaf.span.start)
@@ -309,5 +309,5 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
         behind = choice or (behind and line.start in kept)  # lines of an unknown form belong there
         if leaf.kind is Kind.SETTING and not behind and (unknown or line.start in kept):
             begins = above.kind is Kind.SETTING and above is not leaves[0]
-            found += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
-    return list(dict.fromkeys(found))[:MOST_NAMED]
+            offsets += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
+    return list(dict.fromkeys(offsets))[:MOST_NAMED]

@@ -54,9 +54,9 @@ def numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
         if span is None or declared is None or not _is_known_by(blocks, declared, span):
             continue
         unified = blocks.text.source.unified
-        for other in _read_as(unified[slice(*span)]):
-            if other[1] or declared.facts.tells_units or _goes_on(unified, span.start, other[0]):
-                yield Correction(problem, (TextEdit(span, other[0]),), line_at(blocks.text, span.start), certain=True)
+        for number in _read_as(unified[slice(*span)]):
+            if number[1] or declared.facts.tells_units or _goes_on(unified, span.start, number[0]):
+                yield Correction(problem, (TextEdit(span, number[0]),), line_at(blocks.text, span.start), certain=True)
 
 
 def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
@@ -99,17 +99,17 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             continue
         tried = line
         written = blocks.text.source.unified[slice(*line)]
-        if (other := _GAP.sub(", ", written)) != written:
-            yield Correction(problem, (TextEdit(line, other),), line)
+        if (replacement := _GAP.sub(", ", written)) != written:
+            yield Correction(problem, (TextEdit(line, replacement),), line)
 
 
 def indented_comments(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections of comments with spaces before their C, which make them data: the spaces are removed."""
     unified = blocks.text.source.unified
-    lines = {line_at(blocks.text, start_of(blocks.text, one)).start: one for one in reversed(problems)}
+    lines = {line_at(blocks.text, start_of(blocks.text, item)).start: item for item in reversed(problems)}
     for start, problem in lines.items():
-        if problem.weight is Severity.ERROR and (found := INDENTED_COMMENT.match(unified, start)):
-            blanks = Span(start, start + len(found[0]) - len(found[0].lstrip(" \t")))
+        if problem.weight is Severity.ERROR and (comment := INDENTED_COMMENT.match(unified, start)):
+            blanks = Span(start, start + len(comment[0]) - len(comment[0].lstrip(" \t")))
             words = "an indented line is data: if it is meant as a comment, put its C in column 1"
             message, line = f"{problem.message}; {words}", line_at(blocks.text, start)
             yield Correction(problem, (TextEdit(blanks, ""),), line, message, does="put the C in column 1")
@@ -173,13 +173,13 @@ def _names(
             continue
         uses = places.get(key, [])
         spans = sorted({span for where in uses if (span := text.span(where))})
-        meant = known[near[0]]
+        corrected = known[near[0]]
         if not spans or any(_own_name(context, where) == near[0] for where in uses):
             continue
         first, *others = sorted(found, key=lambda one: start_of(text, one))
         message = f"{first.message}; {also_in(text, others)}" if others else ""
-        edits = tuple(TextEdit(span, meant) for span in spans)
-        yield Correction(first, edits, spans[0], message, does=f"write {meant}")
+        edits = tuple(TextEdit(span, corrected) for span in spans)
+        yield Correction(first, edits, spans[0], message, does=f"write {corrected}")
 
 
 def _own_name(context: LintContext, where: Where) -> str:
@@ -216,9 +216,9 @@ def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]
             line_at(text, min(behind(text, line), len(unified))),
         )
         own, above, below = (ROW_NUMBER.match(unified, *place) for place in places)
-        meant = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
-        if own and len(meant) == 1:
-            number, span = meant.pop(), Span(*own.span(1))
+        candidates = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
+        if own and len(candidates) == 1:
+            number, span = candidates.pop(), Span(*own.span(1))
             lacking.discard(number)
             message = f"number {own[1]} is given twice, and {number} is not defined: is this one {number}?"
             yield Correction(problem, (TextEdit(span, number),), span, message, does=f"write {number}")
@@ -244,7 +244,7 @@ def _unused_set(context: LintContext) -> list[str]:
     """Return the name of the only set that is not used."""
     used = {name_key(name) for _, name in used_names(context.deck, Names.SET, Names.SUBSET)}
     named = context.scene.set_table.named
-    sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
+    sets = [set_.name for key, set_ in named.items() if key not in used and set_.where is not None]
     return sets if len(sets) == 1 else []
 
 

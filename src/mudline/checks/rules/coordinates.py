@@ -90,9 +90,9 @@ def _beside(scene: Scene) -> tuple[Indices, Indices]:
     longest[nodes[last]] = elements[last]
     shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
     second[nodes[shared]] = elements[shared - 1]
-    found, of_usable = np.full(ends.shape, -1, dtype=np.intp), ends[usable]
-    found[usable] = np.where(longest[of_usable] == usable[:, None], second[of_usable], longest[of_usable])
-    return usable, found
+    neighbours, of_usable = np.full(ends.shape, -1, dtype=np.intp), ends[usable]
+    neighbours[usable] = np.where(longest[of_usable] == usable[:, None], second[of_usable], longest[of_usable])
+    return usable, neighbours
 
 
 def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
@@ -114,8 +114,8 @@ def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
     shorter = np.minimum(length[here], length[there])
     alike &= np.linalg.norm(np.diff(scene.coordinates[outer], axis=1)[:, 0], axis=1) < shorter  # else the line goes on
     ratios = shorter / length[beyond].max(axis=1, initial=0.0)
-    found = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
-    yield from zip(middle[found].tolist(), ratios[found].tolist(), strict=True)
+    far = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
+    yield from zip(middle[far].tolist(), ratios[far].tolist(), strict=True)
 
 
 def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
@@ -125,10 +125,10 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
     """
     sections = scene.section_table.of_element
     usable, beside = _beside(scene)
-    found = usable[(beside[usable] >= 0).all(axis=1)]
-    ratios = scene.length[found] / scene.length[beside[found]].max(axis=1, initial=0.0)
-    odd = (sections[beside[found]] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
-    yield from zip(found[odd].tolist(), ratios[odd].tolist(), strict=True)
+    inner = usable[(beside[usable] >= 0).all(axis=1)]
+    ratios = scene.length[inner] / scene.length[beside[inner]].max(axis=1, initial=0.0)
+    odd = (sections[beside[inner]] == sections[inner][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
+    yield from zip(inner[odd].tolist(), ratios[odd].tolist(), strict=True)
 
 
 # ------------------------------------------------------------------------------------------- chains of elements
@@ -247,11 +247,11 @@ def _decimal_commas(context: LintContext) -> Iterator[Problem]:
         for index, entry in enumerate(cast("Nodes", block).entries):
             if not hasattr(entry, "nodes"):
                 continue
-            found = _split_rows(text, entry.nodes, where.inside("entries", index, "nodes"))
-            if found:
-                place, names, halves = found[0]
+            split = _split_rows(text, entry.nodes, where.inside("entries", index, "nodes"))
+            if split:
+                place, names, halves = split[0]
                 message = f"decimal comma? {halves} is two fields here, {names}: write {halves.replace(',', '.')}"
-                more = f"; so in {len(found)} rows of this block" if len(found) > 1 else ""
+                more = f"; so in {len(split)} rows of this block" if len(split) > 1 else ""
                 yield Problem(UNT006, f"{message}{more}", where=place)
 
 
@@ -274,8 +274,8 @@ def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Wher
             halves = ",".join(fields[column : column + 2])
             if not re.fullmatch(_HALVES, halves):
                 continue
-            beside = [other for other in (row - 1, row + 1) if 0 <= other < len(table) and table.lengths[other] == 3]
-            pointed = all(field.count(".") for other in beside for field in _fields(text, where.inside(other))[1:])
+            beside = [near for near in (row - 1, row + 1) if 0 <= near < len(table) and table.lengths[near] == 3]
+            pointed = all(field.count(".") for near in beside for field in _fields(text, where.inside(near))[1:])
             number = float(halves.replace(",", "."))
             others = fields[: column + 1] + fields[column + 2 :]
             padded = any(map(_begins_with_zero, others))  # whole numbers with zeros in front, as programs write them
@@ -304,7 +304,7 @@ def _fits(table: Table, row: int, column: int, number: float, beside: list[int],
     """
     values = table.values
     joined = [number, values[row, 3]] if column == 1 else [values[row, 1], number]
-    neighbours = np.array([[*values[other, 1:3], 0.0] for other in beside])
+    neighbours = np.array([[*values[row_beside, 1:3], 0.0] for row_beside in beside])
     written, corrected = (
         float(np.linalg.norm(neighbours - at, axis=1).sum()) for at in (values[row, 1:4], np.array([*joined, 0.0]))
     )

@@ -53,9 +53,9 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     count = len(scene.element_ids)
-    given = scene.deck.blocks_with("gives")
+    blocks = scene.deck.blocks_with("gives")
     reported: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
-    for keyword in dict.fromkeys(block.keyword for _, block in given):
+    for keyword in dict.fromkeys(block.keyword for _, block in blocks):
         places = [(where, scene.set_table.find(entry.set_name)) for where, entry in _named(context, keyword)]
         known = [(where, set_) for where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for _, set_ in known], count):
@@ -120,20 +120,20 @@ def held_twice(context: LintContext) -> Iterator[Problem]:
     Finds: 13:5
     """
     scene = context.scene
-    lines = [one for one in held_nodes(scene) if one.where.section < len(context.deck.own_sections)]
+    lines = [line for line in held_nodes(scene) if line.where.section < len(context.deck.own_sections)]
     holders: dict[tuple[int, int], Indices] = {}
-    for number, one in enumerate(lines):
-        holder = holders.setdefault((one.where.section, one.dof), np.full(len(scene.node_ids), -1))
-        again = one.nodes[holder[one.nodes] >= 0]
+    for number, line in enumerate(lines):
+        holder = holders.setdefault((line.where.section, line.dof), np.full(len(scene.node_ids), -1))
+        again = line.nodes[holder[line.nodes] >= 0]
         if again.size:
-            same = all(lines[earlier].how == one.how for earlier in set(holder[again].tolist()))
+            same = all(lines[earlier].how == line.how for earlier in set(holder[again].tolist()))
             before = lines[int(holder[again[0]])].how[0]
-            values = "in the same way" if same else f"at {before}, and at {one.how[0]} here"
+            values = "in the same way" if same else f"at {before}, and at {line.how[0]} here"
             node = first_of("node", scene.node_ids[again[0]], again.size)
-            message = f"degree of freedom {one.dof} of {node} is held above {values}"
+            message = f"degree of freedom {line.dof} of {node} is held above {values}"
             severity = Severity.INFO if same else None
-            yield Problem(BND001, f"{message}: remove one of the lines, or correct it", None, severity, one.where)
-        holder[one.nodes] = number
+            yield Problem(BND001, f"{message}: remove one of the lines, or correct it", None, severity, line.where)
+        holder[line.nodes] = number
 
 
 @rule(BND002)
@@ -175,8 +175,8 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
         if node is None or not node.is_integer():
             continue
         index = scene.nodes.indices(np.array([int(node)]))[0]
-        here = (one for one in held if one.where.section == where.section)
-        freedoms = {one.dof for one in here if index >= 0 and (one.nodes == index).any()}
+        here = (line_held for line_held in held if line_held.where.section == where.section)
+        freedoms = {line_held.dof for line_held in here if index >= 0 and (line_held.nodes == index).any()}
         values = (read_number(field.text) for field in others)
         moved = {int(value) for value in values if value is not None} or freedoms
         both = sorted(freedoms & moved)

@@ -160,8 +160,7 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
         return
     needing = lacking & ~without_sections(scene)
     sets = scene.set_table.named.values() if needing.any() else ()
-    closed = [set_ for set_ in sets if not set_.open]
-    bare_sets = [set_ for set_ in closed if lacking[set_.elements].all() and needing[set_.elements].any()]
+    bare_sets = [s for s in sets if not s.open and lacking[s.elements].all() and needing[s.elements].any()]
     for section in repeated if bare_sets else ():
         message = (
             f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "

@@ -55,10 +55,10 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in blocks:
         for entry in block.sets:
-            found = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
-            if found is None:
+            set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
+            if set_ is None:
                 return
-            covered[found.elements] = True
+            covered[set_.elements] = True
     bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
     if bare.size:
         what = first_of("element", scene.element_ids[bare[0]], bare.size)
@@ -86,16 +86,16 @@ def added_mass_order(context: LintContext) -> Iterator[Problem]:
     """
     if context.deck.file.lower().endswith(".das"):
         return
-    found = []
+    lines = []
     for where, entry in entries_of_sets(context.blocks("HYDRODYNAMIC SETS")):
         normal, tangential, inertia = (
             number(entry.constant, name) for name in ("normal_added_mass", "tangential_added_mass", "normal_inertia")
         )
         if abs(normal - tangential) > 0.0:
-            found.append((where.inside("constant", "normal_added_mass"), normal, tangential, inertia))
-    if found:
-        where, normal, tangential, inertia = found[0]
-        others = f"; so are those of {len(found) - 1} more sets" * (len(found) > 1)
+            lines.append((where.inside("constant", "normal_added_mass"), normal, tangential, inertia))
+    if lines:
+        where, normal, tangential, inertia = lines[0]
+        others = f"; so are those of {len(lines) - 1} more sets" * (len(lines) > 1)
         defaults = normal == inertia - 1.0 and tangential == 0.0
         advice = "these are the defaults, remove both" if defaults else "keep them if they are meant so"
         message = (

@@ -46,8 +46,8 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    found = context.deck.blocks_with("superseded_by")
-    for number, (where, block) in enumerate(place for place in found if place[1].subject == "seabed"):
+    blocks = context.deck.blocks_with("superseded_by")
+    for number, (where, block) in enumerate(place for place in blocks if place[1].subject == "seabed"):
         newer = " and ".join(map(str, block.facts.superseded_by))
         message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
         yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))
@@ -106,8 +106,8 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
         return  # two types of seabed, of which one is removed: SBD002 reports them
     own = len(context.scene.deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
-    other = (new if is_superseded(keyword) else legacy)[1]
-    message = f"*{keyword} and *{other} are in one model{_laws_by_set(context.scene)}: keep one family"
+    second = (new if is_superseded(keyword) else legacy)[1]
+    message = f"*{keyword} and *{second} are in one model{_laws_by_set(context.scene)}: keep one family"
     yield Problem(SBD016, message, where=where)
 
 

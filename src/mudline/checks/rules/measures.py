@@ -246,11 +246,11 @@ def _held_nodes(context: LintContext) -> dict[str, list[int]]:
 def _shortest_period(context: LintContext) -> float:
     """Return the shortest wave period of a load case, for random seas the peak period; infinite without waves."""
     placed = context.scene.context.placed.items()
-    blocks = (block for (_, keyword), found in placed if keyword.startswith("WAVE-") for _, block in found)
-    given = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
+    blocks = (block for (_, keyword), listed in placed if keyword.startswith("WAVE-") for _, block in listed)
+    values = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
     periods = (
         1.0 / value if usual is SEA_FREQUENCY else value
-        for usual, value in given
+        for usual, value in values
         if usual in (SEA_FREQUENCY, SEA_PERIOD, WAVE_PERIOD) and isinstance(value, float) and value > 0.0
     )
     return min(periods, default=math.inf)
@@ -293,9 +293,9 @@ def _laid(context: LintContext) -> _Laid:
             weight[law] = float(np.fmax.reduce(heavy[row], initial=math.nan))
             width[law] = float(np.fmax.reduce(wide[row], initial=math.nan))
     of_curve: dict[int, list[int]] = {}
-    for index, given in enumerate(laws.set_laws):
-        of_curve.setdefault(given.curve, []).append(index)
-    of_laws = {given.where: index for index, given in enumerate(laws.set_laws) if given.kind is LawKind.LINEAR}
+    for index, each in enumerate(laws.set_laws):
+        of_curve.setdefault(each.curve, []).append(index)
+    of_laws = {each.where: index for index, each in enumerate(laws.set_laws) if each.kind is LawKind.LINEAR}
     curves = {curve.where: index for index, curve in enumerate(laws.curves)}
     return _Laid(weight, width, of_laws, curves, of_curve)
 

@@ -211,8 +211,8 @@ def _placed(scene: Scene) -> Mask:
 
 def _named(context: LintContext) -> Mask:
     """Return a mask of the nodes that anything but an element refers to, also in lines whose form is not public."""
-    found: Mask = context.once(_named_nodes)
-    return found
+    named: Mask = context.once(_named_nodes)
+    return named
 
 
 def _named_nodes(context: LintContext) -> Mask:

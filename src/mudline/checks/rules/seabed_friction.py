@@ -111,7 +111,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     """Yield problems of *FRICTION stiffnesses in directions in which no place of the model has a coefficient."""
     scene = context.scene
-    blocks = [found for section in ("LOAD CASE", "MODES") for found in context.blocks("FRICTION", section)]
+    blocks = [placed for section in ("LOAD CASE", "MODES") for placed in context.blocks("FRICTION", section)]
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
     entries = list(given(context))
@@ -252,12 +252,12 @@ class FrictionEntry(NamedTuple):
 
     def value(self, name: str) -> float | None:
         """Return a value: None where the deck gives none, NaN where it could not be read."""
-        found = self.part
+        number = self.part
         for step in self._path(name):
-            found = getattr(found, step, None)
-        if found is None:
+            number = getattr(number, step, None)
+        if number is None:
             return None
-        return float(cast("float", found)) if isinstance(found, float | int) else _UNKNOWN
+        return float(cast("float", number)) if isinstance(number, float | int) else _UNKNOWN
 
     def _path(self, name: str) -> tuple[str, ...]:
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
@@ -269,7 +269,7 @@ def given(context: LintContext) -> list[FrictionEntry]:
 
 
 def _found(context: LintContext) -> list[FrictionEntry]:
-    found = [
+    entries = [
         FrictionEntry(
             getattr(surface, "properties", None),
             where.inside("properties"),
@@ -280,8 +280,8 @@ def _found(context: LintContext) -> list[FrictionEntry]:
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
-            found.append(FrictionEntry(entry, where.inside("sets", index), type_, legacy=False))
-    return found
+            entries.append(FrictionEntry(entry, where.inside("sets", index), type_, legacy=False))
+    return entries
 
 
 def resisting(context: LintContext) -> list[FrictionEntry]:

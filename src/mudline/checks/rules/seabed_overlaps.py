@@ -127,8 +127,8 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
     """Yield legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    found = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
-    for where, surface in found[:-1]:
+    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
+    for where, surface in surfaces[:-1]:
         message = (
             f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
         )
@@ -212,10 +212,10 @@ def _counted(scene: Scene, elements: Indices) -> str:
     return first_of("element", scene.element_ids[elements.min()], elements.size)
 
 
-def _alike(scene: Scene, one: SetLaw, other: SetLaw) -> bool:
+def _alike(scene: Scene, left: SetLaw, right: SetLaw) -> bool:
     """Return True if two sets of *SEABED PROPERTIES give the same values, including the points of their curves."""
-    first, second = (_entry(scene, grant) for grant in (one, other))
-    same = one.kind is other.kind is LawKind.CURVE and np.array_equal(_points(scene, one), _points(scene, other))
+    first, second = (_entry(scene, grant) for grant in (left, right))
+    same = left.kind is right.kind is LawKind.CURVE and np.array_equal(_points(scene, left), _points(scene, right))
     names = [name for name in type(first).model_fields if name != "set_name" and not (same and name == "stiffness")]
     return all(getattr(first, name) == getattr(second, name) for name in names)
 

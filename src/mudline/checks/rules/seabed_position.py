@@ -63,7 +63,7 @@ def _lowering(scene: Scene) -> Floats | None:
     block = trenches.of_element[elements]
     deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
     y0, z0, y1, z1 = (trenches.values(block, "centreline", name) for name in ("y0", "z0", "y1", "z1"))
-    found = np.zeros(len(scene.node_ids))
+    lowering = np.zeros(len(scene.node_ids))
     for nodes in scene.element_nodes[elements].T:
         _, y, z = scene.coordinates[nodes].T
         with np.errstate(all="ignore"):
@@ -71,8 +71,8 @@ def _lowering(scene: Scene) -> Floats | None:
             share = np.clip((top - 2.0 * away) / (top - bottom), 0.0, 1.0)
         known = nodes >= 0
         lower = deep * np.where(np.isnan(away), 1.0, share)  # without a line of its own it lies below the pipe
-        np.fmax.at(found, nodes[known], lower[known])
-    return found
+        np.fmax.at(lowering, nodes[known], lower[known])
+    return lowering
 
 
 def _depths(scene: Scene) -> Floats:
@@ -86,14 +86,14 @@ def _depths(scene: Scene) -> Floats:
         if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
             level = _is_level(floor)
-            found = np.empty(len(x))
+            depth = np.empty(len(x))
             for block in blocks_of(len(x)):
                 if level:
-                    found[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
+                    depth[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
                 else:
                     along = _along(floor.direction, y[block], z[block])
-                    found[block] = along * np.sin(slope) - x[block] * np.cos(slope)
-            return found
+                    depth[block] = along * np.sin(slope) - x[block] * np.cos(slope)
+            return depth
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
         if floor.kind is SeabedKind.SURFACE:
@@ -173,8 +173,8 @@ def steepness(scene: Scene) -> Floats:
     slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
     place = _along(floor.direction, y, z)
     sides = (np.searchsorted(points[:, 0], place, side) for side in ("left", "right"))
-    found: Floats = np.maximum(*(slopes[side] for side in sides))
-    return found
+    steepest: Floats = np.maximum(*(slopes[side] for side in sides))
+    return steepest
 
 
 def _along(direction: float, y: Floats, z: Floats) -> Floats:
@@ -308,9 +308,9 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
         constrained[dof - 1, nodes] = True
     alone = (constrained[0] != constrained[1]) & _on_slope(context)
     for where, dof, nodes, _ in held:
-        found = nodes[alone[nodes]]
-        if found.size:
-            which = first_of("node", scene.node_ids[found[0]], found.size)
+        single = nodes[alone[nodes]]
+        if single.size:
+            which = first_of("node", scene.node_ids[single[0]], single.size)
             message = (
                 f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
                 "both are held there: give both, or remove this one"
@@ -356,9 +356,9 @@ def held_nodes(scene: Scene) -> Iterator[HeldNodes]:
                     if values is None:
                         continue
                     at, step = freedom_and_step(values)
-                    given = (values.third, values.fourth, values.fifth, None)
+                    fields = (values.third, values.fourth, values.fifth, None)
                     numbers: tuple[object, ...] = (values.start, values.end, step)
-                    dof, value, place = given[at - 2], given[at - 1], place.inside("generate")
+                    dof, value, place = fields[at - 2], fields[at - 1], place.inside("generate")
                 else:
                     numbers, dof, value = (entry.node, entry.node, 1), entry.dof, entry.value
                     place = place.inside("dof")

@@ -196,15 +196,13 @@ def _effect(kind: str, product: float) -> str:
     return f"with Newmark's scheme a bare mass rebounds {fast} too fast"
 
 
-def _described(scene: Scene, contact: Oscillation) -> str:
+def _described(scene: Scene, item: Oscillation) -> str:
     """Return the law, node and line of a contact in words, with the file if it is in a continued deck."""
     from mudline.model.scene.oscillation import line_of  # noqa: PLC0415 - most decks do without
 
-    line, base = line_of(scene, contact.where), scene.deck.base_of(contact.where)
+    line, base = line_of(scene, item.where), scene.deck.base_of(item.where)
     place = f", line {line}" if line else ""
-    return f"{contact.name}, node {scene.node_ids[contact.node]}{place}" + (
-        f" of {Path(base[0].file).name}" if base else ""
-    )
+    return f"{item.name}, node {scene.node_ids[item.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
 
 
 @rule(STB003)

@@ -250,6 +250,6 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:19
     """
-    found = context.once(suppressions)
-    if found is not None:
-        yield from found.unknown()
+    known = context.once(suppressions)
+    if known is not None:
+        yield from known.unknown()

@@ -174,8 +174,8 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
     for leaf, read in data_leaves(text):
         for match in first_of_lines(_SEEN, source, leaf.span):
             line = line_around(source, match.start())
-            if found := numbers.of_line(source, leaf.span, line, read):
-                yield _problem(source, found)
+            if spans := numbers.of_line(source, leaf.span, line, read):
+                yield _problem(source, spans)
 
 
 def _problem(source: str, numbers: list[Span]) -> Problem:

@@ -48,12 +48,12 @@ def unusual_values(context: LintContext) -> list[Problem]:
     deck = Numbers(context, units_of(context))
     with np.errstate(all="ignore"):  # numbers may be as large as they like
         judged = _of_deck(deck)
-        measures = {one.usual.of for one in judged}
-        heavy = bool(measures & WEIGHED) and any(one.problem.code in (UNT001, UNT004, UNT006) for one in judged)
+        measures = {each.usual.of for each in judged}
+        heavy = bool(measures & WEIGHED) and any(each.problem.code in (UNT001, UNT004, UNT006) for each in judged)
         shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
         if heavy or shallow:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
-    problems = [one.problem for one in judged]
+    problems = [each.problem for each in judged]
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and problems else set()
     return [problem for problem in problems if not commas or not text or text.place(problem).line not in commas]
@@ -102,9 +102,7 @@ class Judged(NamedTuple):
 @cache
 def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, ...]]:
     """Return the fields of a part that have usual values, and those that hold tables or parts with such fields."""
-    slots = [
-        slot for slot in record_schema(part).slots if slot.usuals or any(any(_judged(inner)) for inner in slot.parts)
-    ]
+    slots = [slot for slot in record_schema(part).slots if slot.usuals or any(any(_judged(sub)) for sub in slot.parts)]
     own = tuple(slot for slot in slots if slot.usuals and not isinstance(slot.about, Rows))
     return own, tuple(slot for slot in slots if slot.parts)
 
@@ -123,7 +121,7 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
     if not (suspects or outer):
         return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    yield from _of_row([one for slot, value in suspects for one in _compared(of, slot, value, slot.json)])
+    yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
@@ -179,8 +177,8 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
         for at, value in enumerate(values.tolist()):
             cells = SimpleNamespace(**dict(zip(names, table.values[at].tolist(), strict=False)))
             row = replace(of, part=cells, holder=of.part, columns=columns)
-            if found := _compared(row, column, value, slot.json, at, index):
-                yield from found
+            if judged := _compared(row, column, value, slot.json, at, index):
+                yield from judged
                 return
     yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan)
 
@@ -224,10 +222,10 @@ def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, st
     """Return the likely unit of a value and the advice in words, if a unit explains it; else ""."""
     unit = slot.about.unit
     if not math.isnan(usual.meant):
-        found = meant_unit(
+        unit_name = meant_unit(
             usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number), strict=strict
         )
-        return f"{value!r} looks like {found}, write it in{of.units.behind(unit)}" if found else ""
+        return f"{value!r} looks like {unit_name}, write it in{of.units.behind(unit)}" if unit_name else ""
     quantity = _quantity(of, slot, usual, value * of.units.size(unit)) if usual.explained else math.nan
     which = next(
         (word for factor, word in _TIMES.items() if quantity and usual.low <= quantity * factor <= usual.high), ""
@@ -253,8 +251,8 @@ def _seen(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
     if not usual.of:
         return f"{subject}, expected {usual.span(of.units.size(unit))}{behind}{why}"
     quantity = _quantity(of, slot, usual, value * of.units.size(unit))
-    other = next((f"times {one.label}" for one in of.columns if usual.of == f"/{one.name}"), usual.of)
-    return f"{subject}, {float(f'{quantity:.3g}'):g} {other}, expected {usual.span()}{why}"
+    what = next((f"times {col.label}" for col in of.columns if usual.of == f"/{col.name}"), usual.of)
+    return f"{subject}, {float(f'{quantity:.3g}'):g} {what}, expected {usual.span()}{why}"
 
 
 def _name(part: Part) -> str:
@@ -273,8 +271,8 @@ def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Whe
         return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
         return "correct it", ()
-    if found := _explanation(of, slot, usual, value):
-        return found, ()
+    if explanation := _explanation(of, slot, usual, value):
+        return explanation, ()
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
     if not alone and (exchanged := _exchange(of, slot, where)):
         return exchanged
@@ -309,14 +307,14 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
 
 def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
     """Return the advice to exchange a value with its neighbour, or to remove a comma of thousands, if either fits."""
-    row = [(one, number(of.part, one.name)) for one in of.columns if not one.key and not one.row]
-    row = [(one, value) for one, value in row if not math.isnan(value)]
-    fields, values = [one for one, _ in row], [value for _, value in row]
-    for left, (one, other) in enumerate(pairwise(fields)):
+    row = [(first, number(of.part, first.name)) for first in of.columns if not first.key and not first.row]
+    row = [(first, value) for first, value in row if not math.isnan(value)]
+    fields, values = [first for first, _ in row], [value for _, value in row]
+    for left, (first, second) in enumerate(pairwise(fields)):
         exchanged = [*values[:left], values[left + 1], values[left], *values[left + 2 :]]
-        real = one.kind is other.kind is Kind.REAL and 0.0 not in values[left : left + 2]
-        if slot in (one, other) and real and _all_usual(of, fields, exchanged, (one, other)):
-            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first", (one, other)
+        real = first.kind is second.kind is Kind.REAL and 0.0 not in values[left : left + 2]
+        if slot in (first, second) and real and _all_usual(of, fields, exchanged, (first, second)):
+            return f"{first.label} and {second.label} seem to be exchanged, write {first.label} first", (first, second)
     text = of.context.text
     line = text.source.line(text.place(Problem(UNT007, "", where=where)).line) if text else ""
     for comma in _THOUSANDS.finditer(line):
@@ -329,10 +327,10 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
 
 def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float], asked: Sequence[FieldSpec]) -> bool:
     """Return True if the `asked` fields of a row would be usual, and allowed, with these values (as in the deck)."""
-    sized = {one.name: value * of.units.size(one.about.unit) for one, value in zip(fields, values, strict=True)}
+    sized = {slot.name: value * of.units.size(slot.about.unit) for slot, value in zip(fields, values, strict=True)}
     changed = of.having(sized)
     return not any(
-        one.about.fault(value) or any(_is_unusual(changed, one, usual, value) for usual in one.usuals)
-        for one, value in zip(fields, values, strict=True)
-        if one in asked
+        slot.about.fault(value) or any(_is_unusual(changed, slot, usual, value) for usual in slot.usuals)
+        for slot, value in zip(fields, values, strict=True)
+        if slot in asked
     )

@@ -83,13 +83,13 @@ def _stray_laws(context: LintContext) -> Iterator[Problem]:
                 continue
             where = Where(number, index)
             head = context.text.head(where)
-            found = _LAW.search(context.text.source.text, head.end if head else 0)
+            match = _LAW.search(context.text.source.text, head.end if head else 0)
             message = (
                 f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
             )
-            place = Span(*found.span()) if found else head or Span(0, 0)
+            place = Span(*match.span()) if match else head or Span(0, 0)
             line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
-            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if found else None
+            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if match else None
             yield Problem(SBD006, message, place, repair=repair)
 
 
@@ -150,8 +150,8 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     grants = scene.laws.set_laws
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
-    found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
-    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
+    groups = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
+    for index, first, count in zip(*(part.tolist() for part in groups), strict=True):
         where = grants[index].where
         if legacy_open or last_open > index or grants[index].unknown or max(scene.laws.gaps, default=Where()) >= where:
             continue
@@ -192,12 +192,12 @@ def _level(scene: Scene) -> str:
 def _depths(context: LintContext, elements: Indices) -> Floats:
     """Return lower bounds of the mean depth of each element's two nodes below the seabed; NaN if one is not known."""
     scene = context.scene
-    found = np.full(len(elements), np.nan)
+    mean_depths = np.full(len(elements), np.nan)
     ends = scene.element_nodes[elements]
     known = (ends >= 0).all(axis=1)
     if scene.seabed.kind is SeabedKind.FLAT:
         below = 0.0 - scene.coordinates[ends[known], 0]
     else:
         below = context.once(depths)[ends[known]]
-    found[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
-    return found
+    mean_depths[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
+    return mean_depths

@@ -48,8 +48,8 @@ def _half_width(extension: Extension, block: Indices, penetration: Floats, diame
 
     automatic = automatic_half_width(penetration, np.where(np.isnan(diameter), np.inf, diameter))
     automatic = np.where(np.isfinite(automatic), automatic, 0.0)
-    given = extension.values(block, "smoothing", default=0.0)
-    width: Floats = np.where(_is_auto(extension, block), automatic, given)
+    explicit = extension.values(block, "smoothing", default=0.0)
+    width: Floats = np.where(_is_auto(extension, block), automatic, explicit)
     return np.where(block >= 0, width, 0.0)
 
 
@@ -58,9 +58,9 @@ def _is_auto(extension: Extension, block: Indices) -> Mask:
 
     def auto(entry: object) -> bool:
         names = ("form", "nodal_stiffness") if getattr(entry, "damping", None) is not None else ()
-        given: object = getattr(entry, "smoothing", None)
+        smoothing: object = getattr(entry, "smoothing", None)
         asked = not names or any(getattr(entry, name, None) is not None for name in names)
-        return given == "AUTO" or (given is None and asked)
+        return smoothing == "AUTO" or (smoothing is None and asked)
 
     return marked(map(auto, extension.entries), block)
 
@@ -68,13 +68,13 @@ def _is_auto(extension: Extension, block: Indices) -> Mask:
 def damping(scene: ResolvedDeck) -> list[LawAssignment]:
     """Return the damping of elements with a law per unit length, and of nodes with nodal stiffness."""
     extension = scene.extensions["SEABED CONTACT"]
-    given = np.nan_to_num(extension.values(extension.of_element, "damping"))
-    rows = np.flatnonzero((given > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
+    values = np.nan_to_num(extension.values(extension.of_element, "damping"))
+    rows = np.flatnonzero((values > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
     length = np.where(scene.nodal & np.isfinite(scene.length), scene.length, 0.0)
-    of_nodes = summed(0.5 * given * length, scene.element_nodes, len(scene.node_ids))
+    of_nodes = summed(0.5 * values * length, scene.element_nodes, len(scene.node_ids))
     nodes = np.flatnonzero(of_nodes > 0.0)
     return [
-        LawAssignment("damping", rows, {"damping": given[rows]}),
+        LawAssignment("damping", rows, {"damping": values[rows]}),
         LawAssignment("nodal damping", nodes, {"damping": of_nodes[nodes]}),
     ]
 
@@ -186,7 +186,7 @@ def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) ->
     units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
     computed = from_cohesion(cohesion, diameter, *units)
     written = [extension.values(block, law, name) for law in ("force", "depth") for name in ("factor", "exponent")]
-    factors = (np.where(np.isnan(own), other, own) for own, other in zip(written, computed, strict=True))
+    factors = (np.where(np.isnan(own), default, own) for own, default in zip(written, computed, strict=True))
     first, second = (extension.values(block, "cutoff", name) for name in ("first", "second"))
     slowest = _SLOWEST / LENGTH_UNIT.get(scene.units, math.nan)
     return SuctionLaw(
@@ -253,15 +253,15 @@ def _of_properties(scene: ResolvedDeck) -> Floats:
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
     block = at_nodes(scene.resistance.of_element, ends, count)
-    given = {
+    by_name = {
         name: np.array([*(getattr(entry, name) for entry in scene.resistance.values), (np.nan, np.nan)])[block]
         for name in ("friction", "mobilisation", "characteristic")
     }
-    largest = np.fmin(given["characteristic"], np.inf)
+    largest = np.fmin(by_name["characteristic"], np.inf)
     largest = np.where(np.isinf(largest), LARGEST_MOBILISATION.get(scene.units, np.inf), largest)
     default = np.fmin(_shortest(scene)[:, None], largest)
-    length = np.where(given["mobilisation"] > 0.0, given["mobilisation"], default)
-    return np.stack([given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
+    length = np.where(by_name["mobilisation"] > 0.0, by_name["mobilisation"], default)
+    return np.stack([by_name["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
 
 
 def _shortest(scene: ResolvedDeck) -> Floats:
@@ -296,9 +296,9 @@ def softens(entry: object) -> bool:
     """Return True if a block of `*SEABED FRICTION` gives a breakout whose residual is below its peak."""
     from mudline.model.contact.laws.breakout import F114_RESIDUAL  # noqa: PLC0415 - only now
 
-    given = cast("FrictionSet", entry)
-    residual = F114_RESIDUAL[0] if given.lateral == "F114" else number(given.residual, "factor")
-    return breaks_out(given) and number(given.peak, "factor") > residual
+    friction = cast("FrictionSet", entry)
+    residual = F114_RESIDUAL[0] if friction.lateral == "F114" else number(friction.residual, "factor")
+    return breaks_out(friction) and number(friction.peak, "factor") > residual
 
 
 def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssignment]:
@@ -324,14 +324,14 @@ def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
     block = _friction_blocks(scene, extension)
     published = extension.says(block, "lateral", "F114")
     peak, residual, size = extension.values(block, "peak", "factor"), F114_RESIDUAL, _sizes(scene)
-    given: dict[str, tuple[Floats | float, Floats]] = {
+    parameters: dict[str, tuple[Floats | float, Floats]] = {
         "peak_displacement": (extension.values(block, "peak", "displacement"), F114_DISPLACEMENTS[0] * size),
         "peak_growth": (0.0, F114_DISPLACEMENTS[1] * size),
         "residual": (extension.values(block, "residual", "factor") / peak, residual[0] / peak),
         "residual_growth": (0.0, residual[1] / peak),
         "residual_displacement": (extension.values(block, "residual", "displacement"), F114_DISPLACEMENTS[2] * size),
     }
-    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in given.items()}
+    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in parameters.items()}
 
 
 def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
@@ -381,8 +381,8 @@ def resistance_diagram(entry: TrenchSet) -> Floats:
     if entry.peak == "TABLE" and entry.table is not None:
         return entry.table.values
     inner, outer = (0.5 * number(entry.geometry, name) for name in ("bottom_width", "upper_width"))
-    held, given = entry.residual, entry.residual is not None
-    residual = (number(held, "resistance"), number(held, "displacement")) if given else None
+    held, has_residual = entry.residual, entry.residual is not None
+    residual = (number(held, "resistance"), number(held, "displacement")) if has_residual else None
     return diagram(inner, outer, number(entry, "peak"), residual)
 
 

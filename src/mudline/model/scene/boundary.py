@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 TRANSLATIONS = frozenset({1, 2, 3})
 
 
-def conditions(scene: Scene, given: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
+def conditions(scene: Scene, block_type: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
     """Yield nodes, degrees of freedom and displacement of each line; a vessel's line without a freedom holds all."""
-    for start, end, step, freedom, value in _ranges(given):
+    for start, end, step, freedom, value in _ranges(block_type):
         nodes = scene.nodes.between(start, end, step)
         if nodes.size:
             yield nodes, TRANSLATIONS if freedom is None else frozenset({freedom}), value
 
 
-def _ranges(given: BoundaryType) -> Iterator[tuple[int, int, int, int | None, float]]:
-    for entry in given.entries:
+def _ranges(block_type: BoundaryType) -> Iterator[tuple[int, int, int, int | None, float]]:
+    for entry in block_type.entries:
         if hasattr(entry, "generate"):
             values = entry.generate
             at, step = freedom_and_step(values)
@@ -46,7 +46,7 @@ def _ranges(given: BoundaryType) -> Iterator[tuple[int, int, int, int | None, fl
                 yield start, end, max(1, step), freedom, number(values, "fifth", 0.0)
         elif isinstance(entry.node, int) and isinstance(entry.dof, int | float):
             yield entry.node, entry.node, 1, int(entry.dof), number(entry, "value", 0.0)
-    for line in given.unread:
+    for line in block_type.unread:
         words = [read_number(word.strip()) for word in line.text.split(",")]
         whole = [int(word) for word in words if word is not None and abs(word) <= LARGEST_WHOLE]
         if words[0] is not None and whole:

@@ -106,8 +106,8 @@ class Context:
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
         """Rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one is used."""
-        found = self.deck.blocks_with("seabed_type")
-        return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
+        surfaces = self.deck.blocks_with("seabed_type")
+        return sorted(surfaces, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Add a problem."""
@@ -171,10 +171,10 @@ class Context:
 
     def _is_excused(self, keyword: str, number: int) -> bool:
         """Return True if an undefined number may be one that could not be read."""
-        found = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
-        for where in found:
+        places = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
+        for where in places:
             self.excused.setdefault(where, set()).add(number)
-        return bool(found)
+        return bool(places)
 
     def report_out_of_sight(self) -> None:
         """Add, once for each unread keyword, how often the deck uses objects that it may define."""
@@ -248,9 +248,9 @@ class Context:
         """Return the name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
         return nearest(folded(word), known, self._effort)
 
-    def generator(self, given: ListRow) -> tuple[int, int, int] | None:
+    def generator(self, row: ListRow) -> tuple[int, int, int] | None:
         """Return the three values of a GEN=, the last one 1 unless given; None if one of them is not known."""
-        values = [getattr(given, name) for name in type(given).model_fields]
+        values = [getattr(row, name) for name in type(row).model_fields]
         if values[2] is None:
             values[2] = 1
         usable = all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in values)
@@ -258,10 +258,10 @@ class Context:
 
     def as_written(self, where: Where) -> object:
         """Return a part of the deck before its equations were evaluated."""
-        found: Any = self.written.sections[where.section].blocks[where.block]
+        part: Any = self.written.sections[where.section].blocks[where.block]
         for step in where.path:
-            found = found[step] if isinstance(step, int) else getattr(found, step)
-        return cast("object", found)
+            part = part[step] if isinstance(step, int) else getattr(part, step)
+        return cast("object", part)
 
     def is_guessed_label(self, where: Where) -> bool:
         """Return True if the label at this place was guessed from a word without braces, which is reported."""
@@ -308,16 +308,16 @@ class Context:
         Each has the first of its places, and that place in words.
         """
         outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
-        found = {name: (f"the *{name} before the first section", Where()) for name in outside}
+        keywords = {name: (f"the *{name} before the first section", Where()) for name in outside}
         places: dict[tuple[str, str], Where] = {}
         for where, section, block in self.deck.every_block():
             if isinstance(block, Opaque):
                 places.setdefault((section, block.keyword), where)
         effort = Effort()
         for (name, keyword), where in places.items():
-            for meant, words in self._meant(name, keyword, effort):
-                found.setdefault(meant, (words, where))
-        return found
+            for likely, words in self._meant(name, keyword, effort):
+                keywords.setdefault(likely, (words, where))
+        return keywords
 
     def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
@@ -340,9 +340,9 @@ class Context:
 
 def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
     """Return the same as `Deck.blocks` for every section and keyword."""
-    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+    blocks: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
     own = len(deck.own_sections)
     for where, section, block in sorted(deck.every_block(), key=lambda placed: placed[0].section < own):
         if type(block) is not Opaque:  # isinstance of a model takes several times as long
-            found.setdefault((section, block.keyword), []).append((where, block))
-    return found
+            blocks.setdefault((section, block.keyword), []).append((where, block))
+    return blocks

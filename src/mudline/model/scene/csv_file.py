@@ -160,26 +160,26 @@ def _exported(
     file: str, text: str, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str]
 ) -> tuple[str, list[str]]:
     """Return the separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
-    wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
+    headings_wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
     headers = {
         separator: [field.strip() for field in next(csv_rows(file, text, separator), ([], 1))[0]]
         for separator in SEPARATORS
     }
     best = max(SEPARATORS, key=lambda separator: len(headers[separator]))
     header = headers[best]
-    given = [field.casefold() for field in header]
+    names_found = [field.casefold() for field in header]
     names = [f"{_UNUSED}{column}" for column in range(len(header))]
-    optional = {name: name for name in known if name not in wanted and name in given}
-    for name, heading in (wanted | optional).items():
+    optional = {name: name for name in known if name not in headings_wanted and name in names_found}
+    for name, heading in (headings_wanted | optional).items():
         sought = heading.strip().casefold()
-        if sought not in given:
+        if sought not in names_found:
             what = "" if heading == name else f" for {name}"
             listed = ", ".join(map(shown, header[:LISTED])) or "nothing"
             more = f" and {len(header) - LISTED} more" if len(header) > LISTED else ""
             raise data_error(file, f"the header lacks {shown(heading)}{what}: it has {listed}{more}")
-        if given.count(sought) > 1:
+        if names_found.count(sought) > 1:
             raise data_error(file, f"the header has {shown(heading)} twice")
-        column = given.index(sought)
+        column = names_found.index(sought)
         if not names[column].startswith(_UNUSED):
             raise data_error(file, f"the column {shown(heading)} is taken for {names[column]} and for {name}")
         names[column] = name

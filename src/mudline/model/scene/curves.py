@@ -102,11 +102,9 @@ def _seabed_curve(context: Context, name: str | None, table: Table, where: Where
     if name is None and not embedment:
         context.unread.add("SEABED STIFFNESS")
     points, rows = _points(table)
-    seabed_curve = SceneCurve(
-        name or "", points, rows, where, None, len(rows) == len(table), embedment, name is not None
-    )
-    curve, whole = _made(context, seabed_curve, OF_SEABED, ("ratio", "force"), where)
-    return seabed_curve._replace(curve=curve, whole=whole)
+    entry = SceneCurve(name or "", points, rows, where, None, len(rows) == len(table), embedment, name is not None)
+    curve, whole = _made(context, entry, OF_SEABED, ("ratio", "force"), where)
+    return entry._replace(curve=curve, whole=whole)
 
 
 def _points(table: Table) -> tuple[Floats, Indices]:
@@ -166,8 +164,8 @@ def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     begins: Mask = np.append(True, ratios[1:] != ratios[:-1])
     starts = np.flatnonzero(begins)
     first_force = np.repeat(forces[starts], np.diff(np.append(starts, len(ratios))))
-    other = forces != first_force
-    return np.sort(order[other]), np.sort(order[~other & ~begins])
+    differs = forces != first_force
+    return np.sort(order[differs]), np.sort(order[~differs & ~begins])
 
 
 OF_SEABED = "force-embedment curve"

@@ -175,7 +175,7 @@ def definition_by(definer: str, keyword: str) -> str:
 
 def unread_makers(definers: Iterable[str], keyword: str) -> list[str]:
     """Return the definers that are not read and may define objects of `keyword`."""
-    return [one for one in definers if keyword in _makes(one) and not is_read_definer(one)]
+    return [definer for definer in definers if keyword in _makes(definer) and not is_read_definer(definer)]
 
 
 def makes_labels(definer: str) -> bool:
@@ -201,11 +201,11 @@ def opaque_labels(deck: Deck) -> dict[str, str]:
 
 
 def _first_written(names: Iterable[str]) -> dict[str, str]:
-    found: dict[str, str] = {}
+    first_written: dict[str, str] = {}
     for name in names:
         if text := bare(name):
-            found.setdefault(folded(text), text)
-    return found
+            first_written.setdefault(folded(text), text)
+    return first_written
 
 
 def _model(deck: Deck) -> Iterator[Block | Opaque]:
@@ -259,7 +259,7 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
     """Yield the KEYs of a line with their values, "" for values without one: the same as `read_line`, but faster."""
     if "[" in line or line.count(",") > _MANY:
         groups = read_line(line, Span(0, len(line))).groups
-        yield from ((group.key, [given.text for given in group.fields]) for group in groups)
+        yield from ((group.key, [field.text for field in group.fields]) for group in groups)
         return
     key, values = "", list[str]()
     for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):

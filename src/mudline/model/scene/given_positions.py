@@ -76,7 +76,7 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
     raise data_error(file, message)
 
 
-def position_doubts(given: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+def position_doubts(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
     """Return doubts about positions (n, 3) of a file: elements without positions, other lengths, few digits."""
     doubts = []
     lost = np.flatnonzero(~present[scene.element_nodes].all(axis=1))
@@ -95,12 +95,12 @@ def position_doubts(given: ContactInput, scene: Scene, present: Mask, places: Fl
             f"{shown(float(scene.length[first]))}): check that the positions are of this deck, and their units"
         )
         doubts.append(PositionDoubt(RUN006, message, off, "distances differ from lengths"))
-    return [*doubts, *_few_digits(given, scene, present, places)]
+    return [*doubts, *_few_digits(contact_input, scene, present, places)]
 
 
-def _few_digits(given: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+def _few_digits(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
     """Return a doubt about coordinates whose rounding moves nodes by much of their mobilisation length."""
-    friction = given.assigned.get("friction")
+    friction = contact_input.assigned.get("friction")
     if friction is None:
         return []
     here = present[friction.rows]

@@ -93,7 +93,7 @@ class TableForm:
 def table_forms() -> tuple[TableForm, ...]:
     """Return the tables of all keywords."""
     classes = catalogue.block_classes()
-    records = ((one, record) for one in classes for slot in record_schema(one).slots for record in slot.record.values())
+    records = ((cls, record) for cls in classes for slot in record_schema(cls).slots for record in slot.record.values())
     return tuple(form for declared, record in records for form in _of_record(declared, record))
 
 
@@ -183,52 +183,52 @@ def _head(sheet: WorkbookSheet) -> _Head | None:
 
     Raises DeckError if it has most of the headings of a keyword, or a heading that the keyword does not have.
     """
-    given: dict[str, tuple[Cell, str]] = {}
+    cells: dict[str, tuple[Cell, str]] = {}
     for cell in sheet.rows[0] if sheet.rows else ():
         match = _HEADING.fullmatch(str(cell.value))
         name, unit = (match["name"], match["unit"] or "") if match else ("", "")
         word = plain(name)
-        if word in given:
+        if word in cells:
             what = f"a second column {name.strip().lower()}: give each curve a sheet of its own, or name it in a column"
             raise sheet.fault(cell.row, cell.column, what)
-        given[word] = cell, unit
-    forms = [form for form in table_forms() if any(column.headings & given.keys() for column in form.columns)]
+        cells[word] = cell, unit
+    forms = [form for form in table_forms() if any(column.headings & cells.keys() for column in form.columns)]
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
-    fitting = [form for form in titled or forms if all(column.headings & given.keys() for column in form.required)]
-    fitting = [form for form in fitting if form.name is None or form.curve or form.name.headings & given.keys()]
+    fitting = [form for form in titled or forms if all(column.headings & cells.keys() for column in form.required)]
+    fitting = [form for form in fitting if form.name is None or form.curve or form.name.headings & cells.keys()]
     if not fitting:
-        _refuse(sheet, given, titled or forms)
+        _refuse(sheet, cells, titled or forms)
         return None
-    known = {form: sum(bool(column.headings & given.keys()) for column in form.columns) for form in fitting}
+    known = {form: sum(bool(column.headings & cells.keys()) for column in form.columns) for form in fitting}
     best = [form for form in fitting if known[form] == max(known.values())]
     best = [form for form in best if not catalogue.is_superseded(form.keyword)] or best
     if len(best) > 1:
         what = f"the headings are those of {' and '.join(f'*{form.keyword}' for form in best)}"
         cell = sheet.rows[0][0]
         raise sheet.fault(cell.row, cell.column, f"{what}: give the sheet the name of one of them")
-    return _placed(sheet, best[0], given)
+    return _placed(sheet, best[0], cells)
 
 
-def _refuse(sheet: WorkbookSheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
+def _refuse(sheet: WorkbookSheet, cells: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
     """Raise DeckError for a sheet that has most of the headings of a keyword, or half of those of a curve."""
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
     newer = [form for form in forms if not catalogue.is_superseded(form.keyword)]
     for form in titled or sorted(newer, key=lambda form: form.declared.subject != "seabed"):
-        there = [column for column in form.required if column.headings & given.keys()]
+        there = [column for column in form.required if column.headings & cells.keys()]
         lacks = [column.spec.label for column in form.required if column not in there]
         if lacks and len(there) >= len(lacks) + (form.curve is None):
-            cell = next(given[heading][0] for heading in there[0].headings if heading in given)
+            cell = next(cells[heading][0] for heading in there[0].headings if heading in cells)
             what = f"a column {there[0].spec.label} and none headed {' or '.join(lacks)}"
             raise sheet.fault(cell.row, cell.column, f"{what}: *{form.keyword} needs both, in the first row")
 
 
-def _placed(sheet: WorkbookSheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]) -> _Head:
+def _placed(sheet: WorkbookSheet, form: TableForm, cells: Mapping[str, tuple[Cell, str]]) -> _Head:
     places: dict[TableColumn, int] = {}
     units: dict[TableColumn, str] = {}
-    for word, (cell, unit) in given.items():
-        column = next((one for one in form.columns if word in one.headings), None)
+    for word, (cell, unit) in cells.items():
+        column = next((known_column for known_column in form.columns if word in known_column.headings), None)
         if column is None or column in places:
-            known = ", ".join(one.label for one in form.columns)
+            known = ", ".join(known_column.label for known_column in form.columns)
             what = f"*{form.keyword} has no column {cut(str(cell.value), 40)!r}: it has {known}; leave others out"
             raise sheet.fault(cell.row, cell.column, what)
         places[column], units[column] = cell.column, unit
@@ -294,10 +294,10 @@ def _entries(sheet: WorkbookSheet, head: _Head) -> list[_NamedRows]:
 
 
 def _name(
-    sheet: WorkbookSheet, place: int, column: TableColumn, given: Mapping[int, Cell], row: int, above: str | None
+    sheet: WorkbookSheet, place: int, column: TableColumn, cells: Mapping[int, Cell], row: int, above: str | None
 ) -> str:
     """Return the name of a row; a blank name is that of the row above, in the first row that of all elements."""
-    cell = given.get(place)
+    cell = cells.get(place)
     if cell is not None:
         return str(_value(sheet, cell, "a name")).strip()
     if above is None and column.spec.required:
@@ -305,12 +305,12 @@ def _name(
     return ALL.upper() if above is None else above
 
 
-def _line(sheet: WorkbookSheet, head: _Head, given: Mapping[int, Cell], row: int) -> str:
+def _line(sheet: WorkbookSheet, head: _Head, cells: Mapping[int, Cell], row: int) -> str:
     """Return the fields of a row; empty fields at the end are left out."""
     fields: list[str] = []
     for column in head.form.values:
         place = head.places.get(column, 0)
-        cell = given.get(place)
+        cell = cells.get(place)
         if cell is None:
             if column.spec.required:
                 raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
@@ -353,7 +353,7 @@ def _value(sheet: WorkbookSheet, cell: Cell, expected: str) -> object:
 def _add(known: list[_NamedRows], more: Sequence[_NamedRows], form: TableForm) -> None:
     """Add the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
     for entry in more:
-        same = next((one for one in known if one.name.casefold() == entry.name.casefold() and form.name), None)
+        same = next((each for each in known if each.name.casefold() == entry.name.casefold() and form.name), None)
         if same is not None:
             key = form.name.spec.key.lower() if form.name else ""
             what = f"the {key} {cut(entry.name, 40)!r} is also on the sheet {same.sheet.title}: rename one"
@@ -378,11 +378,11 @@ class _DeckText:
         self.places[len(self.lines)] = entry.sheet, *place
 
 
-def _deck(made: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: str) -> Deck:
+def _deck(tables: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: str) -> Deck:
     """Return the deck with the lines of all tables; raises DeckError at cells that a deck cannot hold."""
     text = _DeckText()
     section = ""
-    for form, entries in sorted(made.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
+    for form, entries in sorted(tables.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
         if form.section != section:
             section = form.section
             text.lines.append(f"${section}")
@@ -398,13 +398,13 @@ def _deck(made: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: str)
         if problem.weight is Severity.ERROR:
             place = text.places.get(deck.place(problem).line, next(iter(text.places.values())))
             raise place[0].fault(*place[1:], problem.message)
-    _check(deck, made)
+    _check(deck, tables)
     return deck
 
 
-def _check(deck: Deck, made: Mapping[TableForm, Sequence[_NamedRows]]) -> None:
+def _check(deck: Deck, tables: Mapping[TableForm, Sequence[_NamedRows]]) -> None:
     """Raise DeckError for a name that reads otherwise in a deck, and for points that do not form a curve."""
-    for form, entries in made.items():
+    for form, entries in tables.items():
         block = next(block for _, block in deck.blocks(form.keyword, form.section))
         slot = next(slot for slot in record_schema(form.declared).slots if slot.record)
         for entry, record in zip(entries, getattr(block, slot.name), strict=True):

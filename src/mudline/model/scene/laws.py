@@ -149,8 +149,8 @@ def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[S
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
-        found = sets.find(curve.name) if curve.named else None
-        holder = found or _unknown(curve.name)
+        set_ = sets.find(curve.name) if curve.named else None
+        holder = set_ or _unknown(curve.name)
         yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
 
@@ -350,9 +350,9 @@ class Extension(NamedTuple):
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
     """Return the extensions that the deck gives, by keyword in the order of the catalogue."""
-    given = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
-    found = {}
-    for keyword in catalogue.in_order(given):
+    keywords = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
+    extensions = {}
+    for keyword in catalogue.in_order(keywords):
         extension = Extension([], [], [], np.zeros(0, dtype=np.intp))
         for where, block in context.blocks(keyword):
             for listed, named in set_slots(type(cast("Block", block))):
@@ -363,5 +363,5 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
                     extension.entries.append(entry)
                     extension.places.append(where.inside(listed.json, index))
                     extension.sets.append(None if name is None else sets.find(name))
-        found[keyword] = extension._replace(of_element=later_wins(extension.sets, count))
-    return found
+        extensions[keyword] = extension._replace(of_element=later_wins(extension.sets, count))
+    return extensions

@@ -85,9 +85,9 @@ def _coordinates(table: Table) -> Floats:
     """Return the coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
     if not (table.full and table.values.shape[1] == 3):
         return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
-    found = np.zeros((len(table), 3))
-    found[:, :2] = table.values[:, 1:]
-    return found
+    coordinates = np.zeros((len(table), 3))
+    coordinates[:, :2] = table.values[:, 1:]
+    return coordinates
 
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
@@ -102,9 +102,9 @@ def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Whe
     return unknown
 
 
-def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
+def _node_line(context: Context, gathered: Definitions, range_: NodeRange, where: Where) -> _NodeLine | None:
     place = where.inside("generate")
-    numbers = context.generator(given)
+    numbers = context.generator(range_)
     if numbers is None:
         context.unread.add("NODE")
         return None
@@ -124,8 +124,8 @@ def _node_line(context: Context, gathered: Definitions, given: NodeRange, where:
     return _NodeLine(DefinitionBatch(ids, np.full((count, 3), np.nan), place), (start, end))
 
 
-def _most(made: str) -> str:
-    return f"the GEN= lines of a deck must not make more than {MOST_GENERATED} {made}, overlaps counted"
+def _most(objects: str) -> str:
+    return f"the GEN= lines of a deck must not make more than {MOST_GENERATED} {objects}, overlaps counted"
 
 
 def _between(gathered: Definitions, line: _NodeLine) -> bool:
@@ -211,9 +211,9 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
             context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)
 
 
-def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
+def _add_pattern(context: Context, gathered: Definitions, pattern: ElementPattern, where: Where) -> None:
     place = where.inside("generate")
-    numbers = context.generator(given)
+    numbers = context.generator(pattern)
     if numbers is None:
         context.unread.add("ELEMENT")
         return
@@ -251,17 +251,17 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     """Return node indices; each end at an undefined node is reported, a generator's once."""
     indices = np.empty(elements.values.shape, dtype=np.intp)
-    found: list[Indices] = []
+    missing_ends: list[Indices] = []
     for block in blocks_of(len(elements)):
         numbered, numbers = _node_numbers(elements.values[block])
         indices[block] = np.where(numbered, nodes.indices(numbers), -1)
         lacks = numbered & (indices[block] < 0)
         if np.count_nonzero(lacks):
-            found.append(np.argwhere(lacks))
-            found[-1][:, 0] += block.start
-    if not found:
+            missing_ends.append(np.argwhere(lacks))
+            missing_ends[-1][:, 0] += block.start
+    if not missing_ends:
         return indices
-    missing = np.concatenate(found)
+    missing = np.concatenate(missing_ends)
     batches = elements.batches_of(elements.rows[missing[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
     _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(missing))), return_index=True)
@@ -277,8 +277,8 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
 
 def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
     """Return a mask of values that are numbers of nodes, and the numbers, 0 elsewhere."""
-    given = np.abs(values) <= 2 * LARGEST_WHOLE
-    return given, np.where(given, values, 0).astype(np.int64)
+    usable = np.abs(values) <= 2 * LARGEST_WHOLE
+    return usable, np.where(usable, values, 0).astype(np.int64)
 
 
 def _lengths(ends: Indices, coordinates: Floats) -> Floats:
@@ -303,12 +303,12 @@ def distances(points: Floats, others: Floats) -> Floats:
     with np.errstate(all="ignore"):
         span = np.subtract(others, points)
         square = np.add.reduce(span**2, axis=1)
-        found: Floats = np.sqrt(square)
+        lengths: Floats = np.sqrt(square)
         if np.count_nonzero(odd := (square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE)):
             largest = np.abs(span[odd]).max(axis=1, initial=0.0)
             scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
-            found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
-    return found
+            lengths[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
+    return lengths
 
 
 def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:

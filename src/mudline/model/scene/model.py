@@ -116,9 +116,9 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     `external` adds elements that the deck does not show, or replaces its own. The models of the decks that it continues
     belong to the scene, if they are found next to it; their faults are in `problems` too.
     """
-    whole, found = continued(deck)
+    whole, problems_of_restart = continued(deck)
     ready, problems = evaluated(whole)
-    context = Context(ready, whole, [*found, *problems])
+    context = Context(ready, whole, [*problems_of_restart, *problems])
     if external is not None:
         context.external_definers = []
     nodes = read_nodes(context, external)

@@ -193,11 +193,11 @@ class Numbered:
 
     def indices(self, ids: Ids) -> Indices:
         """Return indices of numbers, -1 for those not defined."""
-        found = np.full(ids.shape, -1, dtype=np.intp)
+        indices = np.full(ids.shape, -1, dtype=np.intp)
         for order, ordered in self._ascending():
             at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)
-            np.copyto(found, order[at], where=ordered[at] == ids)
-        return found
+            np.copyto(indices, order[at], where=ordered[at] == ids)
+        return indices
 
     def between(self, start: int, end: int, step: int) -> Indices:
         """Return indices of the numbers start, start + step, ... up to end, in ascending order."""
@@ -243,10 +243,10 @@ def marked(flags: Iterable[bool], index: Indices) -> Mask:
 
 def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:
     """Return for each node the last block, by the order of the file, that one of its elements follows; -1 for none."""
-    found = np.full(nodes, -1, dtype=np.intp)
+    last = np.full(nodes, -1, dtype=np.intp)
     for end in element_nodes.T:
-        np.maximum.at(found, end, of_element)
-    return found
+        np.maximum.at(last, end, of_element)
+    return last
 
 
 def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
@@ -259,6 +259,6 @@ def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
 
 def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
     """Return a mask of the nodes with a marked element."""
-    found = np.zeros(nodes, dtype=np.bool_)
-    found[element_nodes[elements].ravel()] = True
-    return found
+    marked_nodes = np.zeros(nodes, dtype=np.bool_)
+    marked_nodes[element_nodes[elements].ravel()] = True
+    return marked_nodes

@@ -103,10 +103,10 @@ class _Carried:
 
     def spread(self, values: Floats) -> Floats:
         """Return values per unit length of elements (m,) as those of their nodes (n,)."""
-        found = np.zeros(self.nodes)
+        of_nodes = np.zeros(self.nodes)
         for end, share in zip(self.ends.T, self._shares, strict=True):
-            np.add.at(found, end, share * values)
-        return found
+            np.add.at(of_nodes, end, share * values)
+        return of_nodes
 
     def leading(self, values: Floats) -> Mask:
         """Return a mask (m, 2) of the elements that give the most to each of their two nodes."""
@@ -199,11 +199,9 @@ def _of_nodes(scene: ResolvedDeck, stiffness: Floats, carried: _Carried) -> Iter
     blocks = at_nodes(np.where(scene.nodal, contact.of_element, -1), carried.ends, carried.nodes)
     for value in np.unique(stiffness[stiffness > 0.0]).tolist():
         nodes = np.flatnonzero(stiffness == value)
-        for contact_of_value in _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried):
-            place = contact.places[int(blocks[contact_of_value.node])].inside("nodal_stiffness")
-            yield contact_of_value._replace(
-                name=f"{contact_of_value.name} at node {scene.node_ids[contact_of_value.node]}", where=place
-            )
+        for spring in _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried):
+            place = contact.places[int(blocks[spring.node])].inside("nodal_stiffness")
+            yield spring._replace(name=f"{spring.name} at node {scene.node_ids[spring.node]}", where=place)
 
 
 def _of_node(kind: str, name: str, nodes: Indices, stiffness: Floats, carried: _Carried) -> Iterator[Oscillation]:
@@ -234,7 +232,7 @@ def _of_springs(
             place = scene.resistance.places[index].inside("friction")
             on = np.flatnonzero(scene.resistance.of_element == index)[0]
             name = f"friction on {_set_of_resistance(scene, int(on))}"
-        yield from (one._replace(where=place) for one in _of_node(kind, name, group, stiffness, carried))
+        yield from (contact._replace(where=place) for contact in _of_node(kind, name, group, stiffness, carried))
 
 
 def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation]:
@@ -259,9 +257,9 @@ def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> 
             continue  # its stiffness, or its damping, has no largest value
         place = own.places[index].inside("cohesion" if getattr(own.entries[index], "force", None) is None else "force")
         tried = [
-            (one, share * slow)
+            (contact, share * slow)
             for share, values in zip(_RISES.tolist(), stiffness, strict=True)
-            for one in _of_group("suction mobilisation", name, group, values, carried, place)
+            for contact in _of_group("suction mobilisation", name, group, values, carried, place)
         ]
         if tried:
             at_largest, speed = max(tried, key=lambda each: each[0].omega)

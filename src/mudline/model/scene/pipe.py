@@ -54,7 +54,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     table, around = scene.section_table, scene.surroundings
     filled = contents(scene)
     inside = filled[-1].mass if filled else np.zeros(len(scene.element_ids))
-    added, drag, given, with_buoyancy, along = _coefficients(scene)
+    added, drag, from_deck, with_buoyancy, along = _coefficients(scene)
     entries = [section.entry.section for section in table.sections]
     outer = picked((number(each, "do", number(each, "dd")) for each in entries), table.of_element)
     drag_diameter = picked((number(each, "dd", number(each, "do")) for each in entries), table.of_element)
@@ -72,7 +72,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
             drag=0.5 * drag * around.density * drag_diameter,
             drag_coefficient=drag,
             added_mass_coefficient=added,
-            has_coefficients=given,
+            has_coefficients=from_deck,
             bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
             axial=picked((each.axial for each in of_sections), table.of_element),
             axial_drag_coefficient=along[:, 0],
@@ -87,7 +87,7 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floa
     """
     count = len(scene.element_ids)
     added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
-    given, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    from_deck, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     along = np.zeros((count, 2))
     for _, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
         hydrodynamic = cast("HydrodynamicSets", block)
@@ -101,5 +101,5 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floa
             added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
             drag[rows] = number(row, "normal_drag", _DRAG)
             along[rows] = [number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass")]
-            given[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
-    return added, drag, given, with_buoyancy, along
+            from_deck[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
+    return added, drag, from_deck, with_buoyancy, along

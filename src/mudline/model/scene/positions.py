@@ -74,16 +74,16 @@ class StepFile(StepReader):
         if not isinstance(steps, slice):
             return cast("Reals", self[steps : steps + 1][0])
         first, last, _ = steps.indices(len(self))
-        found = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
-        left = found.reshape(-1).view(np.uint8).data
-        self._stream.seek(self._offset + first * found[:1].nbytes)
+        values = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
+        left = values.reshape(-1).view(np.uint8).data
+        self._stream.seek(self._offset + first * values[:1].nbytes)
         while left:
             count = self._stream.readinto(left)
             if not count:
                 message = "the file has become shorter while it was read: wait until it is written, and try again"
                 raise data_error(self._file, message)
             left = left[count:]
-        return found if self._order is None else found[:, self._order]
+        return values if self._order is None else values[:, self._order]
 
 
 def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
@@ -159,8 +159,8 @@ def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
 
 def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> None:
     """Raise DeckError unless every step has every node of the file once."""
-    given, index = np.unique(ids, return_inverse=True)
-    cells = step * len(given) + index
+    nodes, index = np.unique(ids, return_inverse=True)
+    cells = step * len(nodes) + index
     order = np.argsort(cells, kind="stable")
     ordered = cells[order]
     repeats = np.flatnonzero(ordered[1:] == ordered[:-1])
@@ -168,10 +168,10 @@ def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> No
         row = int(order[repeats[0] + 1])
         message = f"node {ids[row]} is given twice{_at(times, int(step[row]))}"
         raise data_error(table.file, message, table.lines[row])
-    if len(cells) < len(times) * len(given):
+    if len(cells) < len(times) * len(nodes):
         gaps = np.flatnonzero(ordered != np.arange(len(ordered)))
-        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
-        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, at_step)}")
+        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(nodes))
+        raise data_error(table.file, f"node {nodes[lacking]} is missing{_at(times, at_step)}")
 
 
 def _at(times: Floats, step: int) -> str:
@@ -201,11 +201,11 @@ def _from_npy(path: Path, nodes: Numbered) -> Positions:
         with _from_old_python():
             mapped = np.lib.format.open_memmap(path, mode="r")  # reads the header only
             in_steps = mapped.ndim == 3 and mapped.dtype.kind == "f" and mapped.flags.c_contiguous
-            given = mapped if in_steps else np.load(path, allow_pickle=False)
+            array = mapped if in_steps else np.load(path, allow_pickle=False)
     except _UNREADABLE as error:
         raise data_error(file, f"not an NPY array: {error}") from error
-    found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes, ordered=in_steps)
-    return replace(found, values=StepFile(path, mapped, _ranks(nodes))) if in_steps else found
+    positions = _from_arrays(file, {"positions": _real(file, "positions", array)}, nodes, ordered=in_steps)
+    return replace(positions, values=StepFile(path, mapped, _ranks(nodes))) if in_steps else positions
 
 
 def _load_npz(path: Path) -> dict[str, Reals]:
@@ -275,19 +275,19 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
         if arrays["node"].ndim != 1:
             raise _wrong_shape(file, "node", arrays["node"], "one axis")
         ids = whole_numbers(file, "node", finite(file, "node", arrays["node"]))
-    given = arrays["positions"]
+    positions = arrays["positions"]
     expected = len(nodes) if ids is None else len(ids)
-    values = given[np.newaxis] if given.ndim == 2 else given
+    values = positions[np.newaxis] if positions.ndim == 2 else positions
     if values.ndim != 3 or values.shape[1:] != (expected, 3):
-        raise _wrong_shape(file, "positions", given, f"(steps, {expected}, 3) or ({expected}, 3)")
+        raise _wrong_shape(file, "positions", positions, f"(steps, {expected}, 3) or ({expected}, 3)")
     if not len(values):
         raise data_error(file, "positions holds no time step")
     velocities = arrays.get("velocities")
     if velocities is not None:
-        if velocities.shape != given.shape:
-            raise _wrong_shape(file, "velocities", velocities, str(given.shape))
+        if velocities.shape != positions.shape:
+            raise _wrong_shape(file, "velocities", velocities, str(positions.shape))
         velocities = velocities.reshape(values.shape)
-    counted = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
+    counted = None if positions.ndim == 2 else np.arange(len(values), dtype=np.float64)
     time = _times(file, arrays["time"], len(values)) if "time" in arrays else counted
     present = np.full(len(nodes), ids is None)
     if ids is not None:
@@ -304,15 +304,15 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
     return Positions(values, present, time, velocities, "time" in arrays, ids is not None)
 
 
-def _times(file: str, given: Reals, steps: int) -> Floats:
+def _times(file: str, times: Reals, steps: int) -> Floats:
     """Return the time of each step; a single state may have a scalar."""
-    if given.shape != (steps,) and not (given.shape == () and steps == 1):
-        raise _wrong_shape(file, "time", given, f"({steps},)")
-    return finite(file, "time", given)
+    if times.shape != (steps,) and not (times.shape == () and steps == 1):
+        raise _wrong_shape(file, "time", times, f"({steps},)")
+    return finite(file, "time", times)
 
 
-def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:
-    return data_error(file, f"{name} has the shape {found.shape}, expected {expected}")
+def _wrong_shape(file: str, name: str, array: Reals, expected: str) -> DeckError:
+    return data_error(file, f"{name} has the shape {array.shape}, expected {expected}")
 
 
 def _real(file: str, name: str, array: NDArray[np.generic]) -> Reals:

@@ -110,7 +110,7 @@ def _doubt(context: Context, definers: Collection[str]) -> str:
         if unsure or (block.keyword in definers and context.deck.lost(where)):
             return f"; a line of *{block.keyword} that was not read may define it"
     words = (context.possible_definition(keyword) for keyword in definers)
-    return next((f"; {one}" for one in words if one), "")
+    return next((f"; {definition}" for definition in words if definition), "")
 
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
@@ -127,7 +127,7 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
     """Yield names that are not used: an info if the keywords that would use them are not read, or not in the deck."""
     raw = ""
     for kind, names in names_of(context, kinds).items():
-        used = {name_key(one.name) for one in names.used}
+        used = {name_key(use.name) for use in names.used}
         users = catalogue.users(kind)
         for key, (first, *_) in names.defined.items():
             if key in used:
@@ -156,7 +156,7 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
     Postprocessing may have its own sets in addition to those of the model.
     """
     own: dict[str, str] | None = None
-    for name, where in ((one.name, one.where) for one in context.once(every_name)[Names.SET].used):
+    for name, where in ((use.name, use.where) for use in context.once(every_name)[Names.SET].used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
@@ -165,7 +165,7 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
             if name_key(name) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(one.name) for one in context.once(every_name)[Names.CURVE].used)
+    laws.referenced.update(folded(use.name) for use in context.once(every_name)[Names.CURVE].used)
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
@@ -190,7 +190,7 @@ def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
 
 def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
     """Return the names of some kinds that the fields of a deck use, with their places."""
-    return ((one.where, one.name) for one in deck.names() if one.role == "names" and one.kind in kinds)
+    return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
 
 
 def check_soil(context: Context, nodes: Numbered) -> None:
@@ -216,8 +216,8 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
 
 @cache
 def _names_idents(block: type[Block]) -> bool:
-    made = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
-    return not made and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
+    elsewhere = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
+    return not elsewhere and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
 
 
 def check_chains(context: Context) -> None:
@@ -225,9 +225,9 @@ def check_chains(context: Context) -> None:
     known: set[object] = set()
     for where, block in context.blocks("DRAG CHAIN"):
         for index, chain in enumerate(cast("DragChains", block).chains):
-            given = getattr(chain, "generate", None)
-            master = getattr(chain, "node", None) if given is None else given.master
-            if given is None:
+            generate = getattr(chain, "generate", None)
+            master = getattr(chain, "node", None) if generate is None else generate.master
+            if generate is None:
                 known.add(master)
             elif isinstance(master, int) and master not in known and "DRAG CHAIN" not in context.unread:
                 message = f"GEN= repeats the chain of a node: node {master} has none before this line; define it above"
@@ -322,17 +322,17 @@ def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Wh
         why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
         context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
         return
-    found = len(nodes.between(start, end, step)) if len(nodes) else 0
-    wanted = (end - start) // step + 1
-    if found < wanted and shows_nodes(context, nodes) and not context.possible_definition("NODE"):
-        message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
-        context.report(REF006, message, where, Severity.WARNING if found else None)
+    existing = len(nodes.between(start, end, step)) if len(nodes) else 0
+    expected = (end - start) // step + 1
+    if existing < expected and shows_nodes(context, nodes) and not context.possible_definition("NODE"):
+        message = f"{written}: {expected - existing} of these {expected} are not defined; correct it, or define them"
+        context.report(REF006, message, where, Severity.WARNING if existing else None)
 
 
-def _check_freedom(context: Context, given: object, where: Where) -> None:
-    if _is_no_freedom(given):
+def _check_freedom(context: Context, freedom: object, where: Where) -> None:
+    if _is_no_freedom(freedom):
         expected = "expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
-        context.report(SYN005, f"{given} is not a degree of freedom: {expected}", where)
+        context.report(SYN005, f"{freedom} is not a degree of freedom: {expected}", where)
 
 
 def freedom_and_step(values: FixedValues) -> tuple[int, object]:

@@ -164,9 +164,9 @@ class ResolvedDeck:
     @property
     def lacks(self) -> bool:
         """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
-        curves = {folded(one.name) for one in self.laws.curves if not one.embedment}
-        clashing = any(one.curve is not None and not one.whole for one in self.laws.curves)
-        missing = any(one.lacks for one in self.noticed) or not self.laws.referenced <= curves
+        curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
+        clashing = any(each.curve is not None and not each.whole for each in self.laws.curves)
+        missing = any(each.lacks for each in self.noticed) or not self.laws.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
 
@@ -282,16 +282,16 @@ class ResolvedDeck:
     @property
     def replacing(self) -> Indices:
         """Block of its keyword that replaced the law of each element (m,), -1 for those that keep their own."""
-        found = np.full(len(self.element_ids), -1)
+        blocks = np.full(len(self.element_ids), -1)
         for _, _, extension, elements in self.replaced:
-            found = np.where(elements, extension.of_element, found)
-        return found
+            blocks = np.where(elements, extension.of_element, blocks)
+        return blocks
 
     @cached_property
     def nodal(self) -> Mask:
         """Elements (m,) with nodal stiffness: `*SEABED CONTACT` replaces their law."""
-        found: Mask = self.law == LawKind.NODAL
-        return found
+        nodal: Mask = self.law == LawKind.NODAL
+        return nodal
 
     @cached_property
     def laws_given(self) -> NDArray[np.int8]:
@@ -302,10 +302,10 @@ class ResolvedDeck:
     @cached_property
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
-        found = self.laws_given
+        kinds = self.laws_given
         for kind, _, _, elements in self.replaced:
-            found = np.where(elements, np.int8(kind), found)
-        return found
+            kinds = np.where(elements, np.int8(kind), kinds)
+        return kinds
 
     @cached_property
     def law_names(self) -> list[str]:

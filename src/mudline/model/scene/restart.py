@@ -205,8 +205,8 @@ def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
     except (OSError, ValueError):
         return None
     known = (listed.get(PurePath(name).name.casefold()) for name in names)
-    found = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
-    return next((path for path in found if path is not None), None)
+    files = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
+    return next((path for path in files if path is not None), None)
 
 
 @lru_cache(maxsize=4)

@@ -110,16 +110,16 @@ _FLAT = SeabedShape()
 
 def read_seabed(context: Context) -> SeabedShape:
     """Return the seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else the surface's."""
-    found = _FLAT
+    shape = _FLAT
     unreadable: list[tuple[Where, str]] = []
     for where, surface in context.surfaces:
-        found = _surface(surface, where, found)
+        shape = _surface(surface, where, shape)
     for where, block in context.blocks("SEABED PROFILE"):
-        found = _profile(context, cast("SeabedProfile", block), where, unreadable)
+        shape = _profile(context, cast("SeabedProfile", block), where, unreadable)
     blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.blocks("SEABED PLANES")]
     if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
-        found = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
-    return replace(found, unreadable=tuple(unreadable)) if unreadable else found
+        shape = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
+    return replace(shape, unreadable=tuple(unreadable)) if unreadable else shape
 
 
 def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
@@ -195,16 +195,16 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
     source = Source.from_bytes(data, name)
     if not source.readable:
         raise ValueError(source.problems[0].message)
-    wanted = "Y, elevation" if columns == 2 else "X, Y, Z"
+    expected = "Y, elevation" if columns == 2 else "X, Y, Z"
     rows: list[list[float]] = []
     for at, line in enumerate(source.unified.split("\n"), 1):
         if line.strip() and not line.startswith("C"):
             words = _PARTS.split(line.strip(" \t\r\n,"))
             if len(words) != columns:
-                raise ValueError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
+                raise ValueError(f"line {at}: expected {columns} numbers (`{expected}`), found {len(words)}")
             rows.append([number_of(word, at) for word in words])
     if len(rows) < 2:
-        raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
+        raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{expected}`")
     return np.array(rows, dtype=np.float64)
 
 

@@ -75,7 +75,7 @@ class Sets:
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place if no set has it."""
         if self.find(name) is None:
-            hint = self.context.hint(name, {key: found.name for key, found in self.named.items()})
+            hint = self.context.hint(name, {key: set_.name for key, set_ in self.named.items()})
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
@@ -155,13 +155,13 @@ class _SetReader:
                 name = known_name(cast("SetSubset", member).subset)
                 if name is None:
                     continue
-                other = name_key(name)
-                if other in unfinished:
+                subset = name_key(name)
+                if subset in unfinished:
                     message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
                     self.context.report(REF008, message, where.inside("members", index, "subset"))
-                elif other in self.definitions:
-                    waiting.append(other)
-                elif other not in named:
+                elif subset in self.definitions:
+                    waiting.append(subset)
+                elif subset not in named:
                     hint = self.context.hint(name, self._names)
                     message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                     place = where.inside("members", index, "subset")
@@ -184,22 +184,22 @@ class _SetReader:
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
-                    found, whole = self._subset(cast("SetSubset", member).subset)
+                    elements, whole = self._subset(cast("SetSubset", member).subset)
                 elif member.rule == "set_list":
-                    found, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    elements, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:
-                    given = cast("SetGenerate", member).generate
-                    found, whole = self._range(given, where.inside("members", index))
-                parts.append(found)
+                    range_ = cast("SetGenerate", member).generate
+                    elements, whole = self._range(range_, where.inside("members", index))
+                parts.append(elements)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
-    def _subset(self, given: str) -> tuple[Indices, bool]:
-        name = known_name(given)
-        found = None if name is None else self.sets.named.get(name_key(name))
-        return (_NOTHING, False) if found is None else (found.elements, not found.open)
+    def _subset(self, subset: str) -> tuple[Indices, bool]:
+        name = known_name(subset)
+        set_ = None if name is None else self.sets.named.get(name_key(name))
+        return (_NOTHING, False) if set_ is None else (set_.elements, not set_.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Return indices of the elements of a list in ascending order, and True if these are all."""
@@ -227,10 +227,10 @@ class _SetReader:
             message = f"element {number} is not defined: define it in *ELEMENT"
             self.context.report_missing(REF005, message, place, "ELEMENT", number)
 
-    def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
+    def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Return the elements of a range, without building it: a typing error may make it very long."""
         place = where.inside("generate")
-        numbers = self.context.generator(given)
+        numbers = self.context.generator(range_)
         if numbers is None:
             return _NOTHING, False
         start, end, step = numbers
@@ -238,19 +238,19 @@ class _SetReader:
             why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
             self.context.report(REF010, f"GEN={start}, {end}, {step} holds nothing: {why}", place, Severity.ERROR)
             return _NOTHING, False
-        found = self.elements.between(start, end, step)
-        wanted = (end - start) // step + 1
-        lacking = wanted - len(found)
+        elements = self.elements.between(start, end, step)
+        count = (end - start) // step + 1
+        lacking = count - len(elements)
         if lacking and not self.context.possible_definition("ELEMENT"):
             first = self._first_lacking(start, end, step)
             if lacking == 1:
                 message = f"GEN={start}, {end}, {step}: element {first} is not defined: correct it, or define that"
             else:
-                lacks = f"{lacking} of its {wanted} elements are not defined (first: {first})"
+                lacks = f"{lacking} of its {count} elements are not defined (first: {first})"
                 message = f"GEN={start}, {end}, {step}: {lacks}: correct it, or define them"
-            severity = Severity.WARNING if len(found) else None
+            severity = Severity.WARNING if len(elements) else None
             self.context.note(Problem(REF005, message, None, severity, place, lacks=str(first)))
-        return found, not lacking
+        return elements, not lacking
 
     def _first_lacking(self, start: int, end: int, step: int) -> int:
         """Return the first number of a range that no element has."""

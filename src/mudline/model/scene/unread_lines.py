@@ -84,7 +84,7 @@ def unread_lines(context: Context) -> list[tuple[Where, str, str]]:
 
 
 def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
-    deck, found = context.written, list[tuple[Where, str, str]]()
+    deck, unread = context.written, list[tuple[Where, str, str]]()
     for at, _, block in deck.alone.every_block():
         lines: Iterable[tuple[Path, str]]
         if type(block) is Opaque:
@@ -96,8 +96,8 @@ def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
             lines = ((("unread", n), line) for n, line in enumerate(kept))
         else:
             lines = kept_places(block)
-        found += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
-    return found
+        unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
+    return unread
 
 
 def _uses_any_curve(line: str) -> bool:
@@ -138,10 +138,10 @@ class _Looking:
         for problem in problems:
             self._unclosed(problem, where, line)
         for group in groups:
-            for given in group.fields:
-                self._label(given, where)
+            for field in group.fields:
+                self._label(field, where)
                 if known and group.key not in _FREE:
-                    self._number(given, where)
+                    self._number(field, where)
             value = group.fields[0]
             if known and value.text and not value.text.startswith("=["):
                 if check := self.checks.get(group.key):
@@ -160,9 +160,9 @@ class _Looking:
             return
         if node is not None:
             self._follower(node, where.inside(*first.span), nodes)
-        for given in others:
-            if given.text and read_number(given.text) is None and not given.text.startswith(("=[", "{")):
-                self._vessel(where.inside(*given.span), keyword, given.text)
+        for field in others:
+            if field.text and read_number(field.text) is None and not field.text.startswith(("=[", "{")):
+                self._vessel(where.inside(*field.span), keyword, field.text)
 
     def _follower(self, node: float, where: Where, nodes: Numbered | None) -> None:
         """Report the number of a node that follows a vessel, if it is not defined."""
@@ -199,15 +199,15 @@ class _Looking:
             if reason.problem:
                 self._note(reason.problem)
 
-    def _label(self, given: Field, where: Where) -> None:
-        if given.text.startswith("{") and Label.match(given.text):
-            check_label(self.context, REF006, given.text, where.inside(*given.span))
+    def _label(self, field: Field, where: Where) -> None:
+        if field.text.startswith("{") and Label.match(field.text):
+            check_label(self.context, REF006, field.text, where.inside(*field.span))
 
-    def _number(self, given: Field, where: Where) -> None:
+    def _number(self, field: Field, where: Where) -> None:
         """Report a number with a letter in place of a digit."""
-        if meant := number_meant(given.text):
-            message = f"{shown(given.text)} is not a number: write {meant}{_UNREAD}"
-            self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*given.span)))
+        if number := number_meant(field.text):
+            message = f"{shown(field.text)} is not a number: write {number}{_UNREAD}"
+            self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*field.span)))
 
     def _unclosed(self, problem: Problem, where: Where, line: str) -> None:
         """Report an equation that is not closed; other marks may be text."""
@@ -287,13 +287,13 @@ class _Looking:
     @cached_property
     def _other_words(self) -> set[str]:
         """Texts in unread lines that use no curve: a curve with one of these names may be defined there."""
-        found: set[str] = set()
+        words: set[str] = set()
         for _, _, block in self.context.deck.every_block():
             for line in data_lines(raw_lines(block)):
                 if not _uses_any_curve(line):
                     pieces = line.replace("=", ",").split(",")
-                    found.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
-        return found
+                    words.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
+        return words
 
     def _file(self, where: Where, _: str, written: str) -> None:
         """Report a missing file; a path with folders of another machine is looked for like any other.

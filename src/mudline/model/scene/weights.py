@@ -124,14 +124,14 @@ def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:
     `with_masses` is False for weights without the masses at nodes.
     """
     deck, unread = scene.deck, scene.context.unread
-    given = deck.keywords() | deck.keywords("LOAD CASE")
-    names = [f"*{name}" for name in _WEIGHING if name in given]
+    keywords = deck.keywords() | deck.keywords("LOAD CASE")
+    names = [f"*{name}" for name in _WEIGHING if name in keywords]
     names += [f"*{name} (in part)" for name in ("MASS", "INTERNAL FLUID") if name in unread]
     if "*MASS (in part)" not in names and any(node is None for _, node in _masses(scene)):
         names.append("*MASS (in part)")
-    if not with_masses and "MASS" in given:
+    if not with_masses and "MASS" in keywords:
         names = [*(one for one in names if one != "*MASS (in part)"), "*MASS"]
     before = {base.deck.file for base in deck.bases if "INTERNAL FLUID" in base.deck.keywords("LOAD CASE")}
-    if before and "INTERNAL FLUID" not in given:
+    if before and "INTERNAL FLUID" not in keywords:
         names.append("*INTERNAL FLUID of the deck that it continues")
     return names

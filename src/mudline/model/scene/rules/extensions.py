@@ -57,9 +57,9 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    found = scene.deck.blocks_with("extension")
-    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in found))
-    for where, _ in found[:1]:
+    blocks = scene.deck.blocks_with("extension")
+    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in blocks))
+    for where, _ in blocks[:1]:
         needs = "needs" if len(names.split(" and ")) == 1 else "need"
         message = f"{names} {needs} an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
         if supplier:
@@ -186,8 +186,8 @@ def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask
     """Return a mask (m,) of the elements whose curve fulfils a condition."""
     flags = [entry.curve is not None and pulls(entry) for entry in scene.laws.curves]
     of_law = [set_law.curve >= 0 and flags[set_law.curve] for set_law in scene.laws.set_laws]
-    found: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
-    return found
+    mask: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
+    return mask
 
 
 def _lists_pull(entry: SceneCurve) -> bool:
@@ -244,12 +244,12 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _smoothed(scene: ResolvedDeck) -> Mask:
     """Return a mask (m,) of the elements with a linear law that is smoothed."""
-    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    smoothed: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if "SEABED CONTACT" in scene.extensions:
         from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
 
-        found[element_smoothing(scene).rows] = True
-    return found
+        smoothed[element_smoothing(scene).rows] = True
+    return smoothed
 
 
 EXT010 = Code("EXT010", "soil-conflict", Severity.ERROR)

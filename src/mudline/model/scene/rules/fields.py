@@ -145,12 +145,8 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
         if where in reported:
             continue  # another element of the same GEN=
         reported.add(where)
-        first_id, second_id = scene.node_ids[scene.element_nodes[index]].tolist()
-        nodes = (
-            f"both its ends are node {first_id}"
-            if first_id == second_id
-            else f"nodes {first_id} and {second_id} lie at one place"
-        )
+        start, end = scene.node_ids[scene.element_nodes[index]].tolist()
+        nodes = f"both its ends are node {start}" if start == end else f"nodes {start} and {end} lie at one place"
         message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"
         yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)
 

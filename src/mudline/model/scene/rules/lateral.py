@@ -67,11 +67,11 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
         yield from _of_block(entry, where)
         held = extension.of_element == index
-        if np.any(found := held & bare):
-            message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
+        if np.any(both := held & bare):
+            message = f"{scene.describe(both)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
             yield _of_friction(scene, message, where.inside("set"))
-        if np.any(found := held & locked):
-            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(found, '', '').rstrip()}", where.inside("geometry"))
+        if np.any(both := held & locked):
+            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(both, '', '').rstrip()}", where.inside("geometry"))
 
 
 def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
@@ -90,9 +90,9 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
-    found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
+    faults = [*_resistance_faults(entry)] if entry.model != "WALL" else []
     unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < _FIELDS)
-    for path, message in found or (() if unread else _excess_faults(entry)):
+    for path, message in faults or (() if unread else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
@@ -185,8 +185,8 @@ def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
         stiffness = np.asarray(friction.parameters["lateral_stiffness"])
         coefficient = np.asarray(friction.parameters["lateral_coefficient"])
         sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
-    found: Mask = np.logical_and(*sprung[scene.element_nodes].T)
-    return found
+    both_ends: Mask = np.logical_and(*sprung[scene.element_nodes].T)
+    return both_ends
 
 
 def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
@@ -198,12 +198,12 @@ def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
     if friction is not None:
         coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
     depth, bottom, upper = (extension.values(extension.of_element, "geometry", name) for name in _SIZES)
-    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    locking: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for end in scene.element_nodes.T:
         added = wall_coefficient(depth, bottom, upper, coefficient[end])
-        found |= ~(np.isfinite(added) & (added >= 0.0))
+        locking |= ~(np.isfinite(added) & (added >= 0.0))
     usable = (depth > 0.0) & (bottom > 0.0) & (upper > bottom)
-    return found & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)
+    return locking & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)
 
 
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)

@@ -85,7 +85,7 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     if len(scene.laws.types) < 2:
         return
-    places = sorted((where, name) for name, found in scene.laws.types.items() for where in found)
+    places = sorted((where, name) for name, type_places in scene.laws.types.items() for where in type_places)
     where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
     if not name:
         return
