@@ -137,8 +137,8 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
 def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
     """Yield problems at nodes where a line turns back, and perhaps forward again at the next node.
 
-    Nodes at which a further element ends are left out, as are nodes `far` from their neighbours, which are reported
-    elsewhere.
+    Nodes at which a further element ends are left out. So are nodes `far` from their neighbours, which `_elements`
+    reports.
     """
     turns = [element for block in blocks_of(max(len(scene.element_nodes) - 1, 0)) for element in _turned(scene, block)]
     if not turns:

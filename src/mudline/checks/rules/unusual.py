@@ -321,7 +321,7 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
         left = line[: comma.start()].count(",")
         joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
         if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
-            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}", fields
+            return f"{comma[0]} seems to have a thousands comma, write {comma[0].replace(',', '')}", fields
     return None
 
 

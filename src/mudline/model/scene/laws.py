@@ -339,7 +339,10 @@ class Extension(NamedTuple):
         return marked((getattr(entry, name, None) == word for entry in self.entries), at)
 
     def asking(self, name: str) -> Mask:
-        """Return a mask (m,) of elements whose block gives a field, if a number at least 0; mandatory fields count."""
+        """Return a mask (m,) of elements whose block gives a field, if a number at least 0.
+
+        If the field is mandatory, every element with a block counts.
+        """
         flags = []
         for entry in self.entries:
             value = getattr(entry, name, None)
