@@ -88,7 +88,7 @@ def _print_rule(rule: Rule, view: View) -> None:
     bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.page.bad, rule.page.good))
     texts = [rule.page.title, *re.split(r"\n\n|\n(?=\* )", rule.page.why)]  # also each item of a list
     for paragraph in (
-        *(fill(" ".join(each.split()), width, subsequent_indent="  " * (each[0] == "*")) for each in texts if each),
+        *(fill(" ".join(it.split()), width, subsequent_indent="  " * it.startswith("* ")) for it in texts if it),
         *filter(None, [_package(rule, "A rule of {}.")]),
         f"Bad (found at line {line}, column {column}):",
         bad,
