@@ -10,7 +10,7 @@ import pytest
 
 import mudline.language.codes
 from mudline.checks.engine import LintSettings, lint_bytes
-from mudline.checks.fixing import FixState, Reader
+from mudline.checks.fixing import FixState, StageReader
 from mudline.checks.registry import rules
 from mudline.language.codes import all_codes
 from mudline.language.deck.faulty_blocks import with_raw_lines
@@ -69,7 +69,7 @@ FIXABLE = [given for given in rules() if AGREED.get(given.code.code, ("none",))[
 @pytest.mark.parametrize("given", FIXABLE, ids=lambda given: given.code.code)
 def test_the_fix_clears_the_finding_and_brings_no_other(given: Rule) -> None:
     """All rules are on, those too that are off unless they are selected."""
-    reader = Reader(given.page.file, LintSettings(tuple(rules()), dialect=given.page.dialect), NOWHERE)
+    reader = StageReader(given.page.file, LintSettings(tuple(rules()), dialect=given.page.dialect), NOWHERE)
     before = reader.read(given.page.bad_bytes)
     fixes = [one.repair for one in before.findings if one.code == given.code and one.repair]
     assert len(fixes) == 1

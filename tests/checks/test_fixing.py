@@ -15,7 +15,7 @@ from mudline.basics.limits import MOST_PASSES
 from mudline.checks import fixing as fixing_module
 from mudline.checks.context import LintContext
 from mudline.checks.engine import Fixing, LintSettings
-from mudline.checks.fixing import Fixed, fix_bytes, lint_one, with_severities
+from mudline.checks.fixing import FixResult, fix_bytes, lint_one, with_severities
 from mudline.checks.registry import rules
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.loading import load_bytes
@@ -32,7 +32,7 @@ Replaced = tuple[str, str, str]
 
 def fix(
     text: str | bytes, *chosen: Rule, fixing: Fixing = Fixing.SAFE, unfixable: frozenset[str] = frozenset()
-) -> Fixed:
+) -> FixResult:
     data = text if isinstance(text, bytes) else text.encode()
     return fix_bytes(data, "deck.keyxm", LintSettings(chosen, fixing=fixing, unfixable=unfixable))
 

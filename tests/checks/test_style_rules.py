@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mudline.basics.limits import MOST_REPORTED
 from mudline.checks.context import LintContext
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes
-from mudline.checks.fixing import Fixed, fix_bytes
+from mudline.checks.fixing import FixResult, fix_bytes
 from mudline.checks.registry import select
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.loading import load_bytes
@@ -68,7 +68,7 @@ CURVE=Clay
 KEPT = GOOD[GOOD.index("*LINE PATHS") :].encode()
 
 
-def fixed(text: str, *codes: str) -> Fixed:
+def fixed(text: str, *codes: str) -> FixResult:
     settings = LintSettings(select(codes or CODES), fixing=Fixing.SAFE)
     return fix_bytes(text.encode(), "deck.keyxm", settings)
 

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from mudline.basics.outside import project_of
-from mudline.checks.configuration import Configured, Given
+from mudline.checks.configuration import CallerSettings, Configured
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.output import form_names
@@ -234,7 +234,7 @@ def test_findings_come_back_whole(linted: Linted) -> None:
     cause = Diagnostic("a", "SYN009", "unknown-keyword", Severity.ERROR, "m", 1, 1, 1, 2, None, True, (follows,))
     found = (*lint_one("a", UNSORTED.encode() + BAD_NUMBER.encode(), LintSettings(rules())).found, cause)
     assert any(one.fix for one in found)
-    known = known_findings(Inputs(), Given(), Configured(None, True))
+    known = known_findings(Inputs(), CallerSettings(), Configured(None, True))
     assert known is not None
     key = known.key(Input("a", "a"), b"")
     coverage = Coverage(3, 1, {"NODE": 1}, {"A\x1b": 1})

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
-from mudline.checks.configuration import Configuration, ConfigurationError, Given, read_configuration
+from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError, read_configuration
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes
 from mudline.checks.fixing import fix_bytes
 from mudline.checks.registry import UnknownRule, rules
@@ -144,7 +144,7 @@ def _configuration(data: bytes) -> None:
         except ConfigurationError:
             return
         try:
-            merged_settings(found or Configuration(), Given())
+            merged_settings(found or Configuration(), CallerSettings())
         except UnknownRule:
             return
 

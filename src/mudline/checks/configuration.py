@@ -1,4 +1,4 @@
-"""The configuration of a project: the `[tool.mudline]` of a pyproject.toml, or a mudline.toml."""
+"""Configuration of a project: the `[tool.mudline]` of a pyproject.toml, or a mudline.toml."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SEVERITIES = ("error", "warning", "info", "off")
 
 
 def is_encoding(name: str) -> bool:
-    """Return whether a name is that of an encoding of text."""
+    """Return True if a name is that of a text encoding."""
     try:
         "".encode(name).decode(name)
     except (LookupError, ValueError):
@@ -40,18 +40,21 @@ def is_encoding(name: str) -> bool:
 
 
 CodeFault = Callable[[str], str]
-"""What is wrong with a word that is to name rules, or ""."""
+"""Check of a word that names rules: returns its fault in words, or ""."""
 
 
 class ConfigurationError(ValueError):
-    """A configuration that cannot be used; the message has file, line or key, and what to do."""
+    """Configuration that cannot be used; the message has file, line or key, and what to do."""
 
 
 @dataclass(frozen=True)
 class Configuration:
-    """The values that a file sets, checked, with those of the files that it extends; none without a file.
+    """Checked values of a file, with those of the files that it extends; empty without a file.
 
-    `origins` has the file and the line of each key, `content` the contents of all files: findings depend on them.
+    path: the file.
+    values: the value of each key.
+    origins: file and line of each key.
+    content: contents of all files, as findings depend on them.
     """
 
     path: Path | None = None
@@ -60,9 +63,9 @@ class Configuration:
     content: bytes = b""
 
     def over(self, base: Configuration) -> Configuration:
-        """This configuration with what a base sets besides.
+        """Return this configuration on top of a base.
 
-        A key replaces that of the base; tables are joined entry by entry, and `extend-select` adds to that of the base.
+        A key replaces that of the base. Tables are joined entry by entry, and `extend-select` adds to that of the base.
         """
         values = base.values | self.values
         for key in TABLES:
@@ -74,25 +77,25 @@ class Configuration:
         return Configuration(self.path, values, base.origins | self.origins, content)
 
     def words(self, key: str) -> list[str]:
-        """A list, empty if it is not set."""
+        """Return a list, empty if it is not set."""
         return list(self.values.get(key, ()))
 
     def table(self, key: str) -> dict[str, Any]:
-        """A table, empty if it is not set."""
+        """Return a table, empty if it is not set."""
         return dict(self.values.get(key, {}))
 
     @property
     def fail_on(self) -> str:
-        """The least severity of findings for which a run fails."""
+        """Least severity of findings for which a run fails."""
         return str(self.values.get("fail-on", "warning"))
 
     def relative(self, path: str) -> str:
-        """A path as seen from the folder of the configuration, with `/`."""
+        """Return a path as seen from the folder of the configuration, with `/`."""
         return relative_path(path, os.curdir if self.path is None else self.path.parent)
 
 
-class Given(NamedTuple):
-    """What a caller gives of the settings that findings depend on; None or empty where that is nothing."""
+class CallerSettings(NamedTuple):
+    """Settings of a caller that findings depend on; None or empty if the caller leaves them open."""
 
     chosen: tuple[str, ...] = ()
     ignored: tuple[str, ...] = ()
@@ -105,21 +108,21 @@ class Given(NamedTuple):
 def read_configuration(
     path: Path, *, demanded: bool = True, code_fault: CodeFault | None = None
 ) -> Configuration | None:
-    """The configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
+    """Return the configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
 
-    What it extends is read too. Words for rules are checked by `code_fault` (`mudline.checks.registry.code_fault`),
-    and taken as they are without. Raises OSError and ConfigurationError.
+    Files that it extends are read too. Words for rules are checked by `code_fault`
+    (`mudline.checks.registry.code_fault`), and not checked without it. Raises OSError and ConfigurationError.
     """
-    found = _read_one(path, demanded=demanded, code_fault=code_fault)
-    if found is None or EXTEND not in found.values:
-        return found
-    chain, at, whole = [path], found, [found]
+    outermost = _read_one(path, demanded=demanded, code_fault=code_fault)
+    if outermost is None or EXTEND not in outermost.values:
+        return outermost
+    chain, at, whole = [path], outermost, [outermost]
     while EXTEND in at.values:
         base, line = _base_of(chain[-1], at.values[EXTEND]), at.origins[EXTEND][1]
         place = f"{chain[-1].as_posix()}:{line}: {EXTEND}"
-        known = [os.path.realpath(one) for one in chain]
+        known = [os.path.realpath(file) for file in chain]
         if (real := os.path.realpath(base)) in known:
-            names = " -> ".join(one.as_posix() for one in (*chain[known.index(real) :], base))
+            names = " -> ".join(file.as_posix() for file in (*chain[known.index(real) :], base))
             raise ConfigurationError(f"{place} leads back to itself: {names}")
         try:
             read = _read_one(base, demanded=True, code_fault=code_fault)
@@ -132,13 +135,13 @@ def read_configuration(
     return reduce(lambda above, own: own.over(above), reversed(whole))
 
 
-def _base_of(path: Path, given: str) -> Path:
-    """The file that `extend` names, from the folder of the file in which it stands."""
-    return Path(os.path.normpath(path.parent / given))
+def _base_of(path: Path, extended: str) -> Path:
+    """Return the file that `extend` names, relative to the folder of the file with this key."""
+    return Path(os.path.normpath(path.parent / extended))
 
 
 def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:
-    """As `read_configuration`, of the file alone."""
+    """Return the configuration in the file alone, without the files that it extends."""
     reading(path)
     content = path.read_bytes()
     import tomllib  # noqa: PLC0415 - most commands find no file
@@ -157,11 +160,11 @@ def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Co
         if values is None and not demanded:
             return None
         values = {} if values is None else values
-    return _Reading(path, content, text, code_fault).checked(values)
+    return _ConfigurationFile(path, content, text, code_fault).checked(values)
 
 
-class _Reading:
-    """One file being checked."""
+class _ConfigurationFile:
+    """Checker of one file's values."""
 
     def __init__(self, path: Path, content: bytes, text: str, code_fault: CodeFault | None) -> None:
         self.path = path
@@ -229,7 +232,7 @@ class _Reading:
                 raise self.error(word, f"{key}: {fault}", key)
 
     def line(self, *words: str) -> int | None:
-        """The line of a key or a text, as far as a search of the text finds it."""
+        """Return the line of a key or a text, if a search of the file finds it."""
         for word in words:
             name = re.escape(word)
             pattern = re.compile(rf"""["']{name}["']|(^|[\s.\[{{,]){name}\s*[=\].]""")
@@ -252,17 +255,17 @@ def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     for name in ("mudline.toml", "pyproject.toml"):
         path = folder / name
         is_there = os.path.isfile(path)  # noqa: PTH113 - Path raises for a folder that may not be searched
-        if is_there and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
-            return found
+        if is_there and (configuration := read_configuration(path, demanded=False, code_fault=code_fault)):
+            return configuration
     return None
 
 
 @dataclass(eq=False)
 class Configured:
-    """The configuration of each deck: that of a file `config`, none (`isolated`), or the nearest one upwards.
+    """Source of each deck's configuration: a file `config`, none (`isolated`), or the nearest one upwards.
 
-    `code_fault` checks the words that are to name rules, as `read_configuration` says. All raise ConfigurationError for
-    a configuration that cannot be read or used.
+    `code_fault` checks words that name rules, as in `read_configuration`. All methods raise ConfigurationError for a
+    configuration that cannot be read or used.
     """
 
     config: str | None = None
@@ -282,7 +285,7 @@ class Configured:
                 self._fixed = read_configuration(Path(self.config), code_fault=self.code_fault) or Configuration()
 
     def of(self, path: str | None) -> Configuration:
-        """The configuration of a file, by its path or the name that standard input is given."""
+        """Return the configuration of a file, by its path or the name given for standard input."""
         if self._fixed is not None:
             return self._fixed
         folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
@@ -292,37 +295,40 @@ class Configured:
         return self._of_folder[folder]
 
     def _upwards(self, folder: Path) -> Configuration:
-        """The nearest one upwards of a folder, each looked at once: mudline.toml before pyproject.toml in each."""
+        """Return the nearest configuration upwards of a folder; mudline.toml comes before pyproject.toml.
+
+        Each folder is searched once.
+        """
         passed: list[Path] = []
-        found = Configuration()
+        nearest_one = Configuration()
         for place in (folder, *folder.parents):
             if place in self._nearest:
-                found = self._nearest[place]
+                nearest_one = self._nearest[place]
                 break
             passed.append(place)
             if here := _in(place, self.code_fault):
-                found = here
+                nearest_one = here
                 break
-        self._nearest.update(dict.fromkeys(passed, found))
-        return found
+        self._nearest.update(dict.fromkeys(passed, nearest_one))
+        return nearest_one
 
     def includes(self, path: str) -> bool:
-        """Return whether a file is a deck in any form, or `include` of its configuration takes it for one."""
+        """Return True if a file is a deck in any form, or `include` of its configuration takes it for one."""
         from mudline.language.deck.searching import is_in_any_form  # noqa: PLC0415 - help has none
 
-        found = self.of(path)
-        include = found.words("include")
-        return is_in_any_form(path) or (bool(include) and matches(found.relative(path), include))
+        configuration = self.of(path)
+        include = configuration.words("include")
+        return is_in_any_form(path) or (bool(include) and matches(configuration.relative(path), include))
 
     def encoding(self, path: str) -> str:
-        """Return the encoding that the file's configuration gives, "" where it gives none."""
+        """Return the encoding that the file's configuration gives, "" if it gives none."""
         return str(self.of(path).values.get(ENCODING, ""))
 
     def excludes(self, path: str) -> bool:
-        """Return whether `exclude` of the file's configuration leaves it out."""
-        found = self.of(path)
-        exclude = found.words("exclude")
-        return bool(exclude) and matches(found.relative(path), exclude)
+        """Return True if `exclude` of the file's configuration leaves the file out."""
+        configuration = self.of(path)
+        exclude = configuration.words("exclude")
+        return bool(exclude) and matches(configuration.relative(path), exclude)
 
 
 @contextmanager
@@ -336,9 +342,9 @@ def _reading_one() -> Iterator[None]:
 
 @lru_cache(maxsize=256)
 def refuses_outside(folder: Path) -> bool:
-    """Whether the nearest configuration keeps decks of a folder from files outside; also one that cannot be read."""
+    """Return True if the nearest configuration keeps a folder's decks from files outside, or cannot be read."""
     try:
-        found = Configured().of(str(folder / "-"))
+        configuration = Configured().of(str(folder / "-"))
     except ConfigurationError:
         return True
-    return bool(found.values.get(NO_OUTSIDE))
+    return bool(configuration.values.get(NO_OUTSIDE))

@@ -1,4 +1,4 @@
-"""What a rule that advises sees of a deck: the deck as it is written, and its scene."""
+"""View of a deck for rules that advise: the deck as it is written, and its scene."""
 
 from __future__ import annotations
 
@@ -28,10 +28,11 @@ T = TypeVar("T")
 
 @dataclass(eq=False)
 class LintContext:
-    """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
+    """Deck as it is written, with its equations, and its scene, evaluated and resolved as far as possible.
 
-    `dialect` is the deck language that the deck must keep to: "mudline", or "flexcom" without extension keywords.
-    `fixing` says that repairs are made: those that another deck beside this one forbids must not be among them.
+    dialect: the deck language that the deck must keep to, "mudline", or "flexcom" without extension keywords.
+    fixing: repairs are made, so repairs that another deck next to this one forbids must not be offered.
+
     The deck of a document is read as keyword text, so that both have the same findings.
     """
 
@@ -49,20 +50,20 @@ class LintContext:
 
     @property
     def text(self) -> TextOrigin | None:
-        """Tree, source and places of a deck that was read from text; None for one in JSON or YAML."""
+        """Tree, source and places of a deck that was read from text; None for JSON or YAML."""
         return self.deck.origin if isinstance(self.deck.origin, TextOrigin) else None
 
     @cached_property
     def scene(self) -> Scene:
-        """The scene of the deck."""
+        """Scene of the deck."""
         return resolve(self.deck)
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
+        """Return the same as `Deck.blocks` for the deck of the scene, whose equations are evaluated."""
         return self.scene.context.placed.get((section, keyword), ())
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """What `Deck.blocks` gives for the deck itself, with its equations."""
+        """Return the same as `Deck.blocks` for the deck itself, with its equations."""
         return self._written.get((section, keyword), ())
 
     @cached_property
@@ -71,24 +72,24 @@ class LintContext:
 
     @cached_property
     def keywords(self) -> set[str]:
-        """Names of the keywords in the models of the deck of the scene, those that are not read among them."""
+        """Names of the keywords in the models of the scene's deck, including those that are not read."""
         return self.scene.deck.keywords()
 
     @cached_property
     def in_soil(self) -> bool:
-        """Whether the model has soil springs."""
+        """True if the model has soil springs."""
         return any(map(holds_in_soil, self.keywords))
 
     @cached_property
     def noticed(self) -> dict[str, list[Problem]]:
-        """What reading and resolving the deck, and the rules that block, report, by code."""
+        """Problems from reading and resolving the deck, and from the rules that block, by code."""
         found: dict[str, list[Problem]] = {}
         for problem in chain(self.scene.findings, of_variations(self.deck)):
             found.setdefault(problem.code.code, []).append(problem)
         return found
 
     def once(self, make: Callable[[LintContext], T]) -> T:
-        """What a function makes of this deck, made once for all rules that ask."""
+        """Return the result of a function of this deck, computed once for all rules that ask."""
         try:
             found: T = self._made[make]
         except KeyError:
@@ -96,17 +97,17 @@ class LintContext:
         return found
 
     def problems_of(self, code: Code) -> Sequence[Problem]:
-        """What reading and resolving the deck, and the rules that block, report under a code."""
+        """Return the problems of one code from reading and resolving the deck, and from the rules that block."""
         return self.noticed.get(code.code, ())
 
 
 def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, Any]]:
-    """Every entry below a SET= of some blocks, with its place."""
+    """Return every entry below a SET= of some blocks, with its place."""
     return [(where.inside("sets", index), entry) for where, block in blocks for index, entry in enumerate(block.sets)]
 
 
 def of_variations(deck: Deck) -> Iterator[Problem]:
-    """Undefined names in variations: they are faults of the varied decks, and not of this one."""
+    """Yield undefined names in variations: they are faults of the varied decks, and not of this deck."""
     if not may_vary(deck):
         return
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
@@ -115,7 +116,7 @@ def of_variations(deck: Deck) -> Iterator[Problem]:
 
 
 class Joined(NamedTuple):
-    """A finding and those that say no more than it does; its message and its place may be of all of them."""
+    """Finding, and others that follow from it or repeat it; `message` and `place` may replace its own."""
 
     first: Problem
     others: Sequence[Problem]
@@ -125,15 +126,18 @@ class Joined(NamedTuple):
 
 
 Found = Mapping[str, Sequence[Problem]]
-"""The findings in a deck by code."""
+"""Findings in a deck by code."""
 
 Join = Callable[[LintContext, Found], Iterator[Joined]]
 JOINTS: list[tuple[frozenset[str], Join]] = []
-"""Those of all rules, each with the codes of which the deck must have one."""
+"""Joints of all rules, each with the codes of which the deck must have at least one."""
 
 
 def joint(*codes: Code) -> Callable[[Join], Join]:
-    """Register what puts findings under those of some codes, beside the rule that reports these."""
+    """Return a decorator that registers a function which joins findings to those of some codes.
+
+    It stands next to the rule that reports these codes.
+    """
 
     def register(join: Join) -> Join:
         JOINTS.append((frozenset(code.code for code in codes), join))

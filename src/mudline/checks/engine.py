@@ -31,24 +31,29 @@ if TYPE_CHECKING:
 
 
 class Fixing(StrEnum):
-    """Which fixes are made: none, those that keep what the deck means, or also those that guess."""
+    """Fixes that are made: none, those that keep the deck's meaning, or also those that guess."""
 
     NONE = "none"
     SAFE = "safe"
     UNSAFE = "unsafe"
 
     def takes(self, applicability: str) -> bool:
-        """Whether fixes of an applicability ("safe" or "unsafe") are made."""
+        """Return True if fixes of an applicability ("safe" or "unsafe") are made."""
         return self is Fixing.UNSAFE or (self is Fixing.SAFE and applicability == "safe")
 
 
 @dataclass(frozen=True, slots=True)
 class LintSettings:
-    """Which rules run, how severe their findings are, and which are fixed; it can be pickled.
+    """Settings of a run of the linter; they can be pickled.
 
-    `units` None means those of the file. `severities` override the rules' own by code. Findings of `fail_on` or worse
-    fail a run. Fixes of the codes in `unfixable` are never made. With `no_outside` a deck names no file outside of its
-    project.
+    rules: the rules that run.
+    units: the unit system of the decks; None for that of each file.
+    dialect: the deck language that decks must keep to.
+    severities: severities by code, which override those of the rules.
+    fail_on: the least severity of findings that fail a run.
+    fixing: the fixes that are made.
+    unfixable: codes whose fixes are never made.
+    no_outside: decks may name no file outside of their project.
     """
 
     rules: tuple[Rule, ...]
@@ -61,13 +66,13 @@ class LintSettings:
     no_outside: bool = False
 
     def __reduce__(self) -> tuple[Callable[..., LintSettings], tuple[object, ...]]:
-        """Rules go by their codes: their functions may not be picklable."""
+        """Replace the rules by their codes, as their functions may not be picklable."""
         codes = frozenset(rule.code.code for rule in self.rules)
         return _with_rules, (codes, *(getattr(self, one.name) for one in fields(self)[1:]))
 
 
 def _with_rules(codes: frozenset[str], *others: Any) -> LintSettings:  # noqa: ANN401 - the fields behind the first
-    """Settings with the rules of these codes; raises ImportError where a package that has some of them is missing."""
+    """Return settings with the rules of these codes; raises ImportError if a package with some of them is missing."""
     from mudline.checks.registry import rules  # noqa: PLC0415 - it imports the rules, which import this
 
     found = tuple(rule for rule in rules() if rule.code.code in codes)
@@ -77,18 +82,18 @@ def _with_rules(codes: frozenset[str], *others: Any) -> LintSettings:  # noqa: A
 
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress.
+    """Return the findings of the chosen rules in a deck, in the order of the file, without suppressed ones.
 
-    Those that say no more than another one are under it.
+    Findings that only repeat another one, or follow from it, are joined to it.
     """
     return context.deck.diagnose(joined_problems(context, chosen))
 
 
 def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: bool = True) -> list[Problem]:
-    """What the chosen rules find in a deck as it was meant: what only follows from a fault is not among it.
+    """Return the problems that the chosen rules find in a corrected deck: consequences of a fault are not reported.
 
-    What says no more than another finding is under that (`Problem.following`). `suppress` False keeps what comments of
-    the deck suppress.
+    Problems that only repeat another one are joined to it (`Problem.following`). With `suppress` False, problems that
+    comments of the deck suppress are included.
     """
     meant = _meant(context, chosen, suppress=suppress)
     found = problems_in(meant.context if meant else context, chosen)
@@ -105,7 +110,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
 
 
 def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
-    """The deck as it was meant; None where it is so, or was made by a program."""
+    """Return the corrected deck; None if nothing needs correction, or a program made the deck."""
     deck = context.deck
     if context.text is None or not (may_recover(deck) or context.scene.lacks):
         return None
@@ -125,14 +130,14 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
 
 
 _MISSPELT = (SYN009, SYN010)
-"""Codes of keywords and sections that are not known."""
+"""Codes of unknown keywords and sections."""
 
 
 def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
-    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it.
+    """Return the causes of a deck with the severity of their consequences: errors if the deck is refused for them.
 
-    Beside errors only misspelt keywords and sections are judged, whose lines are all lost: what follows from them is
-    seen in the deck in which the errors are corrected.
+    If there are errors, only misspelt keywords and sections are judged, whose lines are all lost. Other consequences
+    are seen in the deck in which the errors are corrected.
     """
     causes = meant.causes
     doubtful = [one for one in causes if one.weight is not Severity.ERROR]
@@ -158,7 +163,7 @@ def _as_error(problem: Problem, blocks: Blocks) -> Problem:
 
 
 def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
-    """Make errors of unknown names for which a deck is refused: what it lacks may stand there, or nothing is read."""
+    """Return the problems, with unknown names as errors if they may hide what the deck lacks, or if nothing is read."""
     unknown = [one for one in found if one.code in _MISSPELT]
     if not unknown:
         return found
@@ -175,7 +180,7 @@ def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Prob
 
 
 def may_recover(deck: Deck) -> bool:
-    """Whether something in a deck was not read, is passed through, or may stand there twice."""
+    """Return True if something in a deck was not read, is passed through, or may be given twice."""
     origin = deck.origin
     if deck.problems or (isinstance(origin, TextOrigin) and any(read.lost for read in origin.read.values())):
         return True
@@ -193,7 +198,7 @@ def may_recover(deck: Deck) -> bool:
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """Return the reasons for which a deck was refused, with the cause in the place of what follows from it."""
+    """Return the reasons why a deck was refused, with causes instead of their consequences."""
     codes = {one.code for one in refused}
     context = LintContext(deck)
     reported = [
@@ -217,7 +222,7 @@ def unreadable_causes(deck: Deck) -> list[Diagnostic]:
 
 @contextmanager
 def naming_causes(deck: Deck) -> Iterator[None]:
-    """Refuse a deck with the causes of that for which it is refused inside: raises DeckError with these."""
+    """Raise a DeckError from inside again with the causes of its findings."""
     try:
         yield
     except DeckError as error:
@@ -238,9 +243,9 @@ def errors_beside(deck: Deck) -> list[Diagnostic]:
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
-    """What the chosen rules find in a deck itself; what lies in a deck that it continues is reported for that one.
+    """Return the problems that the chosen rules find in a deck itself, and not in a deck that it continues.
 
-    Suppressed problems are among them; unused suppression comments are not.
+    Suppressed problems are included; unused suppression comments are not.
     """
     found: list[Problem] = []
     noticed = context.noticed
@@ -254,28 +259,28 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
 
 
 def of_base(deck: Deck, problem: Problem) -> bool:
-    """Whether a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
+    """Return True if a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
     beyond = problem.where is not None and problem.where.section >= len(deck.sections)
     return beyond or isinstance(problem, BaseProblem)
 
 
 def _advice(problem: Problem) -> Problem:
-    """A problem that does not keep the deck from being evaluated."""
+    """Return a problem as one that does not keep the deck from being evaluated."""
     return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
 
 
 def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
-    """The problems that comments of the deck do not suppress, and the comments that suppress nothing."""
+    """Return the problems that comments of the deck do not suppress, and the comments that suppress nothing."""
     found = context.once(suppressions)
     return problems if found is None else found.split(problems, chosen)[0]
 
 
 _SHORT_BLOCK = 4096
-"""Characters of a block that is remembered: decks of a project share their short blocks."""
+"""Characters of the largest block that is remembered: decks of a project share their short blocks."""
 
 
 class _Piece(str):
-    """The text of a block, equal to that of any other; `raw` and `start` are those of the first one that was read."""
+    """Text of a block, equal to any other with the same text; `raw` and `start` are those of the first one read."""
 
     __slots__ = ("raw", "start")
 
@@ -289,7 +294,7 @@ def _read_piece(piece: _Piece, declared: type[Block], last: bool, older: bool) -
 
 
 def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """What `read_block` gives for a block; those of the same text share their model."""
+    """Return the result of `read_block` for a block; blocks with the same text share their model."""
     start = raw.head.span.start
     end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
     if end - start > _SHORT_BLOCK:
@@ -311,7 +316,7 @@ def _reported_at(problem: Problem, by: int) -> Problem:
 def read_deck(
     data: bytes, name: str, *, form: str | None = None, units: str | None = None, folder: Path | None = None
 ) -> Deck:
-    """The deck of a file's content, whose models are shared with decks that were read before: it is not to be changed.
+    """Return the deck of a file's content; it must not be changed, as its models are shared with decks read before.
 
     Raises DeckError for a JSON or YAML file that holds no deck.
     """
@@ -330,13 +335,13 @@ def lint_bytes(
     folder: Path | None = None,
     dialect: str = "mudline",
 ) -> list[Diagnostic]:
-    """All findings in a file's content, in its order; `name` gives its form, and is named in the findings.
+    """Return all findings in a file's content, in its order; `name` gives its form, and is named in the findings.
 
-    `folder` is where files that the deck names are; without it none of them is looked for. `dialect` is the program
-    that the deck is for, "mudline" or "flexcom".
+    `folder` is the folder of files that the deck names; without it they are not searched. `dialect` is the program that
+    the deck is for, "mudline" or "flexcom".
 
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
-    are chosen, as nothing else can be checked.
+        are chosen, as nothing else can be checked.
     """
     return covered_findings(data, name, chosen, units=units, folder=folder, dialect=dialect)[0]
 
@@ -350,7 +355,7 @@ def covered_findings(
     folder: Path | None = None,
     dialect: str = "mudline",
 ) -> tuple[list[Diagnostic], Coverage]:
-    """What `lint_bytes` finds, and how many keywords were read."""
+    """Return the findings of `lint_bytes`, and how many keywords were read."""
     try:
         deck = read_deck(data, name, units=units, folder=folder)
     except MisspeltDeckError as error:

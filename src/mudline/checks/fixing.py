@@ -1,6 +1,7 @@
-"""One file linted and fixed: a pure function of its content and its settings, which may run in another process.
+"""Linting and fixing of one file: a pure function of its content and its settings, which may run in another process.
 
-The repairs of findings are made in passes, each of which is read again and dropped if the deck got worse.
+Repairs of findings are made in passes. After each pass the deck is read again, and the pass is dropped if the deck got
+worse.
 """
 
 from __future__ import annotations
@@ -32,12 +33,15 @@ from mudline.language.syntax.tree import Kind, SyntaxTree, parse
 
 @dataclass(frozen=True, slots=True)
 class FileReport:
-    """What came out for one file.
+    """Outcome of linting and fixing one file.
 
-    `found` are the findings in the content as it is after fixing, in their order; `fixed` those that are gone.
-    `changed` is the new content, or None where it is the old one. `note` says why fixes were not made, or "";
-    a deck in JSON or YAML has none. `looked_at` are the paths on which the findings depend besides the content.
-    `coverage` says how many keywords were read.
+    file: name of the file.
+    found: findings in the content as it is after fixing, in their order.
+    fixed: findings that are gone.
+    changed: the new content, None if nothing was changed.
+    note: the reason why fixes were not made, or ""; a deck in JSON or YAML has none.
+    looked_at: the paths on which the findings depend, in addition to the content.
+    coverage: how many keywords were read.
     """
 
     file: str
@@ -50,74 +54,74 @@ class FileReport:
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
-    """Lint the content of a file, and fix it if the settings ask for it; writes nothing and never raises for content.
+    """Return the report on the content of a file, fixed if the settings ask for it; never raises for content.
 
-    `folder` is where files that the deck names are; without it none of them is looked for.
+    Nothing is written. `folder` is the folder of files that the deck names; without it they are not searched.
     """
     with refusing_outside(lambda _folder: settings.no_outside):
         return _lint_one(name, data, settings, folder)
 
 
 def _lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> FileReport:
-    result = Fixed(None, (), "")
+    result = FixResult(None, (), "")
     if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
         result = fix_bytes(data, name, settings, folder)
     content = data if result.changed is None else result.changed
     with recording_looks() as paths:
-        found, coverage = covered_findings(
+        findings, coverage = covered_findings(
             content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
         )
     fixed = with_severities(result.fixed, settings)
     return FileReport(
-        name, with_severities(found, settings), fixed, result.changed, result.note, tuple(paths), coverage
+        name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage
     )
 
 
-def with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
-    """The findings with the severities that the settings give them."""
-    return tuple(_with_severity(one, settings.severities) for one in found)
+def with_severities(findings: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
+    """Return the findings with the severities that the settings give them."""
+    return tuple(_with_severity(finding, settings.severities) for finding in findings)
 
 
-def _with_severity(found: Diagnostic, given: Mapping[str, Severity]) -> Diagnostic:
-    """A finding with its severity, which is never below that of what follows from it and is left out."""
-    severity = given.get(found.code, found.severity)
-    following = tuple(_with_severity(one, given) for one in found.following)
-    worst = max((severity, *(one.severity for one in following)), key=lambda one: one.rank)
-    changed = worst is not found.severity or following != found.following
-    return replace(found, severity=worst, following=following) if changed else found
+def _with_severity(diagnostic: Diagnostic, severities: Mapping[str, Severity]) -> Diagnostic:
+    """Return a finding with its severity, never below that of the findings joined to it."""
+    severity = severities.get(diagnostic.code, diagnostic.severity)
+    following = tuple(_with_severity(finding, severities) for finding in diagnostic.following)
+    worst = max((severity, *(finding.severity for finding in following)), key=lambda each: each.rank)
+    changed = worst is not diagnostic.severity or following != diagnostic.following
+    return replace(diagnostic, severity=worst, following=following) if changed else diagnostic
 
 
 # -------------------------------------------------------------------------------------------------------------- fixes
 
 
-class Fixed(NamedTuple):
-    """The new content (None: nothing was changed), the findings that are fixed, and why others are not, or ""."""
+class FixResult(NamedTuple):
+    """Result of fixing: the new content (None if unchanged), the fixed findings, why the others remain, or ""."""
 
     changed: bytes | None
     fixed: tuple[Diagnostic, ...]
     note: str
 
 
-def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | None = None) -> Fixed:
-    """The content of a keyword deck with the fixes that the settings ask for; never raises for content.
+def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | None = None) -> FixResult:
+    """Return the content of a keyword deck with the fixes that the settings ask for; never raises for content.
 
-    A deck that cannot be read as it should (errors SYN...) stays as it is, unless fixes clear all of them.
+    A deck with errors of reading (SYN...) stays as it is, unless fixes clear all of them.
     """
-    run = _Run(Reader(name, settings, folder), settings)
+    run = _FixRun(StageReader(name, settings, folder), settings)
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
         fault = last.deck.diagnose(last.unreadable)[0]
         note = f"not fixed: correct what cannot be read first, {fault.code} in line {fault.line}"
-        return Fixed(None, (), note if run.wanted(first) else "")
+        return FixResult(None, (), note if run.wanted(first) else "")
     changed = last.data if last.data != data else None
-    return Fixed(changed, tuple(run.fixed), run.note())
+    return FixResult(changed, tuple(run.fixed), run.note())
 
 
-class _Run:
-    """The passes over one deck."""
+class _FixRun:
+    """Passes over one deck."""
 
-    def __init__(self, reader: Reader, settings: LintSettings) -> None:
+    def __init__(self, reader: StageReader, settings: LintSettings) -> None:
         self.reader = reader
         self.settings = settings
         self.fixed: list[Diagnostic] = []
@@ -127,7 +131,7 @@ class _Run:
         self.stopped = False
 
     def fix(self, state: FixState) -> FixState:
-        """The deck when nothing is left to repair."""
+        """Return the deck when nothing is left to repair."""
         passes = 0
         changed = False
         while (problems := self._next(state)) or changed:
@@ -138,18 +142,18 @@ class _Run:
             if passes == MOST_PASSES or self.tries <= 0:
                 self.stopped = True
                 break
-            made, after = self._accepted(state, problems)
-            done = {id(one) for one in made} if after else set()
-            self.refused |= {_key(state, one) for one in problems if id(one) not in done}
+            repaired, after = self._accepted(state, problems)
+            done = {id(problem) for problem in repaired} if after else set()
+            self.refused |= {_key(state, problem) for problem in problems if id(problem) not in done}
             if after is not None:
-                self.fixed += state.deck.diagnose(made)
+                self.fixed += state.deck.diagnose(repaired)
                 passes += 1
                 changed, state = True, after
-        self.left = sum(_key(state, one) in self.refused for one in self.wanted(state))
+        self.left = sum(_key(state, problem) in self.refused for problem in self.wanted(state))
         return state
 
     def note(self) -> str:
-        """What could not be fixed, or ""."""
+        """Return a note on findings that could not be fixed, or ""."""
         if self.stopped:
             end = f"{MOST_PASSES} passes" if self.tries > 0 else f"{MOST_TRIES} tries"
             return f"fixing was stopped after {end}: run it again to see what is left"
@@ -159,7 +163,7 @@ class _Run:
         return f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
 
     def wanted(self, state: FixState) -> list[Problem]:
-        """The findings that the settings want fixed."""
+        """Return the findings that the settings want fixed."""
         return [
             problem
             for problem in state.findings
@@ -170,16 +174,16 @@ class _Run:
         ]
 
     def _next(self, state: FixState) -> list[Problem]:
-        """Findings whose repairs do not overlap: errors of reading first, then safe ones, then the others."""
-        wanted = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
+        """Return findings whose repairs do not overlap: errors of reading first, then safe repairs, then the others."""
+        fixable = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
         if state.unreadable:
             codes = {error.code.code for error in state.unreadable}
-            cleared = [one for one in wanted if one.code.code in codes and one.weight is Severity.ERROR]
+            cleared = [one for one in fixable if one.code.code in codes and one.weight is Severity.ERROR]
             return _disjoint(cleared)
-        return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
+        return _disjoint([problem for problem in fixable if _repair(problem).applicability == "safe"] or fixable)
 
     def _accepted(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
-        """Those of the problems whose repairs make nothing worse, and the deck after them; None if there are none."""
+        """Return the problems whose repairs make nothing worse, and the deck after them; None if there are none."""
         after = self._try(state, problems)
         if after is not None or len(problems) == 1:
             return problems, after
@@ -199,20 +203,20 @@ class _Run:
 
 
 def _repair(problem: Problem) -> Repair:
-    """The repair of a problem that has one."""
+    """Return the repair of a problem that has one."""
     if problem.repair is None:
         raise ValueError(f"{problem.code.code} has no repair here")
     return problem.repair
 
 
 def _key(state: FixState, problem: Problem) -> tuple[str, str, str]:
-    """What is said of which line: the same after others are longer or shorter."""
+    """Return code, message and text of the line of a problem: the same after other lines become longer or shorter."""
     line = state.source.position(_repair(problem).edits[0][0].start)[0]
     return problem.code.code, problem.message, state.source.line(line)
 
 
 def _disjoint(problems: list[Problem]) -> list[Problem]:
-    """As many of the problems, in the order of the text, as want different characters."""
+    """Return as many of the problems, in the order of the text, as change different characters."""
     taken: list[Span] = []
     chosen: list[Problem] = []
     for problem in sorted(problems, key=lambda problem: _repair(problem).edits[0][0]):
@@ -226,19 +230,19 @@ def _disjoint(problems: list[Problem]) -> list[Problem]:
 
 def _free(span: Span, taken: list[Span]) -> bool:
     at = bisect_left(taken, span)
-    return not any(_overlap(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
+    return not any(_overlap(span, edit) for edit in islice(taken, max(at - 1, 0), at + 1))
 
 
-def _overlap(one: Span, other: Span) -> bool:
-    """Whether two edits want the same characters; an insertion meets what begins or ends at its place."""
-    if one.start == one.end or other.start == other.end:
-        return one.start <= other.end and other.start <= one.end
-    return one.start < other.end and other.start < one.end
+def _overlap(first: Span, second: Span) -> bool:
+    """Return True if two edits change the same characters; an insertion touches text next to its place."""
+    if first.start == first.end or second.start == second.end:
+        return first.start <= second.end and second.start <= first.end
+    return first.start < second.end and second.start < first.end
 
 
 @dataclass(eq=False)
 class FixState:
-    """One stage of a deck, and what lint reports of it, with what follows from its findings."""
+    """Stage of a deck, and the findings of lint in it, including joined ones."""
 
     data: bytes
     source: Source
@@ -247,13 +251,13 @@ class FixState:
 
     @property
     def deck(self) -> Deck:
-        """The deck."""
+        """Deck of this stage."""
         return self.context.deck
 
     def errors(self, edits: Sequence[TextEdit] = (), source: Source | None = None) -> Counter[tuple[str, int]]:
-        """Return code and line of each error of the deck as it is written or as it was meant.
+        """Return code and line of each error, in the deck as it is written or as corrected.
 
-        After some edits of a source: the lines that they had there, 0 for those that the edits brought.
+        After edits of a source, lines are those before the edits, and 0 for lines that the edits brought.
         """
         text, undoing, written = self.context.text, Undoing(edits), source or self.source
 
@@ -269,7 +273,7 @@ class FixState:
 
     @property
     def unreadable(self) -> list[Problem]:
-        """What could not be read as it should."""
+        """Errors of reading."""
         return [
             problem
             for problem in self.deck.problems
@@ -278,18 +282,18 @@ class FixState:
 
     @cached_property
     def tree(self) -> SyntaxTree:
-        """The lines of the text."""
+        """Lines of the text."""
         return parse(self.source)
 
     @cached_property
     def comments(self) -> Counter[str]:
-        """Comments without their layout and how often each occurs; those for this linter are left out."""
+        """Comments without their layout and how often each occurs; comments for mudline are left out."""
         text = self.source.unified
         comments = (text[slice(*leaf.span)] for leaf in self.tree.leaves() if leaf.kind is Kind.COMMENT)
         return Counter(" ".join(comment[1:].split()) for comment in comments if not MARK.match(comment))
 
     def untouched(self, edits: Sequence[Span]) -> Iterator[tuple[int, int]]:
-        """Section and block of every block that no edit touches."""
+        """Yield section and block of every block that no edit touches."""
         for index, section in enumerate(self.tree.sections):
             for number, block in enumerate(section.blocks):
                 start, end = block.head.span.start, (block.leaves or [block.head])[-1].span.end
@@ -297,26 +301,26 @@ class FixState:
                     yield index, number
 
 
-class Reader(NamedTuple):
-    """Reads and lints the stages of one file."""
+class StageReader(NamedTuple):
+    """Reader and linter of the stages of one file."""
 
     name: str
     settings: LintSettings
     folder: Path | None
 
     def read(self, data: bytes) -> FixState:
-        """A stage."""
+        """Return a stage."""
         source = Source.from_bytes(data, self.name)
         deck = read_source(source, units=self.settings.units)
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
-        found = joined_problems(context, self.settings.rules)
-        return FixState(data, source, context, [each for one in found for each in (one, *one.following)])
+        problems = joined_problems(context, self.settings.rules)
+        return FixState(data, source, context, [each for problem in problems for each in (problem, *problem.following)])
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
-        """The stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""
-        made = (TextEdit(span, text) for repair in repairs for span, text in repair.edits)
-        edits = with_line_ends(before.source, made)
+        """Return the stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""
+        new = (TextEdit(span, text) for repair in repairs for span, text in repair.edits)
+        edits = with_line_ends(before.source, new)
         try:
             data = edited_bytes(before.source, edits)
         except ValueError:  # edits that overlap or lie outside, a character that the encoding lacks
@@ -331,12 +335,12 @@ class Reader(NamedTuple):
 
 
 def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]) -> bool:
-    """Whether both have the same blocks, with equal models where nothing was edited."""
+    """Return True if both have the same blocks, with equal models where nothing was edited."""
     if _outline(before.deck) != _outline(after.deck):
         return False
-    one, other = before.deck.sections, after.deck.sections
+    sections, edited_sections = before.deck.sections, after.deck.sections
     places = before.untouched([edit.span for edit in edits])
-    return all(one[index].blocks[number] == other[index].blocks[number] for index, number in places)
+    return all(sections[index].blocks[number] == edited_sections[index].blocks[number] for index, number in places)
 
 
 def _outline(deck: Deck) -> list[tuple[str, list[str]]]:

@@ -1,4 +1,4 @@
-"""What a deck holds, as far as it can be read: its summary, the sheet of its elements, and its errors."""
+"""Contents of a deck, as far as it can be read: its summary, the sheet of its elements, and its errors."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from mudline.model.scene.sheet import Sheet, sheet_of
 
 
 class Overview(NamedTuple):
-    """A deck at a glance.
+    """Overview of a deck.
 
     Attributes:
         summary: sections, keywords, counts, sets, curves, diameters and laws, as `mudline show --output-format json`.
         sheet: `columns`, and in `rows` the values of each run of elements with the same properties, by column.
-        errors: why the deck is not legal, which what is shown may lack parts for.
+        errors: reasons why the deck is not legal; summary and sheet may lack parts because of them.
     """
 
     summary: dict[str, Any]
@@ -31,5 +31,5 @@ def overview(deck: Deck) -> Overview:
     """Return the overview of a deck; never raises for its content."""
     context = LintContext(deck)
     scene = context.scene
-    errors = [*errors_of(all_findings(context)), *(one for one in scene.errors() if of_base(deck, one))]
+    errors = [*errors_of(all_findings(context)), *(problem for problem in scene.errors() if of_base(deck, problem))]
     return Overview(summarise(scene), sheet_of(scene), scene.deck.diagnose(errors))

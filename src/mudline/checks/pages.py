@@ -1,4 +1,4 @@
-"""Where a rule comes from, and the address of its page; no rule is imported for it."""
+"""Origin of a rule, and the address of its page; no rule is imported for them."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from mudline.basics.installed import project_addresses
 from mudline.basics.resources import rule_file
 
 GROUP = "mudline.rules"
-"""The entry points by which packages bring rules."""
+"""Group of entry points through which packages provide rules."""
 
 ORIGINS: dict[str, str] = {}
-"""The packages of the rules of plugins with their versions, by code, once they are loaded."""
+"""Packages of plugin rules with their versions, by code, once they are loaded."""
 
 
 def origin(code: str) -> str:
-    """The package that a rule comes from, with its version: "mudline" for mudline's own."""
+    """Return the package of a rule, with its version: "mudline" for mudline's own."""
     return ORIGINS.get(code, "mudline")
 
 
 @cache
 def page(code: str) -> str | None:
-    """The address of the page of a code, None where it has none.
+    """Return the address of the page of a code, None if it has none.
 
-    Mudline's own are on the site that its package names as its documentation, else among the installed files; of the
-    code of a plugin, it is the documentation of its package.
+    Mudline's own pages are on the documentation site that its package names, or else among the installed files. For the
+    code of a plugin it is the documentation of its package.
     """
     package = origin(code)
     if package != "mudline":
@@ -37,7 +37,7 @@ def page(code: str) -> str | None:
 
 @cache
 def _documentation(name: str) -> str | None:
-    """The address of the documentation of an installed package."""
+    """Return the address of the documentation of an installed package."""
     addresses = project_addresses(name)
-    found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
-    return found if found.startswith(("https://", "http://")) else None
+    address = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
+    return address if address.startswith(("https://", "http://")) else None

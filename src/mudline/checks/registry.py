@@ -1,6 +1,6 @@
-"""All rules: those of reading and resolving, those that only advise, and those of plugins; choosing among them.
+"""Registry of all rules: of reading and resolving, of advice, and of plugins; selection among them.
 
-Rules of other packages are found through the entry point group `mudline.rules`, and loaded when rules are asked for.
+Rules of other packages are found through the entry point group `mudline.rules`, and loaded when rules are first used.
 """
 
 from __future__ import annotations
@@ -30,17 +30,17 @@ RUN002 = Code("RUN002", "rule-failed", Severity.ERROR)
 STRIPPED = (
     "rules are described by docstrings, which python -OO and PYTHONOPTIMIZE=2 strip: run Python with -O or without"
 )
-"""Why there are no rules."""
+"""Reason why there are no rules."""
 
 RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
-"""Letters of mudline's codes that no rule has; those of its rules are kept from others too."""
+"""Letters of mudline's codes that no rule has; they are reserved, as are those of its rules."""
 
 _FEW = 4
-"""Rules that are listed where a word is a part of their names."""
+"""Number of rules, at most, that are listed for a word in their names."""
 
 
 class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
-    """A word that names no rule."""
+    """Word that names no rule."""
 
 
 @cache
@@ -57,47 +57,47 @@ def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
 
 
 def rules() -> tuple[Rule, ...]:
-    """All rules, by code, those of installed plugins among them.
+    """Return all rules, by code, including those of installed plugins.
 
-    Raises PluginError when a plugin cannot be used: a run with fewer rules than people believe is worse than none.
+    Raises PluginError if a plugin cannot be used: a run with fewer rules than expected is worse than no run.
     """
-    found, faults = _collected()
+    all_rules, faults = _collected()
     if faults:
         raise PluginError(faults)
-    return found
+    return all_rules
 
 
 def find(word: str) -> list[Rule]:
-    """The rules that a code, a prefix of a code or a slug names, in any case."""
-    wanted = word.strip()
-    code, slug = wanted.upper(), wanted.lower()
-    exact = [found for found in rules() if code == found.code.code or slug == found.code.slug]
-    if exact or not wanted.isalnum():
+    """Return the rules that a code, a prefix of a code or a slug names, in any case."""
+    stripped = word.strip()
+    code, slug = stripped.upper(), stripped.lower()
+    exact = [rule for rule in rules() if code == rule.code.code or slug == rule.code.slug]
+    if exact or not stripped.isalnum():
         return exact
-    return [found for found in rules() if found.code.code.startswith(code)]
+    return [rule for rule in rules() if rule.code.code.startswith(code)]
 
 
 def select(chosen: Iterable[str] = (), ignored: Iterable[str] = (), also: Iterable[str] = ()) -> tuple[Rule, ...]:
-    """The rules that codes, prefixes of codes or slugs choose, and `also`, without those ignored; by code.
+    """Return the rules that codes, prefixes of codes or slugs choose, and `also`, without those ignored; by code.
 
-    Nothing chosen means all rules but those that are off. A rule that is off runs when a word in `chosen` or `also`
-    names it, were it by a prefix. What is ignored is left out, whatever else names it.
+    If nothing is chosen, all rules run except those that are off. A rule that is off runs if a word in `chosen` or
+    `also` names it, even by a prefix. Ignored rules are left out, whatever else names them.
 
-    Raises UnknownRule, with a suggestion, for a word that names none.
+    Raises UnknownRule, with a suggestion, for a word that names no rule.
     """
-    wanted = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
-    wanted = (wanted | _named(also)) - _named(ignored)
-    return tuple(rule for rule in rules() if rule.code.code in wanted)
+    codes = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
+    codes = (codes | _named(also)) - _named(ignored)
+    return tuple(rule for rule in rules() if rule.code.code in codes)
 
 
 def _named(words: Iterable[str]) -> set[str]:
-    found: set[str] = set()
+    codes: set[str] = set()
     for word in words:
         named = find(word)
         if not named:
             raise UnknownRule(f"{word!r} names no rule{_hint(word)}")
-        found |= {rule.code.code for rule in named}
-    return found
+        codes |= {rule.code.code for rule in named}
+    return codes
 
 
 def _hint(word: str) -> str:
@@ -116,9 +116,9 @@ def _hint(word: str) -> str:
 
 
 def load(known: dict[str, Rule]) -> tuple[str, ...]:
-    """Let every installed plugin add its rules to the known ones; returns what is wrong with those that cannot.
+    """Add the rules of every installed plugin to the known rules; return the faults of plugins that cannot be used.
 
-    A plugin with a fault adds nothing. Rules that were added find no way to end a run: see `Guarded`.
+    A plugin with a fault adds nothing. Added rules cannot end a run: see `Guarded`.
     """
     own = RESERVED | {code.rstrip("0123456789") for code in known}
     faults: list[str] = []
@@ -137,7 +137,7 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
 
 
 def _entries() -> Sequence[EntryPoint]:
-    """The entry points of the group, each once however often its package is on the path."""
+    """Return the entry points of the group, each once even if its package is several times on the path."""
     if not may_declare(GROUP):
         return ()
     from importlib.metadata import entry_points  # noqa: PLC0415 - only plugins need it
@@ -150,7 +150,7 @@ def _package(entry: EntryPoint) -> str:
 
 
 def _run(entry: EntryPoint) -> str:
-    """Import what an entry point names, and call it unless it is a module; returns what went wrong."""
+    """Import the object of an entry point, and call it unless it is a module; return the fault, or ""."""
     try:
         loaded = entry.load()
         if not isinstance(loaded, ModuleType):
@@ -163,7 +163,7 @@ def _run(entry: EntryPoint) -> str:
 
 
 def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
-    """What is wrong with the rules that a plugin added."""
+    """Return the fault of the rules that a plugin added, or ""."""
     if not added:
         return "it adds no rule: use the decorator mudline.plugins.rule in it"
     if blocking := [rule.code.code for rule in added if rule.blocks]:
@@ -179,10 +179,10 @@ def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
 
 
 def _fault_of_pages(added: Sequence[Rule]) -> str:
-    """What the docstrings of the rules that a plugin added lack."""
+    """Return the part that the docstrings of a plugin's rules lack, or ""."""
     try:
-        for one in added:
-            one.page  # noqa: B018 - own rules are read in tests
+        for rule in added:
+            rule.page  # noqa: B018 - own rules are read in tests
     except ValueError as error:
         return f"{_said(error)}: report it to its authors"
     return ""
@@ -190,21 +190,21 @@ def _fault_of_pages(added: Sequence[Rule]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Guarded:
-    """The function of a plugin's rule: if it fails on a deck, that is a finding, and the run goes on."""
+    """Function of a plugin's rule: if it fails on a deck, the failure is a finding, and the run goes on."""
 
     check: Check
     code: str
     package: str
 
     def __call__(self, context: LintContext) -> Iterator[Problem]:
-        """What the rule finds, as far as it comes; then RUN002 if it failed, were it by ending the program."""
-        found: Iterator[Problem] = iter(())
+        """Yield the rule's findings as far as they come, then RUN002 if it failed, even by ending the program."""
+        problems: Iterator[Problem] = iter(())
         started = False
         while True:
             try:
                 if not started:
-                    found, started = iter(self.check(context)), True
-                problem = next(found, None)
+                    problems, started = iter(self.check(context)), True
+                problem = next(problems, None)
                 if problem is None:
                     return
                 self._examine(problem, context)
@@ -220,14 +220,14 @@ class Guarded:
             yield problem
 
     def _examine(self, problem: Problem, context: LintContext) -> None:
-        """Fail now, in the guard, for what would fail later: another rule's code, a place that the deck has not."""
+        """Raise now, in the guard, for faults that would show later: another rule's code, a place outside the deck."""
         if problem.code.code != self.code:
             raise ValueError(f"it gave a finding of {problem.code.code}")
         context.deck.diagnose([problem])
 
 
 def _said(error: BaseException) -> str:
-    """An error in one line."""
+    """Return an error in one line."""
     words = " ".join(str(error).split())[:200]
     return f"{type(error).__name__}: {words}" if words else type(error).__name__
 
@@ -236,7 +236,7 @@ def _said(error: BaseException) -> str:
 
 
 def code_fault(word: str) -> str:
-    """What is wrong with a word that is to name rules, with a suggestion, or ""."""
+    """Return the fault of a word that names rules, with a suggestion, or ""."""
     try:
         _named([word])
     except UnknownRule as error:
@@ -245,7 +245,7 @@ def code_fault(word: str) -> str:
 
 
 def plugin_files() -> tuple[str, ...]:
-    """The files of every module that a plugin's package has imported: with them, its rules may change."""
+    """Return the files of every module that a plugin's package has imported: its rules may change with them."""
     packages = {rule.check.check.__module__.partition(".")[0] for rule in rules() if isinstance(rule.check, Guarded)}
     modules = [module for name, module in sys.modules.items() if name.partition(".")[0] in packages]
     return tuple(sorted(path for module in modules if (path := getattr(module, "__file__", None))))

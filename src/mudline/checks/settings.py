@@ -1,4 +1,4 @@
-"""The settings under which a deck is linted: what a configuration says, under what a caller gives."""
+"""Settings under which a deck is linted: its configuration, overridden by those of a caller."""
 
 from __future__ import annotations
 
@@ -6,28 +6,31 @@ import os
 from dataclasses import dataclass, field
 
 from mudline.basics.patterns import matches
-from mudline.checks.configuration import NO_OUTSIDE, Configuration, Configured, Given
+from mudline.checks.configuration import NO_OUTSIDE, CallerSettings, Configuration, Configured
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
 
 
-def hidden_codes(found: Configuration, path: str) -> tuple[str, ...]:
-    """The codes that a configuration ignores in a file."""
-    ignores = found.table("per-file-ignores")
-    relative = found.relative(path) if ignores else ""
+def hidden_codes(configuration: Configuration, path: str) -> tuple[str, ...]:
+    """Return the codes that a configuration ignores in a file."""
+    ignores = configuration.table("per-file-ignores")
+    relative = configuration.relative(path) if ignores else ""
     return tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
 
 
 def merged_settings(
     found: Configuration,
-    given: Given,
+    given: CallerSettings,
     hidden: tuple[str, ...] = (),
     *,
     fail_on: str | None = None,
     fixing: Fixing = Fixing.NONE,
 ) -> LintSettings:
-    """A configuration under what is given; `hidden` are codes that it ignores in a file. Raises UnknownRule."""
+    """Return a configuration overridden by a caller's settings; raises UnknownRule.
+
+    `hidden` are the codes that the configuration ignores in the file.
+    """
     severity = found.table("severity")
     off = [code for code, word in severity.items() if word == "off"]
     chosen = list(given.chosen) or found.words("select")
@@ -54,9 +57,9 @@ def merged_settings(
     )
 
 
-def _unfixable(found: Configuration) -> frozenset[str]:
-    unfixable = _codes(found.words("unfixable"))
-    fixable = found.words("fixable")
+def _unfixable(configuration: Configuration) -> frozenset[str]:
+    unfixable = _codes(configuration.words("unfixable"))
+    fixable = configuration.words("fixable")
     return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
 
 
@@ -66,17 +69,17 @@ def _codes(words: list[str]) -> frozenset[str]:
 
 @dataclass
 class Settings:
-    """The settings of each deck, made once for decks of the same ones; all raise ConfigurationError and UnknownRule."""
+    """Settings of each deck, shared by decks with the same ones; methods raise ConfigurationError and UnknownRule."""
 
     configured: Configured
-    given: Given
+    given: CallerSettings
     fail_on: str | None = None
     fixing: Fixing = Fixing.NONE
     _made: dict[object, LintSettings] = field(default_factory=dict)
     _of_folder: dict[str, LintSettings] = field(default_factory=dict)
 
     def of(self, path: str) -> LintSettings:
-        """The settings of a file, by its path or the name that standard input is given."""
+        """Return the settings of a file, by its path or the name given for standard input."""
         folder = os.path.dirname(path)  # noqa: PTH120 - asked for each of many files
         if folder in self._of_folder:
             return self._of_folder[folder]
@@ -89,10 +92,10 @@ class Settings:
         return self._made[key]
 
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
-        """A configuration under what is given; `hidden` are codes that it ignores in a file."""
+        """Return a configuration overridden by the caller's settings; `hidden` are codes that it ignores in a file."""
         return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
 
 
 def nearest_settings() -> Settings:
-    """The settings of decks where nothing is given but their configurations."""
-    return Settings(Configured(code_fault=code_fault), Given())
+    """Return the settings of decks that depend on their configurations alone."""
+    return Settings(Configured(code_fault=code_fault), CallerSettings())

@@ -1,8 +1,8 @@
 """Findings that are hidden: by comments, `C mudline: ignore CRV005`, `ignore-block`, `ignore-file`; by a baseline.
 
-A comment applies to the next line that is neither blank nor a comment, to the block that it is in (from its keyword to
-the next one), or to the whole file. What it names are codes, prefixes of codes and slugs; naming none means all. A
-baseline records known findings by path, code and the text of their line, not by its number.
+A comment applies to the next line that is neither blank nor a comment, to its block (from the keyword to the next one),
+or to the whole file. It names codes, prefixes of codes and slugs; without a name it applies to all codes. A baseline
+records known findings by path, code and the text of their line, not by its number.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from mudline.language.syntax.tree import Kind, Leaf
 STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 
 MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
-"""The beginning of a comment for mudline."""
+"""Beginning of a comment for mudline."""
 
 _NAMED = re.compile(r"mudline", re.IGNORECASE)
 _ORDER = re.compile(r"[\w-]+")
@@ -41,13 +41,13 @@ _WORD = re.compile(r"[^,\s]+")
 _REASON = r"(?:(?<=[\s,])|^)--(?=\s|$)"
 _PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
 _NOWHERE = ("outside",)
-"""The scope of what is in no block."""
+"""Scope of lines outside of any block."""
 _NOTHING = ("nothing",)
-"""The scope of a comment that applies to nothing."""
+"""Scope of a comment that applies to nothing."""
 
 
 class Word(NamedTuple):
-    """What a comment names: the text, its place, and the codes of the rules behind it (none: no rule has that name)."""
+    """Name in a comment: its text, its place, and the codes of the rules that it names, if any."""
 
     text: str
     span: Span
@@ -56,9 +56,10 @@ class Word(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class Directive:
-    """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line.
+    """Suppression comment.
 
-    `reason` is the text behind `--`, "" without one.
+    scope: the line, the block or the file that it applies to; nothing after the last line.
+    reason: the text behind `--`, "" without one.
     """
 
     order: str
@@ -72,9 +73,10 @@ class Directive:
 
 @dataclass(slots=True, eq=False)
 class Suppressions:
-    """All comments of a deck that hide findings, and those that look like one (`misspelt`: the word, what was meant).
+    """Comments of a deck that hide findings, and those that look like one.
 
-    `origin` gives the places: that of the deck's own text, or of the text that a JSON or YAML deck would be.
+    origin: places in the deck's own text, or in the text that a JSON or YAML deck would be.
+    misspelt: the words of comments that look like one, each with the word that was meant.
     """
 
     origin: TextOrigin
@@ -84,10 +86,9 @@ class Suppressions:
     blocks: list[tuple[int, Hashable]] = field(default_factory=list)
 
     def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
-        """The problems that are reported, and those that are hidden.
+        """Return the problems that are reported, and those that are hidden.
 
-        The reported ones have STY010 besides for what hides nothing, where that rule and the ones named are among the
-        chosen.
+        STY010 is added for comments that hide nothing, if that rule and the rules named there are among the chosen.
         """
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
@@ -99,16 +100,16 @@ class Suppressions:
         hidden: list[Problem] = []
         for problem in [*problems, *unused]:
             codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
-            (hidden if any(_covers(found, problem.code.code) for found in codes) else reported).append(problem)
+            (hidden if any(_covers(named, problem.code.code) for named in codes) else reported).append(problem)
         return reported, hidden
 
     def hiding(self, problem: Problem) -> Directive | None:
-        """The comment that hides a problem."""
+        """Return the comment that hides a problem."""
         scopes, code = self._scopes(problem), problem.code.code
-        return next((one for one in self.directives if one.scope in scopes and _covers(_named(one), code)), None)
+        return next((each for each in self.directives if each.scope in scopes and _covers(_named(each), code)), None)
 
     def unknown(self) -> Iterator[Problem]:
-        """Names that no rule has and unknown instructions in comments."""
+        """Yield problems for names that no rule has, and for unknown instructions in comments."""
         for word, meant, where in self.misspelt:
             message = f"{word.text!r} is not an instruction: did you mean {meant}?"
             yield self._problem(message, word.span, where, self._replacing(word, meant))
@@ -121,7 +122,7 @@ class Suppressions:
                     yield self._problem(f"{word.text!r} names no rule: {hint}", word.span, directive.where, repair)
 
     def _present(self, problems: Iterable[Problem]) -> dict[Hashable, set[str]]:
-        """The codes of the findings in every scope."""
+        """Return the codes of the findings in every scope."""
         present: dict[Hashable, set[str]] = {}
         for problem in problems:
             for scope in self._scopes(problem):
@@ -137,14 +138,14 @@ class Suppressions:
     def _unused(self, present: dict[Hashable, set[str]], selected: set[str]) -> Iterator[Problem]:
         everything = {rule.code.code for rule in rules() if not rule.off}
         for directive in self.directives:
-            found = present.get(directive.scope, set()) - {STY010.code}
+            codes_found = present.get(directive.scope, set()) - {STY010.code}
             place = _place(directive)
-            if not directive.words and not found and everything <= selected:
+            if not directive.words and not codes_found and everything <= selected:
                 message = f"nothing is found in {place}: remove this comment"
                 yield self._problem(message, directive.span, directive.where, self._removing(directive, 0, "safe"))
             for number, word in enumerate(directive.words):
                 judged = (word.codes & everything) or word.codes
-                if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & found:
+                if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & codes_found:
                     message = f"{word.text} is not found in {place}: remove it from this comment"
                     repair = self._removing(directive, number, "safe")
                     yield self._problem(message, word.span, directive.where, repair)
@@ -154,11 +155,11 @@ class Suppressions:
             return Problem(STY010, message, span, repair=repair)
         return Problem(STY010, message, where=where)
 
-    def _replacing(self, word: Word, meant: str) -> Repair:
-        return Repair("unsafe", f"write {meant}", ((word.span, meant),))
+    def _replacing(self, word: Word, replacement: str) -> Repair:
+        return Repair("unsafe", f"write {replacement}", ((word.span, replacement),))
 
     def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
-        """Without a word and the separator beside it, or without the comment when nothing else is named."""
+        """Return a repair that removes a word and its separator, or the comment if nothing else is named."""
         words = directive.words
         if len(words) <= 1:
             return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
@@ -169,7 +170,7 @@ class Suppressions:
 
 
 def _place(directive: Directive) -> str:
-    """What a comment applies to, in words."""
+    """Return the scope of a comment in words."""
     if directive.scope != _NOTHING:
         return _PLACES[directive.order]
     return "what is not a block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
@@ -180,14 +181,14 @@ def _named(directive: Directive) -> set[str]:
 
 
 def _covers(named: set[str], code: str) -> bool:
-    """Whether a code is hidden; a comment that names none does not hide that it is unused."""
+    """Return True if a code is hidden; a comment without codes does not hide that it is unused."""
     return code in named or ("" in named and code != STY010.code)
 
 
 def suppressions(context: LintContext) -> Suppressions | None:
-    """What the comments of a deck hide; None for a deck without such comments. Rules ask `context.once` for it.
+    """Return the suppressions of a deck's comments; None for a deck without such comments. Rules call `context.once`.
 
-    A deck in JSON or YAML is seen as the keyword text that it would be; one that has no such text hides nothing.
+    A deck in JSON or YAML is seen as the keyword text that it would be; a deck without such a text hides nothing.
     """
     deck = context.deck
     if isinstance(deck.origin, TextOrigin):
@@ -209,11 +210,11 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
         return None
     if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None
-    found = Suppressions(origin, own_text)
+    suppressions_ = Suppressions(origin, own_text)
     waiting: list[Directive] = []
-    for leaf, where in _placed(origin, found.blocks):
+    for leaf, where in _placed(origin, suppressions_.blocks):
         if leaf.kind is Kind.COMMENT:
-            directive = _directive(text, leaf.span, where, found)
+            directive = _directive(text, leaf.span, where, suppressions_)
             if directive is not None and directive.order == "ignore":
                 waiting.append(directive)
         elif leaf.kind is not Kind.BLANK:
@@ -221,11 +222,11 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
             for directive in waiting:
                 directive.scope = ("line", line)
             waiting.clear()
-    return found
+    return suppressions_
 
 
 def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
-    """The leaves in their order with the block that they are in; the first lines of blocks go to `blocks`."""
+    """Yield the leaves in their order with their block; the first lines of blocks are added to `blocks`."""
     for index, section in enumerate((origin.tree.preamble, *origin.tree.sections), -1):
         if section.head is not None:
             blocks.append((origin.source.position(section.head.span.start)[0], _NOWHERE))
@@ -251,8 +252,8 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
     end = leaf.start + len(text[slice(*leaf)].rstrip())
     reason = re.search(_REASON, text[order.end() : end])
     names = list(_WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end))
-    codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {one.group() for one in names}}
-    words = [Word(one.group(), Span(*one.span()), codes[one.group()]) for one in names]
+    codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {each.group() for each in names}}
+    words = [Word(each.group(), Span(*each.span()), codes[each.group()]) for each in names]
     directive = Directive(name, leaf, Span(leaf.start, end), words, where)
     directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
     if name == "ignore-file":
@@ -264,7 +265,7 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
 
 
 def _names() -> Iterator[str]:
-    """The codes and slugs of all rules."""
+    """Yield the codes and slugs of all rules."""
     for rule in rules():
         yield from (rule.code.code, rule.code.slug)
 
@@ -274,15 +275,15 @@ def _names() -> Iterator[str]:
 FORMAT = "mudline-baseline/1"
 _KEYS = {"path", "code", "content", "count"}
 _RECORDED = 500
-"""Characters of a line that are recorded."""
+"""Number of characters of a line that are recorded."""
 
 
 class BaselineError(ValueError):
-    """A file that is not a baseline; the message says why."""
+    """File that is not a baseline; the message gives the reason."""
 
 
-class Entry(NamedTuple):
-    """What findings are known by: the path from the baseline's folder, the code, and the line without outer blanks."""
+class BaselineEntry(NamedTuple):
+    """Key of known findings: path from the baseline's folder, code, and line without outer spaces."""
 
     path: str
     code: str
@@ -294,8 +295,8 @@ class Baseline:
     """Known findings and how often each is there; `folder` is that of the baseline's file."""
 
     folder: Path
-    known: Counter[Entry] = field(default_factory=Counter)
-    met: Counter[Entry] = field(default_factory=Counter)
+    known: Counter[BaselineEntry] = field(default_factory=Counter)
+    met: Counter[BaselineEntry] = field(default_factory=Counter)
     seen: set[str] = field(default_factory=set)
 
     def record(self, found: Iterable[Diagnostic], data: bytes, path: str) -> None:
@@ -303,7 +304,7 @@ class Baseline:
         self.known.update(self._entries(found, data, path))
 
     def unknown(self, found: Sequence[Diagnostic], data: bytes, path: str) -> list[Diagnostic]:
-        """The findings of a file that are not recorded, or more of a kind than are."""
+        """Return the findings of a file that are not recorded, or that exceed the recorded number of their kind."""
         self.seen.add(relative_path(path, self.folder))
         new: list[Diagnostic] = []
         for one, entry in zip(found, self._entries(found, data, path), strict=True):
@@ -313,27 +314,27 @@ class Baseline:
         return new
 
     def gone(self) -> int:
-        """How many recorded findings of the files seen are no longer there."""
+        """Return the number of recorded findings of the files seen that are no longer there."""
         return sum(max(count - self.met[entry], 0) for entry, count in self.known.items() if entry.path in self.seen)
 
     def text(self) -> str:
-        """The content of the file: sorted, an entry a line, ends with LF."""
+        """Return the content of the file: sorted, an entry a line, ends with LF."""
         entries = sorted((entry, count) for entry, count in self.known.items() if count)
         lines = [json.dumps({**entry._asdict(), "count": count}, ensure_ascii=True) for entry, count in entries]
         inner = ",\n".join(f"  {line}" for line in lines)
         return f'{{\n "format": "{FORMAT}",\n "findings": [' + (f"\n{inner}\n ]\n}}\n" if lines else "]\n}\n")
 
-    def _entries(self, found: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[Entry]:
+    def _entries(self, findings: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[BaselineEntry]:
         source = Source.from_bytes(data, "")
         relative = relative_path(path, self.folder)
         lines = len(source.line_starts)
-        for one in found:
-            content = source.line(one.line).strip()[:_RECORDED] if one.line <= lines else ""
-            yield Entry(relative, one.code, content)
+        for finding in findings:
+            content = source.line(finding.line).strip()[:_RECORDED] if finding.line <= lines else ""
+            yield BaselineEntry(relative, finding.code, content)
 
 
 def read_baseline(path: Path) -> Baseline:
-    """The baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
+    """Return the baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
     reading(path)
     try:
         document = json.loads(path.read_bytes())
@@ -347,18 +348,18 @@ def read_baseline(path: Path) -> Baseline:
     if not isinstance(findings, list):
         raise BaselineError('it has no list "findings"')
     baseline = Baseline(path.parent)
-    for number, given in enumerate(findings):
-        entry, count = _entry(given, number)
+    for number, finding in enumerate(findings):
+        entry, count = _entry(finding, number)
         baseline.known[entry] += count
     return baseline
 
 
-def _entry(given: object, number: int) -> tuple[Entry, int]:
-    if not isinstance(given, dict) or given.keys() != _KEYS:
+def _entry(finding: object, number: int) -> tuple[BaselineEntry, int]:
+    if not isinstance(finding, dict) or finding.keys() != _KEYS:
         raise BaselineError(f"findings[{number}] must have the keys {', '.join(sorted(_KEYS))}, and no others")
-    path, code, content, count = (given[key] for key in ("path", "code", "content", "count"))
+    path, code, content, count = (finding[key] for key in ("path", "code", "content", "count"))
     if not (isinstance(path, str) and isinstance(code, str) and isinstance(content, str)):
         raise BaselineError(f"findings[{number}]: path, code and content must be texts")
     if not isinstance(count, int) or isinstance(count, bool) or count < 1:
         raise BaselineError(f"findings[{number}]: count must be a whole number from 1")
-    return Entry(path, code, content), count
+    return BaselineEntry(path, code, content), count

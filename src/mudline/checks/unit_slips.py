@@ -1,4 +1,4 @@
-"""Units that a deck has, and those that people slip into."""
+"""Units of a deck, and units that its numbers may be in by mistake."""
 
 from __future__ import annotations
 
@@ -63,11 +63,14 @@ SLIPS = {
     "T": {"s": 1.0, "ms": 1e-3, "minutes": 60.0, "hours": 3600.0},
     "deg": {"degrees": 1.0, "radians": 57.29577951308232},
 }
-"""The names of units by what they measure, with their size in SI (angles in degrees); specific weights as densities."""
+"""Names of units by the quantity that they measure, with their size in SI (angles in degrees).
+
+Specific weights are listed as densities.
+"""
 
 
-class Units(NamedTuple):
-    """The units of a deck: the name that `unit_text` knows, and sizes in SI; those that are not `known` have 1."""
+class DeckUnits(NamedTuple):
+    """Units of a deck: the name that `unit_text` knows, and sizes in SI, which are 1 if the units are not `known`."""
 
     name: str
     length: float = 1.0
@@ -76,23 +79,23 @@ class Units(NamedTuple):
     known: bool = True
 
     def compares(self, unit: str) -> bool:
-        """Whether numbers of a unit can be compared with those in SI."""
+        """Return True if numbers of a unit can be compared with those in SI."""
         return self.known or unit in ("", "-", "%", "deg", "T", "Hz")
 
     @lru_cache(256)  # noqa: B019 - there are few units
     def size(self, unit: str) -> float:
-        """A unit of a field in SI; 1 of what is no dimension."""
+        """Return a unit of a field in SI; 1 if it is not a dimension."""
         if not re.fullmatch(r"(?:[FLMT]\d?|1|/)+", unit):
             return 1.0
         sizes = {"F": self.force, "L": self.length, "M": self.mass, "T": 1.0}
-        found = 1.0
+        product = 1.0
         for side, sign in zip(unit.split("/"), (1, -1), strict=False):
             for letter, power in re.findall(r"([FLMT])(\d?)", side):
-                found *= sizes[letter] ** (sign * int(power or 1))
-        return found
+                product *= sizes[letter] ** (sign * int(power or 1))
+        return product
 
     def behind(self, unit: str) -> str:
-        """A unit of a field as it is written behind a number, with a space; "" where there is none that is known."""
+        """Return a unit of a field as it is written after a number, with a space; "" if none is known."""
         from mudline.language.keywords.format import unit_text  # noqa: PLC0415 - only for a finding
 
         if unit == "deg":
@@ -101,37 +104,37 @@ class Units(NamedTuple):
 
 
 _KNOWN = {
-    "metric": Units("metric"),
-    "imperial": Units("imperial", FOOT, POUND, _SLUG),
+    "metric": DeckUnits("metric"),
+    "imperial": DeckUnits("imperial", FOOT, POUND, _SLUG),
 }
-_TONNES = Units("tonnes", force=1e3, mass=1e3)
+_TONNES = DeckUnits("tonnes", force=1e3, mass=1e3)
 _LIGHT = (0.9, 1.3)
-"""Densities of water in t/m3."""
+"""Range of densities of water in t/m3."""
 
 
-def units_of(context: LintContext) -> Units:
-    """The units of a deck; user units are those of tonnes and kilonewtons where the last *OCEAN says so."""
+def units_of(context: LintContext) -> DeckUnits:
+    """Return the units of a deck; user units are tonnes and kilonewtons if the last *OCEAN shows it."""
     if known := _KNOWN.get(context.scene.units):
         return known
     for _, ocean in reversed(context.blocks("OCEAN")):
         density, gravity = number(ocean, "density"), number(ocean, "gravity")
         if _LIGHT[0] <= density <= _LIGHT[1] and abs(gravity - _GRAVITY) < 0.02 * _GRAVITY:
             return _TONNES
-    return Units("user", known=False)
+    return DeckUnits("user", known=False)
 
 
 _STRICT = 1.2
-"""Factor within which a number in another unit is what the field mostly holds."""
+"""Factor within which a number in another unit equals the usual value of its field."""
 _POINTS = (0.1, 10.0, 0.01, 100.0, 0.001, 1000.0)
-"""What a decimal point that is lost or misplaced does."""
+"""Factors of a lost or misplaced decimal point."""
 _MOST = 3
-"""Units that are proposed for a number of which it is not known what it mostly is."""
+"""Number of units that are proposed for a number without a usual value."""
 Measured = Callable[[float], float]
-"""The quantity that is compared, of a number in SI."""
+"""Compared quantity of a number in SI."""
 
 
 def is_placeholder(value: float) -> bool:
-    """Whether a value is 0 or a power of ten, as people write for a property that does not matter."""
+    """Return True if a value is 0 or a power of ten, as often written for a property that does not matter."""
     if not 0.0 < value < math.inf:
         return True
     exponent = math.log10(value)
@@ -139,11 +142,11 @@ def is_placeholder(value: float) -> bool:
 
 
 def meant_unit(
-    usual: Usual, value: float, unit: str, units: Units, measured: Measured = float, *, strict: bool = False
+    usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float, *, strict: bool = False
 ) -> str:
-    """The other unit in which a number (as the deck has it) is what the field mostly holds, or "".
+    """Return the other unit in which a number (as in the deck) has the usual value of its field, or "".
 
-    With `strict` it is within 20 % of that.
+    With `strict` it must be within 20 % of that value.
     """
     away: dict[str, float] = {}
     for name, size in SLIPS.get(unit, {}).items():
@@ -157,16 +160,16 @@ def meant_unit(
     return next((name for name, distance in away.items() if distance <= within), "")
 
 
-def likely_slips(usual: Usual, value: float, unit: str, units: Units, measured: Measured = float) -> str:
-    """The other units in which a number (as the deck has it) would be usual, in words; "" for none, or too many."""
+def likely_slips(usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float) -> str:
+    """Return the other units, in words, in which a number (as in the deck) would be usual; "" for none, or too many."""
     own = units.size(unit)
     known = SLIPS.get(unit, {}) if math.isnan(usual.meant) else {}
-    found = [name for name, size in known.items() if size != own and usual.holds(measured(value * size))]
-    return " or ".join(found[:_MOST])
+    names = [name for name, size in known.items() if size != own and usual.holds(measured(value * size))]
+    return " or ".join(names[:_MOST])
 
 
 def lacks_point(usual: Usual, value: float, measured: Measured = float) -> bool:
-    """Whether a number (in SI) would be usual with its decimal point elsewhere."""
+    """Return True if a number (in SI) would be usual with its decimal point elsewhere."""
     quantities = [measured(value * factor) for factor in _POINTS]
     if math.isnan(usual.meant):
         return any(map(usual.holds, quantities))

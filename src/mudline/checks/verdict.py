@@ -19,7 +19,7 @@ from mudline.model.results.warnings import seabed_warnings
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Counts of a deck: what was found in it, and how much of it was read.
+    """Counts of a deck: its findings, and how much of it was read.
 
     Attributes:
         file: name of the file.
@@ -46,13 +46,13 @@ class Verdict:
 
     @property
     def short(self) -> str:
-        """`2 errors`, `no errors`, or `no errors found` for a deck of which not all keywords were read."""
+        """Verdict in short: `2 errors`, `no errors`, or `no errors found` if not all keywords were read."""
         if self.errors:
             return counted(self.errors, "error")
         return "no errors" if self.keywords.whole else "no errors found"
 
     def __str__(self) -> str:
-        """Return the short form, and of a deck that was not read as a whole how far: `(31 of 38 keywords read)`."""
+        """Return the short form; if keywords of a deck without errors are unread, add `(31 of 38 keywords read)`."""
         words = self.keywords
         return self.short if words.whole or self.errors else f"{self.short} ({words.share} read)"
 
@@ -65,7 +65,7 @@ class Verdict:
 
 
 class Judgement(NamedTuple):
-    """A verdict and the findings it rests on."""
+    """Verdict and the findings it rests on."""
 
     verdict: Verdict
     errors: list[Diagnostic]
@@ -78,28 +78,28 @@ def refused(file: str, error: DeckError) -> Verdict:
 
 
 def all_findings(context: LintContext) -> list[Problem]:
-    """Return the findings of all rules in a deck, those too that its comments suppress."""
+    """Return the findings of all rules in a deck, including those that its comments suppress."""
     return joined_problems(context, rules(), suppress=False)
 
 
 def errors_of(problems: list[Problem]) -> list[Problem]:
-    """Return those of all findings in a deck that make it illegal, the same in every command."""
-    return [one for one in problems if one.weight is Severity.ERROR]
+    """Return the findings that make a deck illegal, the same in every command."""
+    return [problem for problem in problems if problem.weight is Severity.ERROR]
 
 
 def judge(context: LintContext) -> Judgement:
-    """Return the verdict on a deck, by all rules of severity error and the warnings of the default ones."""
+    """Return the verdict on a deck, by all rules of severity error and the warnings of the default rules."""
     deck = context.deck
     problems = all_findings(context)
     errors = deck.diagnose(errors_of(problems))
-    known = {(one.code, one.line) for one in errors}
-    warnings = [one for one in _warnings(context, problems, ok=not errors) if (one.code, one.line) not in known]
+    known = {(each.code, each.line) for each in errors}
+    warnings = [each for each in _warnings(context, problems, ok=not errors) if (each.code, each.line) not in known]
     counts = (len(deck.sections), coverage_of(deck), len(context.scene.laws.curves), len(context.scene.element_ids))
     return Judgement(Verdict(deck.file, len(errors), len(warnings), *counts), errors, warnings)
 
 
 def judge_content(data: bytes, name: str, units: str | None, folder: Path | None) -> Judgement:
-    """Return the verdict on the content of a file in any form; `folder` is where files that the deck names are."""
+    """Return the verdict on the content of a file in any form; `folder` is the folder of files that the deck names."""
     try:
         deck = load_bytes(data, name, units=units, folder=folder)
     except DeckError as error:
@@ -108,13 +108,13 @@ def judge_content(data: bytes, name: str, units: str | None, folder: Path | None
 
 
 def _warnings(context: LintContext, problems: list[Problem], *, ok: bool) -> list[Diagnostic]:
-    """Return the warnings of lint, and for a deck without errors those of evaluating it where it lies."""
+    """Return the warnings of lint; for a deck without errors also those of its evaluation at the deck's coordinates."""
     codes = _default_codes()
     kept = unsuppressed(context, problems, rules())
-    found = [one for one in kept if one.weight is Severity.WARNING and one.code.code in codes]
-    reported = {one.code.code for one in problems if one.weight is Severity.WARNING}
+    own = [each for each in kept if each.weight is Severity.WARNING and each.code.code in codes]
+    reported = {each.code.code for each in problems if each.weight is Severity.WARNING}
     more = seabed_warnings(context.scene) if ok and SBD006.code not in reported else []
-    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in reported)]
+    return [*context.deck.diagnose(own), *(each.diagnostic for each in more if each.diagnostic.code not in reported)]
 
 
 @cache

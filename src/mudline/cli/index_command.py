@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mudline.basics.files import alone_at, recording_looks
-from mudline.checks.configuration import Given
+from mudline.checks.configuration import CallerSettings
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
 from mudline.checks.settings import Settings
@@ -58,7 +58,7 @@ def command(
         return WRONG_USAGE
     if "-" in decks.paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
-    settings = checked_settings(config, Given(units=decks.units), "none", isolated=isolated, fail_on=None)
+    settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
     inputs = decks.collect(is_in_any_form)
     from mudline.tools.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 

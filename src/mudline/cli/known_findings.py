@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mudline.basics.outside import project_of
-from mudline.checks.configuration import Configured, Given
+from mudline.checks.configuration import CallerSettings, Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory, of_working_folder
@@ -77,7 +77,7 @@ class KnownFindings:
                     return
 
 
-def known_findings(inputs: Inputs, given: Given, configured: Configured) -> KnownFindings | None:
+def known_findings(inputs: Inputs, given: CallerSettings, configured: Configured) -> KnownFindings | None:
     """What is known of the decks of a run; None where there is no place for a memory."""
     memory = of_working_folder("lint", repr(given))
     if memory is None:

@@ -13,7 +13,7 @@ from typing import NoReturn
 import click
 
 from mudline.basics.overwriting import claim
-from mudline.checks.configuration import ConfigurationError, Configured, Given
+from mudline.checks.configuration import CallerSettings, ConfigurationError, Configured
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
@@ -106,7 +106,7 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. With -v the files of directories that are skipped are named.
     """
-    given = Given(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
+    given = CallerSettings(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
     if baseline and recording:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import click
 
-from mudline.checks.configuration import Configuration, Configured, Given
+from mudline.checks.configuration import CallerSettings, Configuration, Configured
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.registry import UnknownRule, code_fault, plugin_files
@@ -47,7 +47,9 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
         raise click.ClickException(message) from error
 
 
-def checked_settings(config: str | None, given: Given, fixing: str, *, isolated: bool, fail_on: str | None) -> Settings:
+def checked_settings(
+    config: str | None, given: CallerSettings, fixing: str, *, isolated: bool, fail_on: str | None
+) -> Settings:
     """The settings of a command line; ends the command for a word that names no rule, whatever the files are."""
     settings = Settings(Configured(config, isolated, code_fault), given, fail_on, Fixing(fixing))
     try:

@@ -11,7 +11,7 @@ import click
 
 from mudline.basics.overwriting import reading
 from mudline.basics.short_repr import counted
-from mudline.checks.configuration import Given as GivenRules
+from mudline.checks.configuration import CallerSettings
 from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import GivenDecks, Input, takes_decks
@@ -84,7 +84,7 @@ def command(
     if html and (missing := next((one for one in ("jinja2", "matplotlib") if find_spec(one) is None), None)):
         notify_missing("report", missing, "report")
         return WRONG_USAGE
-    settings = checked_settings(config, GivenRules(units=decks.units), "none", isolated=isolated, fail_on=None)
+    settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
     inputs = decks.collect(is_in_any_form)
     for path in filter(None, (template, logo)) if html else ():
         reading(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from textwrap import fill, indent
 from typing import Any
@@ -85,8 +86,9 @@ def _print_rule(rule: Rule, view: View) -> None:
     printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule), ")", fold=False)
     line, column = rule.page.place
     bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.page.bad, rule.page.good))
+    texts = [rule.page.title, *re.split(r"\n\n|\n(?=\* )", rule.page.why)]  # also each item of a list
     for paragraph in (
-        *(fill(text, width) for text in (rule.page.title, *rule.page.why.split("\n\n")) if text),
+        *(fill(" ".join(it.split()), width, subsequent_indent="  " * it.startswith("* ")) for it in texts if it),
         *filter(None, [_package(rule, "A rule of {}.")]),
         f"Bad (found at line {line}, column {column}):",
         bad,

@@ -9,14 +9,14 @@ import pytest
 
 from mudline.language.diagnostics import DeckError, Diagnostic, Where
 from mudline.model.contact.arrays import Positions
-from mudline.model.scene.numbering import Batch, Definitions, Numbered
+from mudline.model.scene.numbering import DefinitionBatch, Definitions, Numbered
 from mudline.model.scene.positions import read_positions
 
 
 def numbered(ids: list[int]) -> Numbered:
     """Nodes of these numbers at the origin, in this order."""
     gathered = Definitions()
-    gathered.add(Batch(np.array(ids, dtype=np.int64), np.zeros((len(ids), 3)), Where(0, 0)))
+    gathered.add(DefinitionBatch(np.array(ids, dtype=np.int64), np.zeros((len(ids), 3)), Where(0, 0)))
     return gathered.resolve(3)
 
 

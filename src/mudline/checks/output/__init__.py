@@ -1,7 +1,7 @@
-"""The forms of findings, a module each, imported when it is asked for, and what they share.
+"""Output formats of findings, a module each, imported when it is used, and the functions that they share.
 
-A module is a form by being here, under its name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
-run)` returns the text of findings in pieces. `text`, the form for people, is printed by the command as they come.
+Each module here is a format with the module's name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
+run)` returns the text of findings in pieces. `text`, the format for people, is printed by the command as findings come.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from mudline.basics.short_repr import cut
 from mudline.language.diagnostics import Diagnostic
 
 TEXT = "text"
-"""The form for people, which goes to the terminal as the findings come."""
+"""Format for people, which is printed to the terminal as findings come."""
 
 TEXT_SUMMARY = "for people: place, message, the source line with a mark; standard output only"
 
@@ -29,35 +29,35 @@ _REPLACEMENT = "\ufffd"
 
 
 class LintRun(NamedTuple):
-    """What a form may say besides the findings: the files linted, in their order, and the version of mudline."""
+    """Context of a run for a format: the files linted, in their order, and the version of mudline."""
 
     files: Sequence[str]
     version: str
 
 
 def form_names() -> list[str]:
-    """Return the name of every form but text, found without importing one."""
-    return sorted(found.name for found in iter_modules(__path__))
+    """Return the name of every format except text, without importing one."""
+    return sorted(module.name for module in iter_modules(__path__))
 
 
 def form_module(name: str) -> ModuleType:
-    """Return the module of a form."""
+    """Return the module of a format."""
     return import_module(f"{__name__}.{name}")
 
 
 def form(name: str, files: Sequence[str], version: str) -> Callable[[Iterable[Diagnostic]], Iterator[str]]:
-    """Return the function that makes the text of findings in a form; `files` and `version` are those of `LintRun`."""
+    """Return the function that writes findings in a format; `files` and `version` are those of `LintRun`."""
     return partial(form_module(name).write, run=LintRun(files, version))
 
 
 class Fingerprints:
-    """Hashes of path, code and message, not of the line number; the same thing found again is counted."""
+    """Hashes of path, code and message, without the line number; equal findings are counted."""
 
     def __init__(self) -> None:
         self._met: Counter[tuple[str, str, str]] = Counter()
 
     def of(self, found: Diagnostic) -> str:
-        """The hash of a finding, in the order of the findings; no two of a run are equal."""
+        """Return the hash of a finding, in the order of the findings; no two of a run are equal."""
         known = (found.file, found.code, found.message)
         self._met[known] += 1
         text = "\0".join([*known, str(self._met[known])])
@@ -65,10 +65,10 @@ class Fingerprints:
 
 
 def visible(text: str, encoding: str = "utf-8") -> str:
-    """The text with a blank for a tab and a replacement mark for every other character that does not print.
+    """Return the text with a space for a tab, and a replacement mark for every other character that does not print.
 
-    Nothing in a deck acts on a terminal then. What a terminal's encoding lacks is escaped, so that the text is as long
-    here as it is there. A text that nobody would read to its end is cut.
+    Nothing in a deck can then act on a terminal. Characters that the terminal's encoding lacks are escaped, so that the
+    text has the same length here and there. A very long text is cut.
     """
     shown = cut(text, LONGEST_MESSAGE)
     if not shown.isprintable():
@@ -79,7 +79,7 @@ def visible(text: str, encoding: str = "utf-8") -> str:
 
 
 def visible_lines(text: str) -> str:
-    """The same for a text of several lines, whose line ends and tabs stay."""
+    """Return the same for a text of several lines, whose line ends and tabs stay."""
     kept = "\n\t"
     if all(char.isprintable() or char in kept for char in text):
         return text

@@ -1,4 +1,4 @@
-"""A finding a line: `file:line:column: CODE message`."""
+"""Findings as one line each: `file:line:column: CODE message`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SUMMARY = "`file:line:column: CODE message`, a line each"
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """The lines, with their ends."""
-    for found in diagnostics:
-        place = f"{found.file}:{found.line}:{found.column}"
-        yield f"{visible(place)}: {found.code} {visible(found.message)}\n"
+    """Yield the lines, with their ends."""
+    for finding in diagnostics:
+        place = f"{finding.file}:{finding.line}:{finding.column}"
+        yield f"{visible(place)}: {finding.code} {visible(finding.message)}\n"

@@ -13,18 +13,18 @@ _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """A command a line; columns are given where a finding begins and ends in one line, the last one included."""
-    for found in diagnostics:
+    """Yield a command for each finding; columns, the last one included, are given if a finding lies in one line."""
+    for finding in diagnostics:
         values: dict[str, str | int] = {
-            "file": found.file.removeprefix("./"),
-            "line": found.line,
-            "endLine": found.end_line,
+            "file": finding.file.removeprefix("./"),
+            "line": finding.line,
+            "endLine": finding.end_line,
         }
-        if found.line == found.end_line:
-            values |= {"col": found.column, "endColumn": max(found.column, found.end_column - 1)}
-        values["title"] = f"{found.code} {found.slug}"
+        if finding.line == finding.end_line:
+            values |= {"col": finding.column, "endColumn": max(finding.column, finding.end_column - 1)}
+        values["title"] = f"{finding.code} {finding.slug}"
         written = ",".join(f"{name}={_property(str(value))}" for name, value in values.items())
-        yield f"::{_COMMANDS[found.severity]} {written}::{_data(visible(found.message))}\n"
+        yield f"::{_COMMANDS[finding.severity]} {written}::{_data(visible(finding.message))}\n"
 
 
 def _data(text: str) -> str:

@@ -17,23 +17,23 @@ _SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """One array, an object a line; `[]` when there is nothing."""
+    """Return one array, an object a line; `[]` without findings."""
     fingerprints = Fingerprints()
-    placed = (replace(found, file=_path(found.file)) for found in diagnostics)
-    return array(_issue(found, fingerprints.of(found)) for found in placed)
+    placed = (replace(finding, file=_path(finding.file)) for finding in diagnostics)
+    return array(_issue(finding, fingerprints.of(finding)) for finding in placed)
 
 
-def _issue(found: Diagnostic, fingerprint: str) -> dict[str, Any]:
+def _issue(finding: Diagnostic, fingerprint: str) -> dict[str, Any]:
     return {
-        "description": f"{found.code} {visible(found.message)}",
-        "check_name": found.slug,
+        "description": f"{finding.code} {visible(finding.message)}",
+        "check_name": finding.slug,
         "fingerprint": fingerprint,
-        "severity": _SEVERITIES[found.severity],
-        "location": {"path": found.file, "lines": {"begin": found.line, "end": found.end_line}},
+        "severity": _SEVERITIES[finding.severity],
+        "location": {"path": finding.file, "lines": {"begin": finding.line, "end": finding.end_line}},
     }
 
 
 def _path(file: str) -> str:
-    """GitLab knows paths from the top of the repository only, which is where its jobs run."""
+    """Return a path from the top of the repository, as GitLab needs it; its jobs run there."""
     path, top = Path(file), Path.cwd()
     return path.relative_to(top).as_posix() if path.is_relative_to(top) else file.removeprefix("./")

@@ -14,33 +14,33 @@ SUMMARY = "an [array of objects](json.md#findings)"
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """One array, an object a line; `[]` when there is nothing."""
+    """Return one array, an object a line; `[]` without findings."""
     return array(map(as_object, diagnostics))
 
 
 def array(objects: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """The text of an array, in pieces."""
+    """Yield the text of an array, in pieces."""
     mark = "["
-    for found in objects:
-        yield f"{mark}\n {json.dumps(found, ensure_ascii=False)}"
+    for item in objects:
+        yield f"{mark}\n {json.dumps(item, ensure_ascii=False)}"
         mark = ","
     yield "[]\n" if mark == "[" else "\n]\n"
 
 
-def as_object(found: Diagnostic) -> dict[str, Any]:
-    """A finding as a dict."""
+def as_object(finding: Diagnostic) -> dict[str, Any]:
+    """Return a finding as a dict."""
     return {
-        "file": found.file,
-        "code": found.code,
-        "slug": found.slug,
-        "severity": found.severity.value,
-        "message": found.message,
-        "line": found.line,
-        "column": found.column,
-        "end_line": found.end_line,
-        "end_column": found.end_column,
-        "fix": None if found.fix is None else _fix(found.fix),
-        "url": page(found.code),
+        "file": finding.file,
+        "code": finding.code,
+        "slug": finding.slug,
+        "severity": finding.severity.value,
+        "message": finding.message,
+        "line": finding.line,
+        "column": finding.column,
+        "end_line": finding.end_line,
+        "end_column": finding.end_column,
+        "fix": None if finding.fix is None else _fix(finding.fix),
+        "url": page(finding.code),
     }
 
 

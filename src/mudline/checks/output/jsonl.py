@@ -13,6 +13,6 @@ SUMMARY = "the same objects, one a line"
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
-    """An object a line."""
-    for found in diagnostics:
-        yield f"{json.dumps(as_object(found), ensure_ascii=False)}\n"
+    """Yield an object a line."""
+    for finding in diagnostics:
+        yield f"{json.dumps(as_object(finding), ensure_ascii=False)}\n"

@@ -1,6 +1,6 @@
-"""Findings as the XML of test reports: a suite a file, a failed case a finding, one passed case for a clean file.
+"""Findings as the XML of test reports: a suite for each file, a failed case for each finding, a passed case if none.
 
-The text of a failure is there twice: some readers show the attribute, others the element.
+The text of a failure is given twice: some readers show the attribute, others the element.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ SUMMARY = (
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """The document in pieces; all files that were linted are in it, in their order."""
+    """Yield the document in pieces, with all files that were linted, in their order."""
     by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
-    for found in diagnostics:
-        by_file.setdefault(found.file, []).append(found)
-    cases = sum(len(found) or 1 for found in by_file.values())
-    failures = sum(len(found) for found in by_file.values())
+    for findings in diagnostics:
+        by_file.setdefault(findings.file, []).append(findings)
+    cases = sum(len(findings) or 1 for findings in by_file.values())
+    failures = sum(len(findings) for findings in by_file.values())
     yield '<?xml version="1.0" encoding="UTF-8"?>\n'
     yield f'<testsuites name="mudline" tests="{cases}" failures="{failures}" errors="0">\n'
     for name, listed in by_file.items():
@@ -36,16 +36,16 @@ def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
     yield f"  <testsuite name={_value(name)} {counts}>\n"
     if not listed:
         yield f'    <testcase name="mudline" classname={_value(name)} time="0"/>\n'
-    for found in listed:
-        case = f"{found.code} {found.slug} {found.line}:{found.column}"
-        place = f"{found.file}:{found.line}:{found.column}"
+    for finding in listed:
+        case = f"{finding.code} {finding.slug} {finding.line}:{finding.column}"
+        place = f"{finding.file}:{finding.line}:{finding.column}"
         yield f'    <testcase name={_value(case)} classname={_value(name)} time="0">\n'
-        text = visible(f"{place}: {found.message}")
-        yield f'      <failure type="{found.severity.value}" message={quoteattr(text)}>{escape(text)}</failure>\n'
+        text = visible(f"{place}: {finding.message}")
+        yield f'      <failure type="{finding.severity.value}" message={quoteattr(text)}>{escape(text)}</failure>\n'
         yield "    </testcase>\n"
     yield "  </testsuite>\n"
 
 
 def _value(text: str) -> str:
-    """An attribute in quotes; what XML forbids does not print either, and is replaced."""
+    """Return an attribute in quotes; characters that XML forbids do not print either, and are replaced."""
     return quoteattr(visible(text))

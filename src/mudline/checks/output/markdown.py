@@ -1,6 +1,6 @@
-"""Findings as a table in Markdown, for the summary of a job and for a note on a change: errors first, and not too many.
+"""Findings as a table in Markdown, for a job's summary or a note on a change: errors first, limited in number.
 
-A host takes about a million characters; nothing of a deck's text is markup, a link or a mention there.
+A host takes about a million characters. No text of a deck can act as markup, link or mention there.
 """
 
 from __future__ import annotations
@@ -24,31 +24,31 @@ _MARKUP = re.compile(r"[\\`*_{}\[\]<>#|~@&!$]|:(?=//)|(?<=www)\.")
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """A heading with the totals, then a row a finding; the heading alone where there is none."""
-    listed = sorted(diagnostics, key=lambda found: (-found.severity.rank, found.sort_key))
+    """Yield a heading with the totals, then a row for each finding; the heading alone without findings."""
+    listed = sorted(diagnostics, key=lambda finding: (-finding.severity.rank, finding.sort_key))
     files = counted(len(run.files), "file")
     if not listed:
         yield f"### mudline: no findings in {files}\n"
         return
-    counts = Counter(found.severity for found in listed)
+    counts = Counter(finding.severity for finding in listed)
     words = {each: counted(counts[each], each.value) for each in (Severity.ERROR, Severity.WARNING)}
     words[Severity.INFO] = f"{counts[Severity.INFO]} info"
     yield f"### mudline: {', '.join(word for each, word in words.items() if counts[each])} in {files}\n\n"
     yield "| severity | place | rule | message |\n| --- | --- | --- | --- |\n"
-    for found in listed[:_MOST]:
-        place = _plain(f"{found.file.removeprefix('./')}:{found.line}:{found.column}")
-        yield f"| {found.severity.value} | {place} | {_rule(found)} | {_plain(found.message)} |\n"
+    for finding in listed[:_MOST]:
+        place = _plain(f"{finding.file.removeprefix('./')}:{finding.line}:{finding.column}")
+        yield f"| {finding.severity.value} | {place} | {_rule(finding)} | {_plain(finding.message)} |\n"
     if len(listed) > _MOST:
         yield f"\nand {counted(len(listed) - _MOST, 'finding')} more.\n"
 
 
-def _rule(found: Diagnostic) -> str:
-    """The code, as a link where its page is on a site, and the slug."""
-    address = page(found.code) or ""
-    code = f"[{found.code}]({address})" if address.startswith("http") else found.code
-    return f"{code} {_plain(found.slug)}"
+def _rule(finding: Diagnostic) -> str:
+    """Return the code, as a link if its page is on a site, and the slug."""
+    address = page(finding.code) or ""
+    code = f"[{finding.code}]({address})" if address.startswith("http") else finding.code
+    return f"{code} {_plain(finding.slug)}"
 
 
 def _plain(text: str) -> str:
-    """A text in which no character is markup."""
+    """Return a text in which no character is markup."""
     return _MARKUP.sub(lambda char: f"&#{ord(char[0])};", visible(text))

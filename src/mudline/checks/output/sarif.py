@@ -1,4 +1,4 @@
-"""Findings in SARIF 2.1.0, the interchange form of static analysis."""
+"""Findings in SARIF 2.1.0, the interchange format of static analysis."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _NO_RULE = "This is not a rule and cannot be ignored; the message says why the f
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """One log with one run; its rules are those that something was found by."""
+    """Yield one log with one run; its rules are those with findings."""
     listed = list(diagnostics)
-    first = {found.code: found for found in reversed(listed)}
+    first = {finding.code: finding for finding in reversed(listed)}
     codes = sorted(first)
     fingerprints = Fingerprints()
     driver = {
@@ -44,28 +44,28 @@ def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
         "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
     }
     yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(log)[:-1]}, "results": ['
-    for number, found in enumerate(listed):
-        result = _result(found, codes.index(found.code), fingerprints.of(found))
+    for number, finding in enumerate(listed):
+        result = _result(finding, codes.index(finding.code), fingerprints.of(finding))
         yield f"{',' * (number > 0)}\n {json.dumps(result)}"
     yield "\n]}]}\n"
 
 
-def _result(found: Diagnostic, index: int, fingerprint: str) -> dict[str, Any]:
+def _result(finding: Diagnostic, index: int, fingerprint: str) -> dict[str, Any]:
     place = {
-        "artifactLocation": _location(found.file),
-        "region": _region((found.line, found.column), (found.end_line, found.end_column)),
+        "artifactLocation": _location(finding.file),
+        "region": _region((finding.line, finding.column), (finding.end_line, finding.end_column)),
     }
     result: dict[str, Any] = {
-        "ruleId": found.code,
+        "ruleId": finding.code,
         "ruleIndex": index,
-        "level": LEVELS[found.severity],
-        "message": {"text": visible(found.message)},
+        "level": LEVELS[finding.severity],
+        "message": {"text": visible(finding.message)},
         "locations": [{"physicalLocation": place}],
         "partialFingerprints": {"mudline/v1": fingerprint},
     }
-    if found.fix is not None:
-        changes = [{"artifactLocation": _location(found.file), "replacements": [_edit(e) for e in found.fix.edits]}]
-        result["fixes"] = [{"description": {"text": visible(found.fix.message)}, "artifactChanges": changes}]
+    if finding.fix is not None:
+        changes = [{"artifactLocation": _location(finding.file), "replacements": [_edit(e) for e in finding.fix.edits]}]
+        result["fixes"] = [{"description": {"text": visible(finding.fix.message)}, "artifactChanges": changes}]
     return result
 
 
@@ -80,7 +80,7 @@ def _location(file: str) -> dict[str, str]:
 
 
 def _bytes(path: str) -> bytes:
-    """The bytes of a name, those of the file system if it may have such a name."""
+    """Return the bytes of a name, those of the file system if it may have this name."""
     try:
         return os.fsencode(path)
     except UnicodeEncodeError:
@@ -95,16 +95,16 @@ def _edit(edit: Edit) -> dict[str, Any]:
     return {"deletedRegion": _region(edit.start, edit.end), "insertedContent": {"text": edit.text}}
 
 
-def _descriptor(found: Diagnostic) -> dict[str, Any]:
-    """The reporting descriptor of the code of a finding."""
-    rule = next((rule for rule in rules() if rule.code.code == found.code), None)
-    title = rule.page.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
+def _descriptor(finding: Diagnostic) -> dict[str, Any]:
+    """Return the reporting descriptor of the code of a finding."""
+    rule = next((rule for rule in rules() if rule.code.code == finding.code), None)
+    title = rule.page.title if rule else f"{finding.slug.replace('-', ' ').capitalize()}."
     why = rule.page.why if rule else _NO_RULE
-    severity = rule.code.severity if rule else found.severity
-    address = page(found.code) or ""
+    severity = rule.code.severity if rule else finding.severity
+    address = page(finding.code) or ""
     return {
-        "id": found.code,
-        "name": "".join(word.capitalize() for word in found.slug.split("-")),
+        "id": finding.code,
+        "name": "".join(word.capitalize() for word in finding.slug.split("-")),
         "shortDescription": {"text": title},
         "fullDescription": {"text": why},
         "defaultConfiguration": {"level": LEVELS[severity], "enabled": not (rule and rule.off)},
@@ -115,6 +115,6 @@ def _descriptor(found: Diagnostic) -> dict[str, Any]:
 
 
 def _markdown(rule: Rule) -> str:
-    said = rule.page
-    examples = f"Bad:\n\n```text\n{said.bad.rstrip()}\n```\n\nGood:\n\n```text\n{said.good.rstrip()}\n```\n"
-    return f"# {said.title}\n\n{said.why}\n\n{examples}"
+    content = rule.page
+    examples = f"Bad:\n\n```text\n{content.bad.rstrip()}\n```\n\nGood:\n\n```text\n{content.good.rstrip()}\n```\n"
+    return f"# {content.title}\n\n{content.why}\n\n{examples}"

@@ -1,1 +1,1 @@
-"""The deck as it was meant, for findings alone: each module corrects the faults of one subject."""
+"""Recovery from faults, for findings alone: each module corrects the faults of one subject."""

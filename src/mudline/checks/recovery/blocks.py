@@ -1,4 +1,4 @@
-"""What a corrector sees of a deck's text, and what it gives: a correction of a fault from which findings follow."""
+"""Input of a corrector, the blocks of a deck's text, and its output: a correction of a fault that causes findings."""
 
 from __future__ import annotations
 
@@ -21,16 +21,20 @@ from mudline.model.scene.references import CURVES
 from mudline.model.scene.sets import ALL
 
 ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
-"""The number at the begin of a row."""
+"""Number at the beginning of a row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """Edits that may correct a finding, and the part of the text that is read differently then.
+    """Edits that may correct a fault, and the part of the text that they change.
 
-    `message` is what the finding says where the correction holds, "" for its own message. With `does`, the words for
-    what its edits do, the finding has them as an unsafe repair. One that is `certain` needs no trial; one that `joins`
-    makes its lines part of the block above.
+    cause: the finding of the fault.
+    edits: the edits.
+    region: the part of the text that is read differently with them.
+    message: message of the finding if the correction is accepted, "" for its own message.
+    does: the effect of the edits in words; the finding then has them as an unsafe repair.
+    certain: the correction needs no trial.
+    joins: the correction makes its lines part of the block above.
     """
 
     cause: Problem
@@ -43,13 +47,13 @@ class Correction:
 
 
 def start_of(text: TextOrigin, problem: Problem) -> int:
-    """Where a problem begins in the text, -1 where it has no place there."""
+    """Return the offset of a problem in the text, -1 if it has no place there."""
     span = problem.span or (text.span(problem.where) if problem.where else None)
     return -1 if span is None else span.start
 
 
 def line_at(text: TextOrigin, offset: int) -> Span:
-    """The line around an offset, without its end."""
+    """Return the line around an offset, without its end."""
     unified = text.source.unified
     end = unified.find("\n", offset)
     end = len(unified) if end < 0 else end
@@ -57,28 +61,28 @@ def line_at(text: TextOrigin, offset: int) -> Span:
 
 
 def behind(text: TextOrigin, line: Span) -> int:
-    """Where the next line begins."""
+    """Return the offset of the next line."""
     return (text.source.unified.find("\n", line.end) + 1) or len(text.source.unified) + 1
 
 
 def head_start(text: TextOrigin, block: RawBlock) -> int:
-    """Where the name of a block begins: behind the blanks of its line."""
+    """Return the offset of a block's name, after the spaces at the start of its line."""
     line = text.source.unified[slice(*block.head.span)]
     return block.head.span.start + len(line) - len(line.lstrip(" \t"))
 
 
 def whole(block: RawBlock) -> Span:
-    """From the head of a block to the end of its last line."""
+    """Return the span from the head of a block to the end of its last line."""
     return Span(block.head.span.start, (block.leaves or [block.head])[-1].span.end)
 
 
 def data_of(leaves: Sequence[Leaf]) -> list[Leaf]:
-    """The lines that are no comments."""
+    """Return the lines that are not comments."""
     return [leaf for leaf in leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)]
 
 
 def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
-    """The lines of a block below its head, without their ends."""
+    """Yield the lines of a block below its head, without their ends."""
     at = block.head.span.end
     end = whole(block).end
     while at < end:
@@ -88,7 +92,7 @@ def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
 
 
 def also_in(origin: Origin, others: Sequence[Problem]) -> str:
-    """Where else the same is found, in words."""
+    """Return in words the other lines with the same fault."""
     *lines, last = sorted({origin.place_in_file(one).line for one in others})
     if not lines:
         return f"the same in line {last}"
@@ -96,7 +100,7 @@ def also_in(origin: Origin, others: Sequence[Problem]) -> str:
 
 
 class Blocks:
-    """The blocks of a deck's text by their place, sorted out when somebody asks."""
+    """Blocks of a deck's text by their place, computed on demand."""
 
     def __init__(self, deck: Deck, text: TextOrigin) -> None:
         self.deck = deck
@@ -110,18 +114,18 @@ class Blocks:
 
     @cached_property
     def blocks(self) -> list[tuple[str, RawBlock]]:
-        """All of them, each with the name of its section."""
+        """All blocks, each with the name of its section."""
         return [(section.name, block) for section in self._sections for block in section.blocks]
 
     def declared(self) -> Iterator[tuple[RawBlock, type[Block]]]:
-        """Those whose lines are read, each with its declaration."""
+        """Yield the blocks whose lines are read, each with its declaration."""
         for section, block in self.blocks:
             if (declared := catalogue.block_class(section, block.name)) is not None:
                 yield block, declared
 
     @cached_property
     def keywords(self) -> set[str]:
-        """The names of all blocks."""
+        """Names of all blocks."""
         return {block.name for _, block in self.blocks}
 
     @cached_property
@@ -137,11 +141,11 @@ class Blocks:
         return sorted([*self._heads, *self._block_starts])
 
     def block_at(self, offset: int) -> Span:
-        """From the head of the block (or section) around an offset to the next one."""
+        """Return the span from the head of the block (or section) around an offset to the next head."""
         return self._around(self._starts, offset)
 
     def section_at(self, offset: int) -> Span:
-        """From the head of the section around an offset to the next one."""
+        """Return the span from the head of the section around an offset to the next one."""
         return self._around(self._heads, offset)
 
     def _around(self, starts: list[int], offset: int) -> Span:
@@ -149,18 +153,18 @@ class Blocks:
         return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
 
     def raw_at(self, offset: int) -> RawBlock | None:
-        """The block whose lines are around an offset, None above the first one and below the last line of one."""
+        """Return the block whose lines are around an offset; None above the first block and after a block's lines."""
         at = bisect_right(self._block_starts, offset)
         block = self.blocks[at - 1][1] if at else None
         return block if block is not None and offset < whole(block).end else None
 
     def declared_at(self, offset: int) -> type[Block] | None:
-        """The declaration of the block around an offset, None where its lines are not read."""
+        """Return the declaration of the block around an offset; None if its lines are not read."""
         block = self.raw_at(offset)
         return catalogue.block_class(self.section_name(offset), block.name) if block else None
 
     def section_name(self, offset: int) -> str:
-        """The name of the section around an offset, "" before the first."""
+        """Return the name of the section around an offset, "" before the first."""
         return self._sections[max(bisect_right(self._heads, offset) - 1, 0)].name
 
     @cached_property
@@ -168,7 +172,7 @@ class Blocks:
         return self.deck.names()
 
     def missing(self, what: Names) -> list[str]:
-        """The names of a kind that are used and nothing defines."""
+        """Return the names of a kind that are used and not defined."""
         if self.keywords.isdisjoint(catalogue.users(what)):
             return []
         if what not in self._missing:
@@ -182,7 +186,7 @@ class Blocks:
 
     @cached_property
     def lacked_curves(self) -> dict[str, list[Names]]:
-        """The names of curves that are used and nothing defines, each with the kinds of curves that it is one of."""
+        """Names of curves that are used and not defined, each with the kinds of curves that it may be."""
         found: dict[str, list[Names]] = {}
         for kind in (Names.CURVE, *CURVES):
             for name in self.missing(kind):

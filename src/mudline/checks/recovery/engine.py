@@ -1,8 +1,8 @@
-"""The deck as it was meant, for findings alone: faults are recovered from, and all checks see the outcome.
+"""Recovery from faults, for findings alone: all checks see the corrected deck.
 
-A fault of reading has corrections; one is taken if the block around it then reads better, which reading the lines of
-that block tells. The deck with all of them is read, resolved and checked in the place of the one as written, once, and
-what is found in it is reported at the lines that it has in the file.
+A fault of reading has corrections. A correction is accepted if the block around it then reads better, which a trial
+with the lines of that block shows. The deck with all accepted corrections is read, resolved and checked once, in place
+of the deck as written. Its findings are reported at their lines in the file.
 """
 
 from __future__ import annotations
@@ -35,30 +35,38 @@ from mudline.language.syntax.edits import OverlapError, TextEdit, Undoing, apply
 from mudline.language.syntax.source import Source
 
 MOST_ROUNDS = 4
-"""Times that the corrected lines are looked through for faults that the ones before them hid."""
+"""Number of times that the corrected lines are searched for faults that earlier faults hid."""
 
 MOST_TRIALS, OF_A_TRIAL = 200, 2000
-"""Corrections of a deck that are tried, as a file of another kind would have as many as it has lines; and characters
-that are read for one: a longer block counts as several."""
+"""Limits of trials: a file of another kind would need as many corrections as it has lines.
+
+MOST_TRIALS: number of corrections of a deck that are tried.
+OF_A_TRIAL: characters that are read for one trial; a longer block counts as several.
+"""
 
 LONGEST_LINE, LONGEST_TRIED = 4096, 50_000
-"""Characters of a line that is corrected, and of a block that is read again to see whether it is better."""
+"""Limits of length in characters.
+
+LONGEST_LINE: line that is corrected.
+LONGEST_TRIED: block that is read again to see if it is better.
+"""
 
 _OF_KEYWORDS = (SYN008, SYN009)
-"""Faults whose correction says what keyword a block has, which must then read without a fault."""
+"""Faults whose correction gives a block its keyword; the block must then read without a fault."""
 _OF_SECTIONS = (SYN007, SYN010)
-"""Faults whose correction says where blocks belong, and not how they read."""
+"""Faults whose correction moves blocks to another section, and does not change how they read."""
 
 
 Corrector = Callable[[Blocks, Sequence[Problem]], Iterator[Correction]]
-"""Makes corrections of a deck from the problems under its codes."""
+"""Function that yields corrections of a deck from the problems under its codes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Recovery:
-    """A corrector with the codes that it recovers from.
+    """Corrector with the codes that it recovers from.
 
-    One that is `always` asked looks at decks without them too; the `last` ones see what has no correction before them.
+    always: it is called for decks without these codes too.
+    last: it gets only problems that have no correction yet.
     """
 
     corrector: Corrector
@@ -69,10 +77,12 @@ class Recovery:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """How a deck is read and what is reported of it.
+    """Functions that read a deck and select the problems to report.
 
-    `again` reads a text, and `block` a block of it; `reported` gives those of some problems, with their places in the
-    file, that a user sees: others are not recovered from, as nobody would learn why.
+    again: reads a text.
+    block: reads a block of a text.
+    reported: returns the problems that a user sees, with their places in the file. Recovery from other faults would go
+        unnoticed, so they are left alone.
     """
 
     again: Callable[[bytes], Deck]
@@ -82,9 +92,11 @@ class Reading:
 
 @dataclass
 class Recovered:
-    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that.
+    """Deck with its faults corrected.
 
-    `again` reads a text.
+    again: reads a text.
+    causes: the findings of the corrected faults, at their places in the file.
+    steps: the edits, by which places lead back to the file.
     """
 
     context: LintContext
@@ -94,25 +106,25 @@ class Recovered:
 
     @property
     def deck(self) -> Deck:
-        """The deck."""
+        """Corrected deck."""
         return self.context.deck
 
     def take(self, corrections: Sequence[Correction]) -> bool:
-        """Read the deck with some corrections; whether these could be made."""
+        """Read the deck with some corrections; return True if these could be made."""
         if (text := self.context.text) is None or not corrections:
             return False
-        made = [replace(one, edits=tuple(with_line_ends(text.source, one.edits))) for one in corrections]
-        edits = [edit for one in made for edit in one.edits]
+        ready = [replace(item, edits=tuple(with_line_ends(text.source, item.edits))) for item in corrections]
+        edits = [edit for item in ready for edit in item.edits]
         after = self._edited(self.context, text.source, edits)
         if after is None:
             return False
-        self.causes += self.as_written(map(_cause, made))
+        self.causes += self.as_written(map(_cause, ready))
         self.steps.append(Undoing(edits))
         self.context = after
         return True
 
     def _edited(self, context: LintContext, source: Source, edits: Sequence[TextEdit]) -> LintContext | None:
-        """The deck of a context with edits made; None where they cannot be made."""
+        """Return the deck of a context with edits made; None if they cannot be made."""
         try:
             deck = self.again(edited_bytes(source, edits))
         except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
@@ -120,15 +132,15 @@ class Recovered:
         return LintContext(deck, context.dialect, context.fixing)
 
     def without_errors(self, written: LintContext) -> LintContext | None:
-        """The deck as written with those causes alone corrected that are errors; None where one cannot be."""
-        repairs = [one.repair for one in self.causes if one.weight is Severity.ERROR]
+        """Return the deck as written with only those causes corrected that are errors; None if one cannot be."""
+        repairs = [cause.repair for cause in self.causes if cause.weight is Severity.ERROR]
         if not repairs:
             return written
         edits = [TextEdit(*edit) for repair in repairs if repair for edit in repair.edits]
         return self._edited(written, written.text.source, edits) if written.text and all(repairs) else None
 
     def as_written(self, problems: Iterable[Problem]) -> Iterator[Problem]:
-        """Problems of the recovered deck at their places in the file, without those of what corrections put in.
+        """Yield problems of the corrected deck at their places in the file, except in lines that corrections added.
 
         A repair that a correction touches is left out.
         """
@@ -152,9 +164,9 @@ class Recovered:
 
 
 def recovered(context: LintContext, codes: Collection[str], reading: Reading) -> Recovered | None:
-    """Return the deck as it was meant; None for one that was meant as it is written.
+    """Return the corrected deck; None if nothing was corrected.
 
-    `codes` are those of findings that are wanted at all.
+    `codes` are those of the findings that the caller wants.
     """
     found = Recovered(context, reading.again)
     reported = reading.reported([one for one in context.deck.problems if one.code.code in codes])
@@ -174,13 +186,13 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
 
 def _cause(correction: Correction) -> Problem:
     cause = correction.cause
-    made = tuple((edit.span, edit.text) for edit in correction.edits)
-    repair = Repair("unsafe", correction.does, made) if correction.does else cause.repair
+    edits = tuple((edit.span, edit.text) for edit in correction.edits)
+    repair = Repair("unsafe", correction.does, edits) if correction.does else cause.repair
     return replace(cause, message=correction.message or cause.message, repair=repair)
 
 
 class _Round:
-    """The corrections of a text that are taken, of which no two are in the same lines."""
+    """Corrections of a text that are accepted, no two of which change the same lines."""
 
     def __init__(self, blocks: Blocks, read: BlockReader, codes: Collection[str], trials: int) -> None:
         self.blocks = blocks
@@ -191,17 +203,17 @@ class _Round:
         self.errors: dict[Span, Counter[tuple[Code, str]]] = {}
 
     def taken(self, problems: Sequence[Problem]) -> list[Correction]:
-        """The first one of each fault that makes its block better."""
+        """Return the first correction of each fault that makes its block better."""
         taken: list[Correction] = []
         for last in (False, True):
-            made: list[Correction] = []
+            proposed: list[Correction] = []
             for recovery in (one for one in RECOVERIES if one.last is last):
                 asked = [one for one in problems if one.code in recovery.codes]
                 if asked or recovery.always:
-                    made += recovery.corrector(self.blocks, asked)
-            made.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
-            for one in made:
-                apart = self._is_sayable(one) and not any(_meet(one.region, other.region) for other in taken)
+                    proposed += recovery.corrector(self.blocks, asked)
+            proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
+            for one in proposed:
+                apart = self._is_sayable(one) and not any(_meet(one.region, accepted.region) for accepted in taken)
                 if apart and self._is_better(one):
                     taken.append(one)
             explained = {id(one.cause) for one in taken}
@@ -209,12 +221,12 @@ class _Round:
         return taken
 
     def _is_sayable(self, correction: Correction) -> bool:
-        """Whether the finding of a correction is wanted, and its line is not too long."""
+        """Return True if the finding of a correction is wanted, and its line is not too long."""
         line = line_at(self.text, correction.edits[0].span.start)
         return correction.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
 
     def _is_better(self, correction: Correction) -> bool:
-        """Whether the blocks around a correction have fewer faults with it, and its own is gone."""
+        """Return True if a correction removes its fault and leaves fewer faults in the blocks around it."""
         if correction.certain or correction.cause.code in _OF_SECTIONS:
             return True
         edits = correction.edits
@@ -238,55 +250,55 @@ class _Round:
         return after <= before or (cause[0] not in _OF_KEYWORDS and after.total() < before.total())
 
     def _faults(self, section: str, region: Span, edits: Sequence[TextEdit]) -> Iterator[tuple[Code, str]]:
-        """What is wrong in some lines of a section with edits of the whole text made."""
+        """Yield the faults in some lines of a section with edits of the whole text made."""
         text = self.text.source.unified[slice(*region)]
         moved = [TextEdit(edit.span.moved(-region.start), edit.text) for edit in edits]
         head = "" if text.startswith("$") else f"${section}\n"
         edited = apply_edits(text, moved)
         behind = ("" if edited.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
         source = Source(self.text.source.name, f"{head}{edited}{behind}", clean=self.text.source.clean)
-        for one in read_source(source, units="user", read=self.read).problems:
-            if one.weight is Severity.ERROR or one.code in (SYN009, SYN013):
-                yield one.code, one.message
+        for problem in read_source(source, units="user", read=self.read).problems:
+            if problem.weight is Severity.ERROR or problem.code in (SYN009, SYN013):
+                yield problem.code, problem.message
 
 
-def _meet(one: Span, other: Span) -> bool:
-    return one.start < other.end and other.start < one.end
+def _meet(first: Span, second: Span) -> bool:
+    return first.start < second.end and second.start < first.end
 
 
 _DIGITS = re.compile(r"[0-9]+")
 
 
 def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Names for which another one was meant; one that is misspelt several times is corrected everywhere."""
+    """Yield corrections of misspelt names; a name that is misspelt several times is corrected everywhere."""
     alike: dict[tuple[str, str], list[Problem]] = {}
     for problem in problems:
         if problem.repair is not None:
             alike.setdefault((problem.code.code, problem.message), []).append(problem)
     text = blocks.text
-    for found in alike.values():
-        problem = min(found, key=lambda one: start_of(text, one))
-        repairs = [one.repair.edits for one in found if one.repair is not None]
+    for uses in alike.values():
+        problem = min(uses, key=lambda use: start_of(text, use))
+        repairs = [use.repair.edits for use in uses if use.repair is not None]
         edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
         first = edits[0].span
         region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
-        others = [one for one in found if one is not problem]
+        others = [use for use in uses if use is not problem]
         message = f"{problem.message}; {also_in(text, others)}" if others else ""
         does = problem.repair.message if problem.repair else ""
         if all(_differs(text.source.unified[slice(*edit.span)], edit.text) for edit in edits):
             yield Correction(problem, edits, region, message, does, joins=edits[0].text.startswith("C "))
 
 
-def _differs(written: str, meant: str) -> bool:
-    """Whether a name differs in more than its digits from the one that was meant: they tell things of a kind apart."""
-    return _DIGITS.sub("", meant).casefold() != _DIGITS.sub("", written).casefold()
+def _differs(written: str, corrected: str) -> bool:
+    """Return True if two names differ in more than their digits, which distinguish objects of a kind."""
+    return _DIGITS.sub("", corrected).casefold() != _DIGITS.sub("", written).casefold()
 
 
 def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Blocks that stand before any section: a `$SECTION` line in front of them."""
+    """Yield a `$SECTION` line for blocks before any section."""
     text = blocks.text
     tree = text.tree
-    outside = {start_of(text, one): one for one in problems}
+    outside = {start_of(text, problem): problem for problem in problems}
     run = [(head_start(text, block), block.name) for block in tree.preamble.blocks]
     if not run or any(head not in outside for head, _ in run):  # a deck of another program is reported once
         return
@@ -306,7 +318,7 @@ def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Cor
 
 
 def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[TextEdit, ...], str]:
-    """A line in front of each keyword of a run that does not belong in the section of the one before; the first."""
+    """Return section lines for the keywords of a run that do not belong to the section before, and the first line."""
     edits: list[TextEdit] = []
     for head, keyword in run:
         sections = catalogue.sections_of(keyword) or ((current,) if current else ("MODEL",))
@@ -317,7 +329,7 @@ def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[Text
 
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
-"""Faults of the lines of another keyword in a block."""
+"""Faults of lines that belong to another keyword."""
 
 RECOVERIES = (
     Recovery(misspelt, (SYN004, SYN005, SYN008, SYN009, SYN010)),
@@ -330,4 +342,4 @@ RECOVERIES = (
     Recovery(values.indented_comments, (SYN001, SYN002, SYN003)),
     Recovery(values.decimal_commas, (SYN015,)),
 )
-"""All correctors, in the order in which they are asked."""
+"""All correctors, in the order in which they are called."""

@@ -1,4 +1,4 @@
-"""Lines that another keyword has: a `*KEYWORD` line or its star is missing above them, or the name of their set."""
+"""Lines that belong to another keyword: their `*KEYWORD` line, its star or the name of their set is missing."""
 
 from __future__ import annotations
 
@@ -42,24 +42,24 @@ from mudline.language.syntax.tree import Kind, RawBlock, parse
 from mudline.model.scene.references import CURVES, THINGS
 
 LONGEST_PIECE = 600
-"""Characters of a block that are read to see which keyword its lines belong to."""
+"""Number of characters of a block that are read to see which keyword its lines belong to."""
 
 MOST_NAMED = 5
-"""Keywords that a finding names."""
+"""Number of keywords that a finding names."""
 
 NAMED = CURVES | THINGS | {Names.SET, Names.CURVE}
-"""Kinds of names that tell whose lines some are: one that is used, and that nothing defines."""
+"""Kinds of names that show the keyword of lines: a name of theirs is used and not defined."""
 
 # ------------------------------------------------------------------------------------------------------------- the star
 
 
 def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines that hold a keyword of their section without its star, or a section without its dollar.
+    """Yield corrections of lines that are a keyword without its star, or a section without its dollar.
 
-    Where nothing is said of them, in column 1 only.
+    Lines without a problem are considered in column 1 only.
     """
     text = blocks.text
-    said = {line_at(text, start_of(text, one)).start: one for one in reversed(problems)}
+    problems_by_line = {line_at(text, start_of(text, item)).start: item for item in reversed(problems)}
     for section in text.tree.sections:
         for leaf in (*section.leaves, *(leaf for block in section.blocks for leaf in block.leaves)):
             if leaf.kind not in (Kind.TEXT, Kind.UNDECIDED):
@@ -67,7 +67,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             line = line_at(text, leaf.span.start)
             written = text.source.unified[slice(*line)].rstrip()
             name = _marked(written.lstrip(), section.name)
-            problem = said.get(line.start)
+            problem = problems_by_line.get(line.start)
             if not name or (problem is None and written[:1].isspace()):
                 continue
             comment = problem.code is SYN013 if problem else leaf.kind is not Kind.TEXT
@@ -85,7 +85,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 
 
 def _marked(line: str, section: str) -> str:
-    """The keyword of a section that a line without a star is, or the section that it begins, with their mark; or ""."""
+    """Return the keyword of a section that a line without a star is, or the section, with its mark; or ""."""
     name = line.upper()
     if not line[:1].isalpha() or "=" in line or name not in _known():
         return ""
@@ -104,12 +104,12 @@ def _known() -> frozenset[str]:
 
 
 def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines in a block that read well as lines of another keyword: that keyword in front of them."""
+    """Yield corrections that put a keyword in front of lines that read well as its lines."""
     text = blocks.text
-    wanted = sorted((start_of(text, one), number) for number, one in enumerate(problems))
-    for section, block in blocks.blocks if wanted else ():
-        first, end = (bisect_left(wanted, (at, 0)) for at in (block.head.span.end, whole(block).end))
-        inside = wanted[first:end]
+    by_start = sorted((start_of(text, problem), number) for number, problem in enumerate(problems))
+    for section, block in blocks.blocks if by_start else ():
+        first, end = (bisect_left(by_start, (at, 0)) for at in (block.head.span.end, whole(block).end))
+        inside = by_start[first:end]
         if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
             yield from _missing_line(blocks, section, block, problems[inside[0][1]], inside[0][0])
 
@@ -125,44 +125,44 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     places = [*([] if is_own else [line]), *settings[-1:]]
     for place in (at for at in places if at > first):  # the block has lines of its own before it
         legal = () if place == line else blocks.keywords
-        found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
-        if found:
-            yield from found
+        corrections = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
+        if corrections:
+            yield from corrections
             return
 
 
 def _keyword_line(
     blocks: Blocks, section: str, own: str, cause: Problem, lines: Span, present: Collection[str] = ()
 ) -> Iterator[Correction]:
-    """The keyword that some lines read as in front of them; of several, none: they are passed over.
+    """Yield the correction with the keyword that some lines belong to; if several fit, the lines are passed over.
 
     For `present` see `reads_as`.
     """
     unified = blocks.text.source.unified
-    found = reads_as(blocks, section, own, unified[slice(*lines)], present)
+    keywords = reads_as(blocks, section, own, unified[slice(*lines)], present)
     which = "this line and those below it"
     if unified.count("\n", lines.start, start_of(blocks.text, cause)):
         which = f"the lines from line {blocks.text.source.position(lines.start)[0]} on"
     above = Span(lines.start, lines.start)
-    if len(found) == 1:
-        message = f"{which} read as *{found[0]}: that line seems to be missing above them"
-        edits = (TextEdit(above, f"*{found[0]}\n"),)
-        yield Correction(cause, edits, lines, message, does=f"write *{found[0]} above them")
-    elif found:
-        names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
+    if len(keywords) == 1:
+        message = f"{which} read as *{keywords[0]}: that line seems to be missing above them"
+        edits = (TextEdit(above, f"*{keywords[0]}\n"),)
+        yield Correction(cause, edits, lines, message, does=f"write *{keywords[0]} above them")
+    elif keywords:
+        names = " or ".join(f"*{keyword}" for keyword in keywords[:MOST_NAMED])
         message = f"{which} are of another keyword, {names}: its line seems to be missing above them"
-        lacked = any(map(blocks.missing, _defined_by(section, found[0])))  # all of them define such names
-        edit = TextEdit(above, f"*{found[0]}\n") if lacked else TextEdit(lines, "")
+        lacked = any(map(blocks.missing, _defined_by(section, keywords[0])))  # all of them define such names
+        edit = TextEdit(above, f"*{keywords[0]}\n") if lacked else TextEdit(lines, "")
         yield Correction(cause, (edit,), lines, message)
 
 
 def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collection[str] = ()) -> list[str]:
-    """The keywords of a section that take some lines as they stand, in the order of the alphabet.
+    """Return the keywords of a section that accept some lines as they are, in alphabetical order.
 
-    Those that define names which the deck lacks go before others, and those that it has not yet before those it has.
-    Rows alone fit many keywords: they are of one that stands beside others of the deck, or is behind its equations.
-    Where the block above can have the first line, and the keywords `present` are given, only such names or a keyword
-    that is not among these say that it is another one's.
+    Keywords that define names which the deck lacks come first, then keywords that the deck does not have yet. Rows
+    alone fit many keywords: only those count that accompany other keywords of the deck, or define its parameters. If
+    the keywords `present` are given, the block above can have the first line. Then only keywords count that define
+    lacking names, or are not among `present`.
     """
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
     text, block = _block(section, own or "-", piece)
@@ -189,32 +189,32 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collec
 
 @lru_cache(256)
 def _taking(section: str, key: str) -> dict[str, type[Block]]:
-    """The keywords of a section that have a setting, with their declarations."""
+    """Return the keywords of a section that have a setting, with their declarations."""
     read = ((keyword, catalogue.block_class(section, keyword)) for keyword in catalogue.read_keywords())
     return {keyword: declared for keyword, declared in read if declared and key in all_keys(declared)}
 
 
 def _block(section: str, keyword: str, lines: str) -> tuple[str, RawBlock]:
-    """A block of some lines, and the text around it."""
+    """Return a block of some lines, and the text around it."""
     text = f"${section}\n*{keyword}\n{lines}"
     return text, parse(Source("", text, clean=True)).sections[0].blocks[0]
 
 
 def _defined_by(section: str, keyword: str) -> frozenset[Names]:
-    """The kinds of names that the lines of a keyword define."""
+    """Return the kinds of names that the lines of a keyword define."""
     declared = catalogue.declared(keyword, section)
     return (kinds_of(declared, "defines") & NAMED) if declared else frozenset()
 
 
 def _of_whole_numbers(declared: type[Block]) -> bool:
-    """Whether every value that a row of a keyword must have is a whole number."""
-    tables = [one.table.row for one in schemas_of(declared) if one.table and one.table.row]
+    """Return True if every required value in the rows of a keyword is a whole number."""
+    tables = [schema.table.row for schema in schemas_of(declared) if schema.table and schema.table.row]
     columns = [slot for row in tables for slot in record_schema(row).columns if slot.required]
     return bool(columns) and all(slot.kind in (Value.WHOLE, Value.IDENT) for slot in columns)
 
 
 def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines that a block can have, and that another keyword has, which its section or the deck lacks."""
+    """Yield corrections of lines that a block can have, but that belong to another keyword, which is missing."""
     text = blocks.text
     worse = (one for one in problems if one.weight is not Severity.INFO)
     wrong = {blocks.block_at(start_of(text, one)).start for one in worse}
@@ -232,10 +232,10 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
 
 
 def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Iterator[Problem]:
-    """Where lines of another keyword may begin in a block, and what is said of them there.
+    """Yield the places in a block where lines of another keyword may begin, with the start of their message.
 
-    With the name of a curve that nothing of its kind defines, or a number that the block has above; else with a set
-    that it gives a second time and otherwise, or a line that it passes through.
+    They begin with the name of a curve that is not defined, or a number that the block has above; otherwise with a set
+    that is given a second time with other values, or a line that the block passes through.
     """
     text = blocks.text
     unified = text.source.unified
@@ -250,8 +250,8 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     for line in lines_of(text, block) if lacking else ():
         number = ROW_NUMBER.match(unified, *line)
         if number and number[1] in numbers:
-            said = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
-            yield Problem(REF007, said, Span(*number.span(1)))
+            beginning = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
+            yield Problem(REF007, beginning, Span(*number.span(1)))
             return
         numbers.update(number.groups() if number else ())
     # Rows fit many keywords.
@@ -259,19 +259,19 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     again = read.places.find(path) if read and path else None
     for start in [again.start] if again else _foreign_lines(text, block, read):
         line = trimmed(unified, *line_at(text, start))
-        said = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
+        beginning = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
         code = SBD008 if again else SBD006 if _is_telling(unified, line) else SYN001
-        yield Problem(code, said, line, Severity.WARNING)
+        yield Problem(code, beginning, line, Severity.WARNING)
 
 
 def _is_telling(unified: str, line: Span) -> bool:
-    """Whether one keyword alone has a line; it gives the laws of the seabed, which would be missing."""
+    """Return True if only one keyword has a line, and it gives the laws of the seabed, which would be missing."""
     return "".join(unified[slice(*line)].split()).upper() in catalogue.telling_lines()
 
 
 @cache
 def _key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
-    """The setting above the points of a curve that names it, and what the name is one of; "" for other keywords."""
+    """Return the setting above the points of a curve that names it, and the kind of the name; "" for other keywords."""
     for slot in record_schema(declared).slots:
         for record in map(record_schema, slot.record.values()):
             about = record.slots[0].about if record.table and record.slots else None
@@ -282,24 +282,24 @@ def _key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
 
 @cache
 def _name_of_curve() -> re.Pattern[str]:
-    """The line above the points of a curve, with its name."""
+    """Return the pattern of the line above the points of a curve, with its name."""
     definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
     keys = "|".join(sorted({_key_of_points(declared)[0] for declared in definers if declared} - {""}))
     return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
 
 
 def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) -> list[int]:
-    """Where a block has settings that it passes through, or that open lines by a value which is not known.
+    """Return the offsets of settings that a block passes through, or that open lines by an unknown value.
 
-    Before each of them the setting on the line above it; its last line alone tells too little. In a block that is not
-    read at all lines that one keyword alone has.
+    Before each of them comes the setting on the line above it. The last line of a block alone shows too little. In a
+    block that is not read at all, lines count that only one keyword has.
     """
     unified = text.source.unified
     if read is None:
         return [line.start for line in lines_of(text, block) if _is_telling(unified, line)]
     leaves = data_of(block.leaves) if read.lost else []
     kept = read.places.kept if leaves else frozenset()
-    found: list[int] = []
+    offsets: list[int] = []
     declared, behind = type(read.model), False
     for above, leaf in pairwise(leaves[:-1]):
         line = line_at(text, leaf.span.start)
@@ -309,5 +309,5 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
         behind = choice or (behind and line.start in kept)  # lines of an unknown form belong there
         if leaf.kind is Kind.SETTING and not behind and (unknown or line.start in kept):
             begins = above.kind is Kind.SETTING and above is not leaves[0]
-            found += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
-    return list(dict.fromkeys(found))[:MOST_NAMED]
+            offsets += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
+    return list(dict.fromkeys(offsets))[:MOST_NAMED]

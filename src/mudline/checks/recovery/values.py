@@ -1,4 +1,4 @@
-"""Typing errors in numbers and rows, and in names and numbers that nothing defines."""
+"""Typing errors in numbers and rows, and in names and numbers that are not defined."""
 
 from __future__ import annotations
 
@@ -40,27 +40,27 @@ _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
 _HALVES = re.compile(r"([0-9]+),([0-9]+)")
 LONGEST_ABOVE = 500
-"""Characters that are looked through above a number."""
+"""Number of characters that are searched above a number."""
 
 _WHOLE = re.compile(r"(?<![0-9.])[0-9]+(?![0-9.])")
 _UNIT = re.compile(r"[ \t]*[A-Za-z%]")
 
 
 def numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Numbers by which other values are known, with a wrong letter: what they were to be, where that can be seen."""
+    """Yield corrections of numbers with a wrong letter on which other values depend, if the right number is clear."""
     for problem in problems:
         span = problem.span
         declared = blocks.declared_at(span.start) if span and problem.weight is Severity.ERROR else None
         if span is None or declared is None or not _is_known_by(blocks, declared, span):
             continue
         unified = blocks.text.source.unified
-        for other in _read_as(unified[slice(*span)]):
-            if other[1] or declared.facts.tells_units or _goes_on(unified, span.start, other[0]):
-                yield Correction(problem, (TextEdit(span, other[0]),), line_at(blocks.text, span.start), certain=True)
+        for number in _read_as(unified[slice(*span)]):
+            if number[1] or declared.facts.tells_units or _goes_on(unified, span.start, number[0]):
+                yield Correction(problem, (TextEdit(span, number[0]),), line_at(blocks.text, span.start), certain=True)
 
 
 def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
-    """Whether other values are known by a value: it is a whole number, or says what the units are."""
+    """Return True if other values depend on a value: it is a whole number, or shows the units."""
     if declared.facts.tells_units:
         return True
     before = blocks.text.source.unified[line_at(blocks.text, span.start).start : span.start]
@@ -74,7 +74,7 @@ def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
 
 
 def _read_as(written: str) -> Iterator[tuple[str, bool]]:
-    """The numbers that a word with a wrong letter may be: with a digit in its place, which is likely, or without it."""
+    """Yield the numbers that a word with a wrong letter may be, and True if a digit replaces the letter (likely)."""
     translated = written.translate(_MISREAD)
     if translated != written and NUMBER.fullmatch(translated):
         yield translated, True
@@ -83,13 +83,13 @@ def _read_as(written: str) -> Iterator[tuple[str, bool]]:
 
 
 def _goes_on(unified: str, at: int, number: str) -> bool:
-    """Whether a number is one more than another one of the two data lines above, as in ranges and rows of numbers."""
+    """Return True if a number follows a number of the two data lines above, as in ranges and rows of numbers."""
     lines = unified[max(at - LONGEST_ABOVE, 0) : unified.rfind("\n", 0, at) + 1].rsplit("\n", 3)[-3:]
     return number.isdecimal() and str(int(number) - 1) in _WHOLE.findall(" ".join(lines))
 
 
 def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Rows with blanks or semicolons between their numbers: commas there."""
+    """Yield corrections that put commas instead of spaces or semicolons between the numbers of rows."""
     tried: Span | None = None
     for problem in problems:
         if problem.span is None or problem.weight is not Severity.ERROR:
@@ -99,24 +99,24 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             continue
         tried = line
         written = blocks.text.source.unified[slice(*line)]
-        if (other := _GAP.sub(", ", written)) != written:
-            yield Correction(problem, (TextEdit(line, other),), line)
+        if (replacement := _GAP.sub(", ", written)) != written:
+            yield Correction(problem, (TextEdit(line, replacement),), line)
 
 
 def indented_comments(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Comments with blanks before their C, which make them data: without these blanks."""
+    """Yield corrections of comments with spaces before their C, which make them data: the spaces are removed."""
     unified = blocks.text.source.unified
-    lines = {line_at(blocks.text, start_of(blocks.text, one)).start: one for one in reversed(problems)}
+    lines = {line_at(blocks.text, start_of(blocks.text, item)).start: item for item in reversed(problems)}
     for start, problem in lines.items():
-        if problem.weight is Severity.ERROR and (found := INDENTED_COMMENT.match(unified, start)):
-            blanks = Span(start, start + len(found[0]) - len(found[0].lstrip(" \t")))
+        if problem.weight is Severity.ERROR and (comment := INDENTED_COMMENT.match(unified, start)):
+            blanks = Span(start, start + len(comment[0]) - len(comment[0].lstrip(" \t")))
             words = "an indented line is data: if it is meant as a comment, put its C in column 1"
             message, line = f"{problem.message}; {words}", line_at(blocks.text, start)
             yield Correction(problem, (TextEdit(blanks, ""),), line, message, does="put the C in column 1")
 
 
 def decimal_commas(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Fields that are the halves of one number, in a row that has as many as it may have: a point between them."""
+    """Yield corrections that join two fields, in a row with the maximum number of fields, by a decimal point."""
     text = blocks.text
     others = (one for one in blocks.deck.problems if one.code is not SYN015 and one.weight is Severity.ERROR)
     errors = {line_at(text, start_of(text, one)) for one in others}
@@ -131,7 +131,7 @@ def decimal_commas(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
 
 
 def scene_corrections(context: LintContext) -> Iterator[Correction]:
-    """The corrections of what the scene of a deck lacks; they need no trial."""
+    """Yield corrections of names and numbers that the scene of a deck lacks; they need no trial."""
     text, scene = context.text, context.scene
     if text is None:
         return
@@ -156,7 +156,7 @@ def scene_corrections(context: LintContext) -> Iterator[Correction]:
 def _names(
     context: LintContext, problems: list[Problem], known: dict[str, str], kinds: tuple[Names, ...], effort: Effort
 ) -> Iterator[Correction]:
-    """Names for which one other name alone was meant: it in all their places."""
+    """Yield corrections of names for which only one other name can be meant, in all their places."""
     alike: dict[str, list[Problem]] = {}
     for problem in problems:
         if problem.weight is Severity.ERROR:
@@ -173,35 +173,35 @@ def _names(
             continue
         uses = places.get(key, [])
         spans = sorted({span for where in uses if (span := text.span(where))})
-        meant = known[near[0]]
+        corrected = known[near[0]]
         if not spans or any(_own_name(context, where) == near[0] for where in uses):
             continue
         first, *others = sorted(found, key=lambda one: start_of(text, one))
         message = f"{first.message}; {also_in(text, others)}" if others else ""
-        edits = tuple(TextEdit(span, meant) for span in spans)
-        yield Correction(first, edits, spans[0], message, does=f"write {meant}")
+        edits = tuple(TextEdit(span, corrected) for span in spans)
+        yield Correction(first, edits, spans[0], message, does=f"write {corrected}")
 
 
 def _own_name(context: LintContext, where: Where) -> str:
-    """The folded name of what the record around a place defines, "" where it defines nothing."""
+    """Return the folded name that the record around a place defines, "" if it defines none."""
     record = context.scene.context.as_written(where._replace(path=where.path[:2]))
     names = (name for _, name in names_given(record, Names.SET, "defines")) if isinstance(record, Part) else ()
     return name_key(next(iter(names), ""))
 
 
 def _numbers(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
-    """Numbers of nodes and elements that cannot be read, and may be one alone of those that are not defined."""
-    for where, given in context.scene.context.excused.items():
+    """Yield corrections of unreadable numbers of nodes and elements that can only be one undefined number."""
+    for where, candidates in context.scene.context.excused.items():
         span = text.span(where)
         cause = next((one for one in context.deck.problems if span and one.span == span), None)
-        if span is not None and cause is not None and len(given) == 1:
-            number = str(min(given))
+        if span is not None and cause is not None and len(candidates) == 1:
+            number = str(min(candidates))
             message = f"{cause.message} (did you mean {number}?)"
             yield Correction(cause, (TextEdit(span, number),), span, message, does=f"write {number}")
 
 
 def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
-    """Numbers that are given twice, where the rows beside one say that it was to be one that is not defined."""
+    """Yield corrections of repeated numbers, if a neighbouring row shows that an undefined number is meant."""
     noticed = context.scene.noticed
     lacking = {one.lacks for one in noticed if one.lacks and one.code in (REF005, REF006)}
     for problem in noticed if lacking else ():
@@ -216,16 +216,16 @@ def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]
             line_at(text, min(behind(text, line), len(unified))),
         )
         own, above, below = (ROW_NUMBER.match(unified, *place) for place in places)
-        meant = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
-        if own and len(meant) == 1:
-            number, span = meant.pop(), Span(*own.span(1))
+        candidates = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
+        if own and len(candidates) == 1:
+            number, span = candidates.pop(), Span(*own.span(1))
             lacking.discard(number)
             message = f"number {own[1]} is given twice, and {number} is not defined: is this one {number}?"
             yield Correction(problem, (TextEdit(span, number),), span, message, does=f"write {number}")
 
 
 def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]) -> Iterator[Correction]:
-    """Points that begin again: the line with a curve that nothing defines, or with a set that nothing uses."""
+    """Yield a line with an undefined curve, or with an unused set, above points that begin again."""
     for curve in context.scene.laws.curves:
         point = _begins_again(curve)
         if not point or (curve.embedment and curve.whole):
@@ -241,15 +241,15 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
 
 
 def _unused_set(context: LintContext) -> list[str]:
-    """The name of the only set that nothing uses."""
+    """Return the name of the only set that is not used."""
     used = {name_key(name) for _, name in used_names(context.deck, Names.SET, Names.SUBSET)}
     named = context.scene.set_table.named
-    sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
+    sets = [set_.name for key, set_ in named.items() if key not in used and set_.where is not None]
     return sets if len(sets) == 1 else []
 
 
 def _begins_again(curve: SceneCurve) -> int:
-    """The point of a curve that goes back to its first ratio, where both parts rise; 0 for other curves."""
+    """Return the point of a curve that goes back to its first ratio, if both parts rise; 0 for other curves."""
     ratios = curve.points[:, 0].tolist()
     back = [at for at in range(1, len(ratios)) if ratios[at] <= ratios[at - 1]]
     again = len(back) == 1 and ratios[back[0]] == ratios[0] and min(back[0], len(ratios) - back[0]) > 1

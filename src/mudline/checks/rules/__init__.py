@@ -1,1 +1,1 @@
-"""One function a rule; its docstring says why, and shows a bad and a good deck. All modules in here are imported."""
+"""Rules that advise, one function each, whose docstring has a bad and a good deck. All modules are imported."""

@@ -26,25 +26,29 @@ if TYPE_CHECKING:
 UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
 
 LONGEST_ELEMENT = 25.0
-"""Times as long as the longer neighbour: meshes are graded in smaller steps."""
+"""Ratio of an element's length to its longer neighbour's, at most: meshes are graded in smaller steps."""
 LONGEST_SKIP, AROUND = 5.0, 1.2
-"""Likewise, of an element that leaves out a node at which the next one begins; the way by that node to its own way."""
+"""Limits for an element that skips a node at which the next element begins.
+
+LONGEST_SKIP: ratio of its length to its longer neighbour's.
+AROUND: ratio of the distance through the skipped node to its length.
+"""
 TURNED = -0.985
-"""Cosine between two elements of a line that runs back over itself, to 10 degrees."""
+"""Cosine of the angle between two elements of a line that runs back over itself, to within 10 degrees."""
 HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
-"""Water depths that a model may be high."""
+"""Largest height of a model, in water depths."""
 TALLEST = 500.0
-"""m that a model may rise above the sea, as no wind turbine does."""
+"""Largest height of a model above the sea in m: no wind turbine is taller."""
 BETTER = 3.0
-"""Times as far from its neighbours that a node with two halves of a number is as with the number."""
+"""Ratio of distances to the neighbours, without and with the decimal comma, above which the comma is assumed."""
 COMMA_ROWS = 1000
-"""Rows of a table in which decimal commas are looked for."""
+"""Number of rows of a table in which decimal commas are looked for."""
 
 _HALVES = r"([-+]?[0-9]+),([0-9]+)"
 
 
 def odd_coordinates(context: LintContext) -> Iterator[Problem]:
-    """What UNT006 finds in nodes and elements."""
+    """Yield the problems of UNT006 in nodes and elements."""
     scene = context.scene
     least, most = np.minimum.reduce(scene.length, initial=1.0), np.maximum.reduce(scene.length, initial=0.0)
     even = most <= LONGEST_ELEMENT * least  # not so where a length is not known
@@ -71,7 +75,10 @@ def _elements(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
 
 
 def _beside(scene: Scene) -> tuple[Indices, Indices]:
-    """Elements (k,) whose length is known and above 0, and the longest other one (m, 2) at each end of all; else -1."""
+    """Return the elements (k,) of known length above 0, and the longest neighbour (m, 2) at each end of every element.
+
+    A neighbour is an index of an element, -1 where there is none.
+    """
     ends, length = scene.element_nodes, scene.length
     usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
     order = usable[np.argsort(length[usable], kind="stable")]
@@ -83,27 +90,28 @@ def _beside(scene: Scene) -> tuple[Indices, Indices]:
     longest[nodes[last]] = elements[last]
     shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
     second[nodes[shared]] = elements[shared - 1]
-    found, of_usable = np.full(ends.shape, -1, dtype=np.intp), ends[usable]
-    found[usable] = np.where(longest[of_usable] == usable[:, None], second[of_usable], longest[of_usable])
-    return usable, found
+    neighbours, of_usable = np.full(ends.shape, -1, dtype=np.intp), ends[usable]
+    neighbours[usable] = np.where(longest[of_usable] == usable[:, None], second[of_usable], longest[of_usable])
+    return usable, neighbours
 
 
 def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
-    """Index of each node between two elements that are both over 25 times as long as those beyond them, and how many.
+    """Yield the index of each node that lies too far from both neighbours, with the ratio of lengths.
 
-    All four must be of one section, and no other element may end at one of their nodes.
+    Both of its elements are over 25 times as long as those beyond them. All four elements must have one section, and no
+    further element may end at one of their nodes.
     """
     ends, length, sections = scene.element_nodes, scene.length, scene.section_table.of_element
     usable, beside = _beside(scene)
-    one, side = np.repeat(usable, 2), np.tile([0, 1], len(usable))
-    middle, other = ends[one, side], beside[one, side]
-    one, side, middle, other = (values[one < other] for values in (one, side, middle, other))
-    turned = np.where(ends[other, 1] == middle, 1, 0)
-    outer = np.column_stack([ends[one, 1 - side], ends[other, 1 - turned]])
-    beyond = np.column_stack([beside[one, 1 - side], beside[other, 1 - turned]])
+    here, side = np.repeat(usable, 2), np.tile([0, 1], len(usable))
+    middle, there = ends[here, side], beside[here, side]
+    here, side, middle, there = (values[here < there] for values in (here, side, middle, there))
+    turned = np.where(ends[there, 1] == middle, 1, 0)
+    outer = np.column_stack([ends[here, 1 - side], ends[there, 1 - turned]])
+    beyond = np.column_stack([beside[here, 1 - side], beside[there, 1 - turned]])
     alike = (_uses(scene)[np.column_stack([middle, outer])] == 2).all(axis=1) & (beyond >= 0).all(axis=1)
-    alike &= (sections[np.column_stack([other, beyond])] == sections[one][:, None]).all(axis=1)
-    shorter = np.minimum(length[one], length[other])
+    alike &= (sections[np.column_stack([there, beyond])] == sections[here][:, None]).all(axis=1)
+    shorter = np.minimum(length[here], length[there])
     alike &= np.linalg.norm(np.diff(scene.coordinates[outer], axis=1)[:, 0], axis=1) < shorter  # else the line goes on
     ratios = shorter[alike] / length[beyond[alike]].max(axis=1, initial=0.0)
     odd = ratios > LONGEST_ELEMENT
@@ -111,49 +119,50 @@ def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
 
 
 def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
-    """Index of each element that is over 25 times as long as any neighbour, at both ends, and how many times it is.
+    """Yield the index of each element that is over 25 times as long as its neighbours at both ends, with the ratio.
 
-    All must be of one section, so that a tether or a rigid link beside a finely meshed pipe is not reported.
+    All of them must have one section, so that a tether or a rigid link next to a finely meshed pipe is not reported.
     """
     sections = scene.section_table.of_element
     usable, beside = _beside(scene)
-    found = usable[(beside[usable] >= 0).all(axis=1)]
-    ratios = scene.length[found] / scene.length[beside[found]].max(axis=1, initial=0.0)
-    odd = (sections[beside[found]] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
-    yield from zip(found[odd].tolist(), ratios[odd].tolist(), strict=True)
+    inner = usable[(beside[usable] >= 0).all(axis=1)]
+    ratios = scene.length[inner] / scene.length[beside[inner]].max(axis=1, initial=0.0)
+    odd = (sections[beside[inner]] == sections[inner][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
+    yield from zip(inner[odd].tolist(), ratios[odd].tolist(), strict=True)
 
 
 # ------------------------------------------------------------------------------------------- chains of elements
 
 
 def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
-    """Nodes at which a line turns back, and forward again at the next one or not; nothing else ends at these nodes.
+    """Yield problems at nodes where a line turns back, and perhaps forward again at the next node.
 
-    Nodes that are `far` from their neighbours are reported as such.
+    Nodes at which a further element ends are left out. So are nodes `far` from their neighbours, which `_elements`
+    reports.
     """
     turns = [element for block in blocks_of(max(len(scene.element_nodes) - 1, 0)) for element in _turned(scene, block)]
     if not turns:
         return
     used, ids, sections = _uses(scene), scene.node_ids, scene.section_table.of_element
-    told = -1
+    reported = -1
     for element in turns:
-        one, other = scene.element_nodes[element].tolist()
-        if used[one] != 2 or one in far or element == told:
+        first, second = scene.element_nodes[element].tolist()
+        if used[first] != 2 or first in far or element == reported:
             continue
-        message = f"the line turns back at node {ids[one]}, as no pipe bends: correct the coordinates beside it"
+        message = f"the line turns back at node {ids[first]}, as no pipe bends: correct the coordinates beside it"
         if element + 1 in turns:
-            told = element + 1
-            if used[other] != 2 or other in far or len(set(sections[element - 1 : element + 2].tolist())) > 1:
+            reported = element + 1
+            if used[second] != 2 or second in far or len(set(sections[element - 1 : element + 2].tolist())) > 1:
                 continue
             message = (
-                f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
+                f"the line turns back at node {ids[first]} and forward again at node {ids[second]}: correct the "
                 "coordinates of one of them"
             )
-        yield Problem(UNT006, message, where=scene.nodes.where(one))
+        yield Problem(UNT006, message, where=scene.nodes.where(first))
 
 
 def _turned(scene: Scene, block: slice) -> list[int]:
-    """Elements that run back over the one before them, which is of the block."""
+    """Return the elements that run back over the element before them, which lies in the block."""
     ends = scene.element_nodes[block.start : block.stop + 1]
     if _goes_forward(scene, ends):
         return []
@@ -161,14 +170,14 @@ def _turned(scene: Scene, block: slice) -> list[int]:
     if not joined.any():
         return []
     steps = _directions(scene, ends)
-    found: list[int] = (
+    turned: list[int] = (
         np.flatnonzero(joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)) + 1 + block.start
     ).tolist()
-    return found
+    return turned
 
 
 def _goes_forward(scene: Scene, ends: Indices) -> bool:
-    """Whether all of these elements have less than a right angle to the next one, as those of most lines have."""
+    """Return True if every element turns by less than a right angle into the next one, as in most lines."""
     if not len(scene.coordinates):
         return False
     with np.errstate(all="ignore"):
@@ -178,22 +187,22 @@ def _goes_forward(scene: Scene, ends: Indices) -> bool:
 
 
 def _directions(scene: Scene, ends: Indices) -> Floats:
-    """Unit vectors along elements with these nodes; NaN for one without length, or with one that is not finite."""
+    """Return unit vectors (n, 3) along elements with these end nodes (n, 2); NaN for a length of zero or not finite."""
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         steps = scene.coordinates[ends[:, 1]] - scene.coordinates[ends[:, 0]]
         length = np.linalg.norm(steps, axis=1)[:, np.newaxis]  # 0 also where its square is too small for a number
-        found: Floats = steps / np.where(length > 0.0, length, np.nan)
-    return found
+        directions: Floats = steps / np.where(length > 0.0, length, np.nan)
+    return directions
 
 
 def _uses(scene: Scene) -> Indices:
-    """How many elements end at each node."""
+    """Return the number of elements (n,) that end at each node."""
     ends = scene.element_nodes
     return np.bincount(ends[ends >= 0].ravel(), minlength=len(scene.node_ids))
 
 
 def _skipping(scene: Scene) -> Iterator[Problem]:
-    """Elements that end at a node further on, where the next one begins at a node at which nothing else ends."""
+    """Yield problems at elements that end one node too far: nothing ends at the node where the next element begins."""
     ends, sections = scene.element_nodes, scene.section_table.of_element
     parts = []
     for block in blocks_of(max(len(ends) - 2, 0)):
@@ -205,19 +214,19 @@ def _skipping(scene: Scene) -> Iterator[Problem]:
         apart &= (before >= 0).all(axis=1) & (here >= 0).all(axis=1) & (behind >= 0).all(axis=1)
         apart &= (alike[:-2] == alike[1:-1]) & (alike[1:-1] == alike[2:])
         parts.append(np.flatnonzero(apart) + 1 + block.start)
-    found = np.concatenate(parts) if parts else np.zeros(0, np.intp)
-    if not found.size:
+    skipping = np.concatenate(parts) if parts else np.zeros(0, np.intp)
+    if not skipping.size:
         return
     used = _uses(scene)
-    found = found[(used[ends[found + 1, 0]] == 1) & (used[ends[found, 1]] >= 3)]
+    skipping = skipping[(used[ends[skipping + 1, 0]] == 1) & (used[ends[skipping, 1]] >= 3)]
     places = scene.coordinates
-    for element in found.tolist():
+    for element in skipping.tolist():
         (start, end), (begin, following) = ends[element].tolist(), ends[element + 1].tolist()
-        way = float(np.linalg.norm(places[end] - places[start]))
-        meant = float(np.linalg.norm(places[begin] - places[start]))
-        around = meant + float(np.linalg.norm(places[end] - places[begin]))
+        length = float(np.linalg.norm(places[end] - places[start]))
+        direct = float(np.linalg.norm(places[begin] - places[start]))
+        around = direct + float(np.linalg.norm(places[end] - places[begin]))
         longest = LONGEST_SKIP * max(scene.length[element - 1], scene.length[element + 1])
-        if (way > longest >= meant) or (end == following and around <= AROUND * way):
+        if (length > longest >= direct) or (end == following and around <= AROUND * length):
             ids = scene.node_ids
             message = (
                 f"element {scene.element_ids[element]} ends at node {ids[end]}, and nothing joins it to node "
@@ -230,7 +239,7 @@ def _skipping(scene: Scene) -> Iterator[Problem]:
 
 
 def _decimal_commas(context: LintContext) -> Iterator[Problem]:
-    """Rows of nodes with the halves of a number in two fields: one finding for each table."""
+    """Yield one problem for each table of nodes with rows in which a decimal comma splits a number into two fields."""
     text = context.text
     if text is None:
         return
@@ -238,16 +247,19 @@ def _decimal_commas(context: LintContext) -> Iterator[Problem]:
         for index, entry in enumerate(cast("Nodes", block).entries):
             if not hasattr(entry, "nodes"):
                 continue
-            found = _split_rows(text, entry.nodes, where.inside("entries", index, "nodes"))
-            if found:
-                place, names, halves = found[0]
+            split = _split_rows(text, entry.nodes, where.inside("entries", index, "nodes"))
+            if split:
+                place, names, halves = split[0]
                 message = f"decimal comma? {halves} is two fields here, {names}: write {halves.replace(',', '.')}"
-                more = f"; so in {len(found)} rows of this block" if len(found) > 1 else ""
+                more = f"; so in {len(split)} rows of this block" if len(split) > 1 else ""
                 yield Problem(UNT006, f"{message}{more}", where=place)
 
 
 def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Where, str, str]]:
-    """Places of the rows of a table of nodes that seem to hold a number in two fields, with its columns and halves."""
+    """Return the rows of a table of nodes that seem to hold a number split by a decimal comma.
+
+    Each row has its place, the names of the two columns, and the number as it is written.
+    """
     values = table.values
     if values.shape[1] < 4:
         return []
@@ -255,28 +267,28 @@ def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Wher
     full = table.lengths == 4
     pairs = np.any(whole[:, 1:3] & whole[:, 2:4] & (values[:, 2:4] >= 0.0), axis=1) & full
     few = int(np.count_nonzero(full)) <= 0.5 * len(full)
-    found: list[tuple[Where, str, str]] = []
+    split_rows: list[tuple[Where, str, str]] = []
     for row in np.flatnonzero(pairs)[:COMMA_ROWS].tolist():
         fields = _fields(text, where.inside(row))
         for column, names in ((1, "x and y"), (2, "y and z")) if len(fields) == 4 else ():
             halves = ",".join(fields[column : column + 2])
             if not re.fullmatch(_HALVES, halves):
                 continue
-            beside = [other for other in (row - 1, row + 1) if 0 <= other < len(table) and table.lengths[other] == 3]
-            pointed = all(field.count(".") for other in beside for field in _fields(text, where.inside(other))[1:])
+            beside = [near for near in (row - 1, row + 1) if 0 <= near < len(table) and table.lengths[near] == 3]
+            pointed = all(field.count(".") for near in beside for field in _fields(text, where.inside(near))[1:])
             number = float(halves.replace(",", "."))
             others = fields[: column + 1] + fields[column + 2 :]
             padded = any(map(_begins_with_zero, others))  # whole numbers with zeros in front, as programs write them
             if (_begins_with_zero(fields[column + 1]) and not padded) or (
                 few and beside and _fits(table, row, column, number, beside, times=1.0 if pointed else BETTER)
             ):
-                found.append((where.inside(row), names, halves))
+                split_rows.append((where.inside(row), names, halves))
                 break
-    return found
+    return split_rows
 
 
 def _fields(text: TextOrigin, place: Where) -> list[str]:
-    """The fields of a row as they are written."""
+    """Return the fields of a row as they are written."""
     span = text.span(place)
     return [] if span is None else [field.strip() for field in text.source.unified[slice(*span)].split(",")]
 
@@ -286,20 +298,23 @@ def _begins_with_zero(field: str) -> bool:
 
 
 def _fits(table: Table, row: int, column: int, number: float, beside: list[int], *, times: float) -> bool:
-    """Whether a node is that many times nearer to those of the rows beside it if two of its values are one number."""
+    """Return True if a node lies closer to its neighbours when two of its fields are read as one number.
+
+    Its distance from the nodes in the rows above and below must be more than `times` smaller.
+    """
     values = table.values
-    meant = [number, values[row, 3]] if column == 1 else [values[row, 1], number]
-    neighbours = np.array([[*values[other, 1:3], 0.0] for other in beside])
+    joined = [number, values[row, 3]] if column == 1 else [values[row, 1], number]
+    neighbours = np.array([[*values[row_beside, 1:3], 0.0] for row_beside in beside])
     written, corrected = (
-        float(np.linalg.norm(neighbours - at, axis=1).sum()) for at in (values[row, 1:4], np.array([*meant, 0.0]))
+        float(np.linalg.norm(neighbours - at, axis=1).sum()) for at in (values[row, 1:4], np.array([*joined, 0.0]))
     )
     return written > times * corrected
 
 
 def height_over_depth(context: LintContext) -> Iterator[Problem]:
-    """What UNT006 finds in the water depth, against the heights of nodes.
+    """Yield the problem of UNT006 in the water depth, compared with the heights of nodes.
 
-    Unless all of them lie above the sea, which GEO005 reports.
+    Nothing is reported if all nodes lie above the sea, which GEO005 reports.
     """
     scene, oceans = context.scene, context.blocks("OCEAN")
     if not oceans or not len(scene.node_ids):

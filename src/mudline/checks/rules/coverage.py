@@ -1,4 +1,4 @@
-"""What an element or a node has more than once: sections, coefficients, conditions; two elements in one place."""
+"""Overlaps of what elements and nodes are given: sections, coefficients, conditions; two elements in one place."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ BND002 = Code("BND002", "constant-and-vessel", Severity.WARNING)
 
 @rule(GEO013)
 def overlapping_properties(context: LintContext) -> Iterator[Problem]:
-    """Elements have two sections, or two lines of coefficients, from sets of which neither lies in the other one.
+    """Elements have two sections, or two lines of coefficients, from two sets that overlap in part.
 
     The later line holds for the elements that both sets have. A set that refines a larger one given before it is usual,
     and not reported; sets that overlap in part are mostly a wrong end of a range. Correct the sets. A set that is given
@@ -53,20 +53,20 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     count = len(scene.element_ids)
-    given = scene.deck.blocks_with("gives")
-    told: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
-    for keyword in dict.fromkeys(block.keyword for _, block in given):
+    blocks = scene.deck.blocks_with("gives")
+    reported: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
+    for keyword in dict.fromkeys(block.keyword for _, block in blocks):
         places = [(where, scene.set_table.find(entry.set_name)) for where, entry in _named(context, keyword)]
         known = [(where, set_) for where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for _, set_ in known], count):
-            one, (where, other) = known[earlier][1], known[later]
-            if within(one, other, count) or within(other, one, count) or one.open or other.open:
+            first, (where, second) = known[earlier][1], known[later]
+            if within(first, second, count) or within(second, first, count) or first.open or second.open:
                 continue
             which = first_of("element", scene.element_ids[elements.min()], elements.size)
-            words = f"{which} the values of SET={shown(one.name)}: this line holds for them"
-            pair = frozenset((one.name, other.name))
-            told.setdefault(pair, (words, where.inside("set"), []))[2].append(f"*{keyword}")
-    for words, where, keywords in told.values():
+            words = f"{which} the values of SET={shown(first.name)}: this line holds for them"
+            pair = frozenset((first.name, second.name))
+            reported.setdefault(pair, (words, where.inside("set"), []))[2].append(f"*{keyword}")
+    for words, where, keywords in reported.values():
         also = f"{' and '.join(dict.fromkeys(keywords))} also give{'s' * (len(set(keywords)) == 1)}"
         yield Problem(GEO013, f"{also} {words}; correct the sets, if that is not meant", where=where)
 
@@ -75,9 +75,8 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
 def parallel_elements(context: LintContext) -> Iterator[Problem]:
     """Two elements lie between the same two nodes.
 
-    Their stiffness, weight and drag add up. Springs, hinges and flex joints beside a pipe are left out; of two pipes
-    the second one is mostly a line of *ELEMENT that was copied, or a wrong number of a node. Correct the nodes, or
-    remove one of the elements.
+    Their stiffness, weight and drag add up. Springs, hinges and flex joints next to a pipe are left out. A second pipe
+    is mostly a copied line of *ELEMENT, or has a wrong node number. Correct the nodes, or remove one of the elements.
 
     Example on held:
           GEN=1, 2
@@ -95,10 +94,10 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
     _, firsts, same = np.unique(pairs[usable], return_index=True, return_inverse=True)
     twice = np.flatnonzero(firsts[same] != np.arange(len(usable)))
     if twice.size:
-        one, other = usable[firsts[same[twice[0]]]], usable[twice[0]]
-        which = first_of("element", scene.element_ids[other], twice.size)
-        message = f"{which} between nodes that element {scene.element_ids[one]} joins already: correct the nodes, or"
-        yield Problem(GEO014, f"{message} remove one", where=scene.table.numbered.where(int(other)))
+        first, second = usable[firsts[same[twice[0]]]], usable[twice[0]]
+        which = first_of("element", scene.element_ids[second], twice.size)
+        message = f"{which} between nodes that element {scene.element_ids[first]} joins already: correct the nodes, or"
+        yield Problem(GEO014, f"{message} remove one", where=scene.table.numbered.where(int(second)))
 
 
 def _has_unread_joints(context: LintContext) -> bool:
@@ -110,8 +109,8 @@ def _has_unread_joints(context: LintContext) -> bool:
 def held_twice(context: LintContext) -> Iterator[Problem]:
     """A degree of freedom of a node is held twice.
 
-    With two values one of them has no effect, and the language does not say which: a warning. The same value twice is
-    an info. Remove one of the lines, or correct the node or the degree of freedom.
+    If the two values differ, one of them has no effect, and the language does not say which: a warning. The same value
+    twice is an info. Remove one of the lines, or correct the node or the degree of freedom.
 
     Example on held:
           1, 1
@@ -121,29 +120,29 @@ def held_twice(context: LintContext) -> Iterator[Problem]:
     Finds: 13:5
     """
     scene = context.scene
-    lines = [one for one in held_nodes(scene) if one.where.section < len(context.deck.own_sections)]
+    lines = [line for line in held_nodes(scene) if line.where.section < len(context.deck.own_sections)]
     holders: dict[tuple[int, int], Indices] = {}
-    for number, one in enumerate(lines):
-        holder = holders.setdefault((one.where.section, one.dof), np.full(len(scene.node_ids), -1))
-        again = one.nodes[holder[one.nodes] >= 0]
+    for number, line in enumerate(lines):
+        holder = holders.setdefault((line.where.section, line.dof), np.full(len(scene.node_ids), -1))
+        again = line.nodes[holder[line.nodes] >= 0]
         if again.size:
-            same = all(lines[earlier].how == one.how for earlier in set(holder[again].tolist()))
+            same = all(lines[earlier].how == line.how for earlier in set(holder[again].tolist()))
             before = lines[int(holder[again[0]])].how[0]
-            values = "in the same way" if same else f"at {before}, and at {one.how[0]} here"
+            values = "in the same way" if same else f"at {before}, and at {line.how[0]} here"
             node = first_of("node", scene.node_ids[again[0]], again.size)
-            message = f"degree of freedom {one.dof} of {node} is held above {values}"
+            message = f"degree of freedom {line.dof} of {node} is held above {values}"
             severity = Severity.INFO if same else None
-            yield Problem(BND001, f"{message}: remove one of the lines, or correct it", None, severity, one.where)
-        holder[one.nodes] = number
+            yield Problem(BND001, f"{message}: remove one of the lines, or correct it", None, severity, line.where)
+        holder[line.nodes] = number
 
 
 @rule(BND002)
 def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
-    """A node is held at a place, and follows a vessel, in one degree of freedom.
+    """A node is held in place and follows a vessel in the same degree of freedom.
 
     It cannot do both, and the manual forbids it: a run stops, or one of the conditions has no effect. Remove one of
-    them, or correct the node. The form of lines of TYPE=VESSEL is not public: of a line with a node and a vessel alone
-    it is inferred that the node follows in all degrees of freedom.
+        them, or correct the node. The form of lines of TYPE=VESSEL is not public. A line with only a node and a vessel
+        is taken to prescribe all degrees of freedom (inferred).
 
     Example:
          $MODEL
@@ -176,9 +175,9 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
         if node is None or not node.is_integer():
             continue
         index = scene.nodes.indices(np.array([int(node)]))[0]
-        here = (one for one in held if one.where.section == where.section)
-        freedoms = {one.dof for one in here if index >= 0 and (one.nodes == index).any()}
-        values = (read_number(given.text) for given in others)
+        here = (line_held for line_held in held if line_held.where.section == where.section)
+        freedoms = {line_held.dof for line_held in here if index >= 0 and (line_held.nodes == index).any()}
+        values = (read_number(field.text) for field in others)
         moved = {int(value) for value in values if value is not None} or freedoms
         both = sorted(freedoms & moved)
         if both:

@@ -26,24 +26,29 @@ CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
 CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
 
 STEEPEST = 100.0
-"""Ratio of two slopes of a curve."""
+"""Ratio of the last two slopes of a curve."""
 FEWEST_POINTS, MOST_ROUND, ROUNDING = 3, 0.5, 1e-3
-"""Points of a curve over metres, the share of them that may be round numbers, and how well depths are rounded."""
+"""Limits for a curve that seems to be given over metres.
+
+FEWEST_POINTS: number of points.
+MOST_ROUND: share of its points whose ratios may be round numbers.
+ROUNDING: relative rounding of a depth.
+"""
 _SMALL = 0.01
-"""Part of the largest force of a curve that counts as none."""
+"""Share of the largest force of a curve below which a force counts as none."""
 
 
 @joint(CRV012)
 def falls_where_it_pulls(_: LintContext, found: Found) -> Iterator[Joined]:
-    """That a force falls, at the point where it pulls."""
-    falling = {one.where: one for one in found.get("CRV005", ())}
+    """Join a falling force to the negative force at the same point."""
+    falling = {problem.where: problem for problem in found.get("CRV005", ())}
     for problem in found["CRV012"]:
-        if other := falling.get(problem.where):
-            yield Joined(problem, [other], other.message)
+        if fall := falling.get(problem.where):
+            yield Joined(problem, [fall], fall.message)
 
 
 def _at_zero(curve: ForceCurve) -> float:
-    """The force at ratio 0; 0 where it is small beside the largest force of the curve, or overflows."""
+    """Return the force at ratio 0; 0 if it overflows, or is small compared with the largest force of the curve."""
     try:
         force = float(curve.evaluate(np.zeros(1))[0][0])
     except ValueError:
@@ -52,7 +57,7 @@ def _at_zero(curve: ForceCurve) -> float:
 
 
 def _deepest(curve: SceneCurve) -> int:
-    """Index of the point with the largest ratio."""
+    """Return the index of the point with the largest ratio."""
     return int(np.argmax(curve.points[:, 0]))
 
 
@@ -62,8 +67,8 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
 
     Contact begins at ratio 0, when the centreline reaches the mudline. With a force there, the full reaction acts as
     soon as the pipe touches, and vanishes as soon as it lifts off: the solver sees a jump and finds no equilibrium near
-    it. Below its first point a curve continues with its first slope, so a curve without the point (0, 0) may have such
-    a force too. A force above a hundredth of the largest one of the curve is reported. Add the point 0, 0.
+    it. Below its first point a curve continues with its first slope, so a curve without the point (0, 0) may have a
+    force at ratio 0 too. A force above a hundredth of the largest force of the curve is reported. Add the point 0, 0.
 
     Example on clay:
         + 0.0, 0.0
@@ -74,10 +79,10 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
         curve = entry.curve
         if curve is None or not (force := _at_zero(curve)):
             continue
-        given = np.flatnonzero(entry.points[:, 0] == 0.0)
-        if given.size:
+        at_zero = np.flatnonzero(entry.points[:, 0] == 0.0)
+        if at_zero.size:
             message = f"the force at ratio 0 is {force:.6g}: contact begins with a jump; give it the force 0"
-            yield Problem(CRV007, message, where=entry.point(int(given[0])))
+            yield Problem(CRV007, message, where=entry.point(int(at_zero[0])))
             continue
         if not entry.whole:
             continue
@@ -228,7 +233,7 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
 
 
 def curves_over_lengths(context: LintContext) -> Iterator[Problem]:
-    """What UNT006 finds in curves: depths where ratios belong."""
+    """Yield the problems of UNT006 in curves: depths instead of ratios."""
     for curve, diameter in _in_lengths(context.scene):
         message = (
             f"every ratio of this curve is a round number of diameters of {diameter:.4g} (the last one "
@@ -238,16 +243,16 @@ def curves_over_lengths(context: LintContext) -> Iterator[Problem]:
 
 
 def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
-    """Curves of which every ratio is a round number of diameters and most are not round numbers; with the diameter.
+    """Yield the curves whose ratios all become round numbers when multiplied by the diameter, with the diameter.
 
-    All elements on the curve must have one diameter.
+    Most of the ratios themselves are not round numbers. All elements on the curve must have one diameter.
     """
     laws = scene.laws
     candidates = [index for index, curve in enumerate(laws.curves) if _may_be_in_lengths(curve)]
     if not candidates:
         return
-    of_grant = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
-    of_element = looked_up(of_grant, laws.of_element)
+    curve_of_law = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
+    of_element = looked_up(curve_of_law, laws.of_element)
     smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
     with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
         np.minimum.at(smallest, of_element, scene.diameter)
@@ -259,7 +264,7 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
 
 
 def _may_be_in_lengths(curve: SceneCurve) -> bool:
-    """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
+    """Return True if most ratios of a curve are not round numbers, and CRV010 reports none of them."""
     if not curve.usable or np.count_nonzero(curve.points[:, 0]) < FEWEST_POINTS:
         return False
     ratios = _ratios(curve)
@@ -269,12 +274,12 @@ def _may_be_in_lengths(curve: SceneCurve) -> bool:
 
 
 def _ratios(curve: SceneCurve) -> Floats:
-    found: Floats = curve.points[curve.points[:, 0] != 0.0, 0]
-    return found
+    ratios: Floats = curve.points[curve.points[:, 0] != 0.0, 0]
+    return ratios
 
 
 def _is_round(values: Floats) -> Mask:
-    """Which numbers have two significant digits, as far as rounding in the deck lets that be seen."""
+    """Return a mask of the numbers with two significant digits, within the rounding of the deck."""
     with np.errstate(divide="ignore", over="ignore", under="ignore", invalid="ignore"):
         digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))  # inf for the smallest floats
         return np.abs(digits - digits.round(1)) <= ROUNDING * digits

@@ -33,13 +33,13 @@ REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 
 @rule(REF003)
 def unused_curve(context: LintContext) -> Iterator[Problem]:
-    """No STIFFNESS=, or other setting that takes curves of its kind, uses the curve.
+    """A curve is not used by STIFFNESS=, or by another setting that takes curves of its kind.
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
-    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Another estimate of a soil that is used, as Clay Low beside
-    Clay Best, is an info: decks carry all of them. Nothing is reported in a deck whose STIFFNESS= is an
-    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017). The curves of
-    *MOMENT-CURVATURE and the like are looked at too: it is an info where mudline knows no keyword that would use one.
+    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Another estimate of a soil in use, such as Clay Low next to
+    Clay Best, is an info: decks carry all estimates. Nothing is reported in a deck whose STIFFNESS= is an equation, as
+    its parameters choose the curve, or for a curve whose name reads as a number (SBD017). The curves of
+    *MOMENT-CURVATURE and the like are checked too: an info if mudline knows no keyword that would use the curve.
 
     Example on clay:
           0.5, 4200.0
@@ -80,7 +80,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 
 @joint(SBD006)
 def the_law_of_a_curve(_: LintContext, found: Found) -> Iterator[Joined]:
-    """The one curve that nothing uses, under the one law that lacks a stiffness."""
+    """Join the only unused curve to the only law without a stiffness."""
     bare, idle = found["SBD006"], found.get("REF003", ())
     if len(bare) == len(idle) == 1:
         yield Joined(bare[0], idle, idle[0].message)
@@ -89,16 +89,16 @@ def the_law_of_a_curve(_: LintContext, found: Found) -> Iterator[Joined]:
 _ESTIMATE = re.compile(
     r"[\W_]*(?<![^\W_])(?:lb|le|be|ub|hb|he|low|lower|best|high|higher|upper|mean|min|max|p\d\d?)(?:[\W_]+(?:estimate|bound))?(?![^\W_])"
 )
-"""The words of a name that say which estimate it is."""
+"""Words of a curve name that tell the estimate, such as `low` or `best`."""
 
 
 def _without_estimate(name: str) -> str:
-    """The name of a curve without the words that say which estimate of its soil it is."""
+    """Return the name of a curve without the words that tell the estimate of its soil."""
     return _ESTIMATE.sub("", folded(name)).strip(" -_.")
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:
-    """Whether something that is not read, or not fixed, may use curves."""
+    """Return True if something that is not read, or not fixed, may use curves."""
     scene = context.scene
     own = zip(
         _stiffnesses(context.written("SEABED PROPERTIES")),
@@ -154,16 +154,16 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
 
 
 def removals(text: TextOrigin, unused: Iterable[Where]) -> dict[Where, Repair]:
-    """For each curve of `*SEABED STIFFNESS` that is not used, the removal of its lines; comments stay.
+    """Return a repair for each unused curve of `*SEABED STIFFNESS` that removes its lines and keeps comments.
 
-    The first curve of a block takes the whole block with it where none of its curves is used, unless a comment hides
-    findings there: then it goes alone, as the others do.
+    If no curve of a block is used, the repair of its first curve removes the whole block. If a comment in the block
+    suppresses findings, each curve is removed by itself.
     """
-    found: dict[Where, Repair] = {}
+    repairs: dict[Where, Repair] = {}
     for block, places in groupby(sorted(unused), lambda where: where._replace(path=())):
         if (block.section, block.block) in text.read:  # not of a deck that this one continues
-            found |= _of_block(text, block, list(places))
-    return found
+            repairs |= _of_block(text, block, list(places))
+    return repairs
 
 
 def _of_block(text: TextOrigin, block: Where, unused: list[Where]) -> dict[Where, Repair]:
@@ -173,19 +173,19 @@ def _of_block(text: TextOrigin, block: Where, unused: list[Where]) -> dict[Where
     length = len(unused[0].path)
     starts = {path: span.start for path, span in read.places.spans.items() if len(path) == length}
     lines = _by_curve(raw.leaves, source, all_keys(type(read.model)), sorted(starts.values()))
-    found = {
+    repairs = {
         where: Repair("unsafe", "remove the curve", tuple((span, "") for span in lines[starts[where.path]]))
         for where in unused
     }
     if len(unused) == len(starts) and (len(starts) == 1 or not any(_hides(leaf, source) for leaf in raw.leaves)):
         spans = [raw.head.span, *(span for start in sorted(lines) for span in lines[start])]
         message = "remove the curve" if len(starts) == 1 else "remove the curves of this block"
-        found[unused[0]] = Repair("unsafe", message, tuple((span, "") for span in spans))
-    return found
+        repairs[unused[0]] = Repair("unsafe", message, tuple((span, "") for span in spans))
+    return repairs
 
 
 def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: list[int]) -> dict[int, list[Span]]:
-    """The lines of each curve without comments and blank lines; a curve is known by where it starts."""
+    """Return the lines of each curve by its start, without comments and blank lines."""
     lines: dict[int, list[Span]] = {start: [] for start in starts}
     for leaf in leaves:
         at = bisect_right(starts, leaf.span.end - 1) - 1
@@ -199,7 +199,7 @@ def _hides(leaf: Leaf, source: str) -> bool:
 
 
 def _counts(leaf: Leaf, source: str, keys: frozenset[str]) -> bool:
-    """Whether a line is part of the curve and not a comment."""
+    """Return True if a line belongs to the curve and is not a comment."""
     if leaf.kind is Kind.UNDECIDED:
         return first_key(source, leaf.span) in keys
     return leaf.kind not in (Kind.COMMENT, Kind.BLANK)

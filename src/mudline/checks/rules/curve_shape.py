@@ -27,7 +27,7 @@ CRV009 = Code("CRV009", "swapped-columns", Severity.WARNING)
 CRV010 = Code("CRV010", "ratio-range", Severity.WARNING)
 
 LARGEST_RATIO = 5.0
-"""Diameters of embedment; a larger ratio is a length or a percentage."""
+"""Largest embedment ratio in diameters; a larger one is a length or a percentage."""
 _LIKE_A_FORCE = 10.0
 _LIKE_A_RATIO = 2.0
 
@@ -35,7 +35,7 @@ _NO_PLAIN_NUMBERS = frozenset('["{')
 
 
 def swapped(curve: SceneCurve) -> bool:
-    """Whether all points other than (0, 0) have a first number above 10 and a second one below 2."""
+    """Return True if all points except (0, 0) have a first number above 10 and a second number below 2."""
     ratios, forces = curve.points.T
     exchanged = (ratios > _LIKE_A_FORCE) & (forces < _LIKE_A_RATIO)
     return bool(exchanged.any() and (exchanged | ((ratios == 0.0) & (forces == 0.0))).all())
@@ -68,7 +68,7 @@ def swapped_columns(context: LintContext) -> Iterator[Problem]:
 
 
 def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
-    """Each row with its fields exchanged; None for a curve that could not be read whole, or is very long."""
+    """Return a repair that exchanges the fields of each row; None for a curve not read whole, or very long."""
     block = text.read.get((curve.where.section, curve.where.block))
     runs = block.places.runs.get((*curve.where.path, "points"), []) if block else []
     if not runs or len(curve.points) > MOST_REPORTED or not curve.whole:
@@ -113,10 +113,11 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
 
 @rule(CRV002)
 def unsorted_points(context: LintContext) -> Iterator[Problem]:
-    """The points of a curve are not in the order of their ratios, or of what else its abscissa is.
+    """Points of a curve are not in ascending order.
 
-    This is legal: they are sorted before anything else. A reader of the deck sees another curve than the one that is
-    used, though, and a point out of order sometimes has a wrong ratio. Put the points in order.
+    This is legal: the points are sorted by ratio, or by another abscissa, before they are used. A reader of the deck
+        sees another curve than the one in use, though, and a point out of order sometimes has a wrong ratio. Put the
+        points in order.
 
     Example on clay:
         + 0.1, 1200.0
@@ -128,7 +129,7 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     curves, others = context.scene.laws.curves, other_curves(context.scene.deck)
     seabed: Iterator[tuple[SceneCurve | DeckCurve, str]]
     seabed = ((curve, "ratio") for curve in curves if not is_upside_down(curve))
-    for curve, name in chain(seabed, ((other, other.axes[0]) for other in others)):
+    for curve, name in chain(seabed, ((curve, curve.axes[0]) for curve in others)):
         over = curve.points[:, 0]
         if not isinstance(curve, SceneCurve) and not (over[1:] > over[:-1]).any():
             continue  # it is written from its other end
@@ -141,19 +142,20 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
 @joint(CRV009, CRV010, CRV005)
 def of_one_curve(_: LintContext, found: Found) -> Iterator[Joined]:
-    """What is said of a curve besides one point that is far off, exchanged columns, or forces that all fall."""
+    """Join the findings of a curve under one cause: a point that is far off, exchanged columns, or falling forces."""
     of_curve: dict[Where, dict[str, list[Problem]]] = {}
     for code, problems in found.items():
-        for one in problems if code.startswith("CRV") else ():
-            if one.where is not None and "points" in one.where.path:
-                curve = one.where._replace(path=one.where.path[: one.where.path.index("points")])
-                of_curve.setdefault(curve, {}).setdefault(code, []).append(one)
-    for given in of_curve.values():
-        falls = len(given.get("CRV005", ())) == 1 and {"CRV007", "CRV012"} <= given.keys()
-        code = next((code for code in ("CRV009", "CRV010") if code in given), "CRV005" if falls else "")
+        for problem in problems if code.startswith("CRV") else ():
+            if problem.where is not None and "points" in problem.where.path:
+                curve = problem.where._replace(path=problem.where.path[: problem.where.path.index("points")])
+                of_curve.setdefault(curve, {}).setdefault(code, []).append(problem)
+    for by_code in of_curve.values():
+        falls = len(by_code.get("CRV005", ())) == 1 and {"CRV007", "CRV012"} <= by_code.keys()
+        code = next((code for code in ("CRV009", "CRV010") if code in by_code), "CRV005" if falls else "")
         if code:
-            first = given[code][0]
-            yield Joined(first, [one for problems in given.values() for one in problems if one is not first])
+            first = by_code[code][0]
+            joined = [problem for problems in by_code.values() for problem in problems if problem is not first]
+            yield Joined(first, joined)
 
 
 @rule(CRV005)
@@ -161,9 +163,10 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     """The force decreases while the pipe penetrates deeper.
 
     The stiffness of the seabed is negative there: the seabed does not support the pipe but lets it snap through, unless
-    the pipe itself resists. Equilibrium needs a structural stiffness above |slope| / D for each unit of length, D being
-    the external diameter. Softening soil is real, but a static run rarely converges on it; give the curve a force that
-    does not decrease, or keep this one knowingly. Neighbouring segments are one finding, at the first of them.
+        the pipe itself resists. Equilibrium needs a structural stiffness above |slope| / D for each unit of length, D
+        being the external diameter. Softening soil is real, but a static run rarely converges on it. Give the curve a
+        force that does not decrease, or keep the curve knowingly. Neighbouring segments are one finding, at the first
+        of them.
 
     Example on clay:
           0.5, 4200.0
@@ -191,20 +194,20 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
 
 
 def is_upside_down(curve: SceneCurve) -> bool:
-    """Whether depths below the mudline are negative: no ratio is above 0 and some are below, as CRV006 reports."""
+    """Return True if the depths of a curve seem to be negative: no ratio is above 0, some are below (CRV006)."""
     ratios = curve.points[:, 0]
     return bool(ratios.size and ratios.max() <= 0.0 and ratios.min() < 0.0)
 
 
 def _distinct(curve: SceneCurve) -> Indices:
-    """Indices of the points in the order of their ratios, one for each ratio."""
+    """Return the indices of the points in the order of their ratios, one point for each ratio."""
     clashing, repeated = clashes_and_repeats(curve.points)
     order = np.argsort(curve.points[:, 0], kind="stable")
     return order[~np.isin(order, np.concatenate([clashing, repeated]))]
 
 
 def _needed(scene: Scene, curve: int, slope: float) -> str:
-    """|slope| / D, for the smallest diameter on the curve."""
+    """Return |slope| / D in words, for the smallest diameter on the curve."""
     diameters = scene.diameter[scene.laws.followers(curve)]
     known = diameters[~np.isnan(diameters)]
     if not known.size:
@@ -219,10 +222,10 @@ def _needed(scene: Scene, curve: int, slope: float) -> str:
 def negative_ratio(context: LintContext) -> Iterator[Problem]:
     """A point of a curve lies above the mudline.
 
-    The embedment ratio is measured at the centreline of the pipe, and contact begins where it is positive: evaluation
-    never reaches such a point. A curve drawn for the invert, which touches the seabed half a diameter earlier, begins
-    at -0.5; its part above 0 is lost, and the force jumps when contact begins. Remove the point, or draw the curve for
-    the centreline. A curve that has the force 0 up to ratio 0 loses nothing, and is not reported.
+    The embedment ratio is measured at the centreline of the pipe, and contact begins at ratio 0: evaluation never
+    reaches a point above the mudline. A curve drawn for the invert, which touches the seabed half a diameter earlier,
+    begins at -0.5; its part above the mudline is lost, and the force jumps when contact begins. Remove the point, or
+    draw the curve for the centreline. A curve with the force 0 up to ratio 0 loses nothing, and is not reported.
 
     Example on clay:
         - -0.5, 0.0
@@ -245,7 +248,7 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
 
 
 def _free_above(points: Floats) -> bool:
-    """Whether a curve has no force above the mudline, up to a point at 0."""
+    """Return True if a curve has no force above the mudline, up to a point at 0."""
     above = points[points[:, 0] <= 0.0]
     return bool((above[:, 0] == 0.0).any() and (above[:, 1] == 0.0).all())
 
@@ -254,8 +257,8 @@ def _free_above(points: Floats) -> bool:
 def repeated_point(context: LintContext) -> Iterator[Problem]:
     """A curve has the same point twice.
 
-    It counts once, so nothing is wrong yet; but when one of the two is changed later, the curve has two forces at one
-    ratio. Remove it.
+    It counts once, so nothing is wrong yet. If one of the two is changed later, the curve has two forces at one ratio.
+    Remove one of them.
 
     Example on clay:
         - 0.1, 1200.0
@@ -275,15 +278,15 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
-class PlainRows(NamedTuple):
-    """The lines of a table, without white space and line ends after them; `before` is what its curve has above them."""
+class CurveRows(NamedTuple):
+    """Lines of a table, without white space and line ends after them; `before` is the text of the curve above them."""
 
     source: str
     lines: list[Span]
     before: str
 
     def crosses_comment(self, order: Indices) -> bool:
-        """Whether a comment is next to a row that the order moves, or that other rows pass."""
+        """Return True if a comment is next to a row that the new order moves, or that other rows pass."""
         settled = np.maximum.accumulate(order) == np.arange(len(order))  # up to here the rows stay among themselves
         stays = order == np.arange(len(order))
         if "mudline" in self.before.lower() and not stays[0]:  # a comment that speaks of the first row alone
@@ -295,8 +298,8 @@ class PlainRows(NamedTuple):
         return False
 
 
-def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
-    """The rows of a curve; None where they are very many or have equations, which other parameters would change."""
+def plain_rows(text: TextOrigin, curve: SceneCurve) -> CurveRows | None:
+    """Return the rows of a curve; None if there are very many, or equations, whose parameters may change."""
     block = text.read.get((curve.where.section, curve.where.block))
     if block is None or len(curve.points) > MOST_REPORTED:
         return None
@@ -311,14 +314,14 @@ def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
     opening = block.places.find(curve.where.path).start
     if opening >= lines[0].start:  # rows of *EMBEDMENT that stand under no SET=
         opening = block.places.block.start
-    return PlainRows(source, lines, source[opening : lines[0].start])
+    return CurveRows(source, lines, source[opening : lines[0].start])
 
 
 def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
-    """The rows in the order of their ratios.
+    """Return a repair that sorts the rows by their ratios.
 
-    None for a curve that could not be read whole, is very long or has equations, and where a comment would be next to
-    another row than now.
+    None for a curve that is not read whole, is very long or has equations, or if a comment would then be next to
+    another row.
     """
     if not curve.whole or (rows := plain_rows(text, curve)) is None or len(rows.lines) != len(curve.points):
         return None
@@ -333,8 +336,8 @@ def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     return Repair("safe", "put the points in order", tuple(edits)) if edits else None
 
 
-def removal(rows: PlainRows, row: int) -> Repair:
-    """The removal of a row."""
+def removal(rows: CurveRows, row: int) -> Repair:
+    """Return a repair that removes a row."""
     line = rows.lines[row]
     following = rows.source.find("\n", line.end)
     end = len(rows.source) if following < 0 else following + 1

@@ -1,4 +1,4 @@
-"""Files of numbers that a deck names, and the lines that a deck may have in their place."""
+"""Data files that a deck names, and the lines that a deck may have in their place."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 DAT002 = Code("DAT002", "faulty-data", Severity.ERROR)
 
 _OWN_FORMATS = (None, "", "MCS")
-"""FORMAT= of files whose form is public."""
+"""Values of FORMAT= whose file format is public."""
 
 
 class _Named(NamedTuple):
-    """A file that a field names, with the part that the field belongs to."""
+    """Data file that a field names, with the part that the field belongs to."""
 
     where: Where
     part: Part
@@ -41,11 +41,11 @@ class _Named(NamedTuple):
 
 @rule(DAT002)
 def faulty_data(context: LintContext) -> Iterator[Problem]:
-    """A file that the deck names does not hold what it should, or lines in its place do not.
+    """A file that the deck names does not hold the data it should, or the lines in its place do not.
 
-    The analysis program stops at such a file, or reads other values than were meant. Operators of a vessel, histories
-    of motions and of the sea, coefficients and matrices are looked at as far as their form is public; the message has
-    the first line that breaks it. In files of operators with a line a frequency every heading needs the same
+    The analysis program stops at such a file, or reads other values than were meant. Checked are operators of a vessel,
+    histories of motions and of the sea, coefficients and matrices, as far as their format is public. The message names
+    the first faulty line. In files of operators with one line for each frequency, every heading needs the same
     frequencies. Files in the format of another program are not read. Correct the line.
 
     Example:
@@ -77,26 +77,26 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
             yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
 
 
-class OperatorFile(NamedTuple):
-    """A file of the operators of a vessel: its name, where the deck has that, and its rows as LAYOUT=LINE has them."""
+class OperatorRows(NamedTuple):
+    """File of the operators of a vessel: its place in the deck, its name, and its rows in the form of LAYOUT=LINE."""
 
     where: Where
     name: str
     rows: list[list[float]]
 
 
-def operator_files(context: LintContext) -> list[OperatorFile]:
-    """The files of operators that a deck names and that can be used."""
-    found = []
+def operator_files(context: LintContext) -> list[OperatorRows]:
+    """Return the files of operators that a deck names and that can be used."""
+    files = []
     for named, path in _there(context):
         if named.slot.about.holds is Contents.OPERATORS and _is_own(named):
             with suppress(OSError, ValueError):  # DAT002 says why
-                found.append(OperatorFile(named.where, path.name, operators(path, _layout(named))))
-    return found
+                files.append(OperatorRows(named.where, path.name, operators(path, _layout(named))))
+    return files
 
 
 def _there(context: LintContext) -> Iterator[tuple[_Named, Path]]:
-    """The files that a deck names and that are there."""
+    """Yield the existing files that a deck names, each with its path."""
     files = list(_files(context)) if context.deck.folder else []
     parameters = Parameters(context.deck) if files else None
     for named in files:
@@ -125,7 +125,7 @@ def _fault(named: _Named, path: Path) -> str:
 
 
 def _files(context: LintContext) -> Iterator[_Named]:
-    """The files of the deck itself of which it is known what they hold."""
+    """Yield the files of the deck itself whose contents are known."""
     for i, section in enumerate(context.deck.own_sections):
         for j, block in enumerate(section.blocks):
             if type(block) is not Opaque and _leads_to_files(type(cast("Part", block))):
@@ -145,7 +145,7 @@ def _named_in(part: Part, where: Where) -> Iterator[_Named]:
 
 @cache
 def _leads_to_files(part: type[Part]) -> tuple[FieldSpec, ...]:
-    """The fields of a part that name such files, and those with records that do."""
+    """Return the fields of a part that name data files, and the fields whose records do."""
     return tuple(
         slot
         for slot in record_schema(part).slots

@@ -1,4 +1,4 @@
-"""Sections of pipes: what they give twice, or not at all."""
+"""Sections of pipes: values that are given twice, or not at all."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _CURVES = {
     "hysteresis_curve": ("EI_HYSTERESIS", _BENDING),
     "e_curve": ("E", ("e",)),
 }
-"""Which numbers of the property line a curve replaces, and the setting that names the curve."""
+"""Setting of each curve, and the numbers of the property line that it replaces."""
 _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
@@ -52,8 +52,8 @@ _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 def number_and_curve(context: LintContext) -> Iterator[Problem]:
     """A stiffness is given twice: as a number, and by a curve.
 
-    Where SET= names a curve of the non-linear stiffness, its number on the property line is to be left empty. With both
-    it is not clear which one a run uses. Leave the field empty, or remove the curve.
+    If the line with SET= names a curve of non-linear stiffness, its number on the property line must be left empty.
+    With both it is not clear which of them a run uses. Leave the field empty, or remove the curve.
 
     Example:
          $MODEL
@@ -76,10 +76,10 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
         for curve, (key, numbers) in _CURVES.items():
             if getattr(entry, curve) is None:
                 continue
-            if given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
-                names = " and ".join(_NAMES[name] for name in given)
+            if numbers_given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
+                names = " and ".join(_NAMES[name] for name in numbers_given)
                 message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
-                place = where.inside(format_of(entry), _NAMES[given[0]])
+                place = where.inside(format_of(entry), _NAMES[numbers_given[0]])
                 yield Problem(GEO002, message, where=place)
 
 
@@ -128,12 +128,14 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
 def repeated_section(context: LintContext) -> Iterator[Problem]:
     """A set has two sections, and another set has none; or a set has none at all.
 
-    The later section of a set overrides the earlier one. That is legal, but beside a set without a section it suggests
-    an entry that was copied and kept the name of the first: the elements of that set have neither stiffness nor mass.
-    Correct the name in one of the two entries. A set without a section is also reported where no set has two, but not
-    if a keyword that is passed through names it, as that may describe its elements. Nothing is reported where elements
-    come from lines or from another deck, where a section names a set that is not defined (REF001), where every element
-    has a section, or where a curve lacks a diameter (SBD009).
+    The later section of a set overrides the earlier one. That is legal. If another set lacks a section, though, it
+    suggests an entry that was copied and kept the first name: the elements of the other set have neither stiffness nor
+    mass. Correct the name in one of the two entries.
+
+    A set without a section is also reported if no set has two, unless a keyword that is passed through names it, as
+    that keyword may describe its elements. Nothing is reported if elements come from lines or from another deck, if a
+    section names a set that is not defined (REF001), if every element has a section, or if a curve lacks a diameter
+    (SBD009).
 
     Example on sets:
           GEN=3, 4
@@ -158,27 +160,27 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
         return
     needing = lacking & ~without_sections(scene)
     sets = scene.set_table.named.values() if needing.any() else ()
-    bare_sets = [one for one in sets if not one.open and lacking[one.elements].all() and needing[one.elements].any()]
+    bare_sets = [s for s in sets if not s.open and lacking[s.elements].all() and needing[s.elements].any()]
     for section in repeated if bare_sets else ():
         message = (
             f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "
             "one of the two names"
         )
         yield Problem(GEO006, message, where=section.where.inside("set"))
-    for one in () if repeated else bare_sets:
-        on_curve = (scene.law[one.elements] == LawKind.CURVE).any()  # SBD009 says so
-        if one.where is not None and not on_curve and folded(one.name) not in _passed_through(scene):
-            message = f"the elements of SET={shown(one.name)} have no section: give one in *GEOMETRIC SETS"
-            yield Problem(GEO006, message, where=one.where)
+    for bare in () if repeated else bare_sets:
+        on_curve = (scene.law[bare.elements] == LawKind.CURVE).any()  # SBD009 reports it
+        if bare.where is not None and not on_curve and folded(bare.name) not in _passed_through(scene):
+            message = f"the elements of SET={shown(bare.name)} have no section: give one in *GEOMETRIC SETS"
+            yield Problem(GEO006, message, where=bare.where)
 
 
 MOST_LENGTHS, USUAL_LENGTHS = 25.0, 8.0
-"""The longest of the lengths of a section to the shortest one."""
+"""Limits of the ratio of the longest to the shortest length of a section."""
 
 
 @joint(GEO001, UNT004, UNT005, UNT006)
 def row_of_another_option(context: LintContext, found: Found) -> Iterator[Joined]:
-    """What is said of the property lines under one OPTION=, whose lengths fit each other only under another one."""
+    """Join the findings in property lines under one OPTION= whose lengths fit each other only under another OPTION=."""
     text = context.text
     lines: dict[int, list[Problem]] = {}
     for problem in chain.from_iterable(found.values()) if text else ():
@@ -201,7 +203,7 @@ def row_of_another_option(context: LintContext, found: Found) -> Iterator[Joined
 
 
 def _other_formats(entry: GeometricSet, own: str) -> str:
-    """The other formats of a property line in which its lengths fit each other, in words; "" where its own may be."""
+    """Return in words the other formats of a property line that its lengths fit; "" if its own format may be right."""
     section: Part | None = entry.section
     if section is None or is_partly_unknown(section):
         return ""
@@ -216,29 +218,29 @@ def _other_formats(entry: GeometricSet, own: str) -> str:
 
 
 def _lengths_fit(values: Sequence[object], columns: Sequence[FieldSpec], most: float) -> bool:
-    """Whether a property line may have some values, the longest of its lengths at most `most` times the shortest."""
-    given = {slot.name: value for slot, value in zip(columns, values, strict=False) if value is not None}
+    """Return True if the values fit the columns of a property line, with lengths at most a factor of `most` apart."""
+    values_by_name = {slot.name: value for slot, value in zip(columns, values, strict=False) if value is not None}
     units = {slot.name: slot.about.unit for slot in columns}
-    numbers = {name: value for name, value in given.items() if isinstance(value, int | float)}
+    numbers = {name: value for name, value in values_by_name.items() if isinstance(value, int | float)}
     lengths = [value for name, value in numbers.items() if units[name] == "L" and value > 0.0]
-    complete = len(values) <= len(columns) and all(slot.name in given for slot in columns if slot.required)
+    complete = len(values) <= len(columns) and all(slot.name in values_by_name for slot in columns if slot.required)
     has_wall = numbers.get("di", 0.0) < numbers.get("do", math.inf)
     return complete and has_wall and max(lengths, default=0.0) <= most * min(lengths, default=0.0)
 
 
 def without_sections(scene: Scene) -> Mask:
-    """Elements that take no section: springs, hinges and flex joints, by their numbers or sets."""
-    found = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    """Return a mask of the elements that take no section, by number or set: springs, hinges and flex joints."""
+    bare = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in scene.deck.blocks_with("zero_length"):
-        found |= np.isin(scene.element_ids, list(_numbers(block)))
+        bare |= np.isin(scene.element_ids, list(_numbers(block)))
         for _, name in names_given(block, Names.SET):
             if set_ := scene.set_table.find(name):
-                found[set_.elements] = True
-    return found
+                bare[set_.elements] = True
+    return bare
 
 
 def _numbers(part: Part) -> Iterator[int]:
-    """The element numbers that a part gives."""
+    """Yield the element numbers that a part gives."""
     for slot in record_schema(type(part)).slots:
         value = getattr(part, slot.name, None)
         items = value if isinstance(value, list) else [value]
@@ -250,19 +252,19 @@ def _numbers(part: Part) -> Iterator[int]:
 
 
 def _passed_through(scene: Scene) -> set[str]:
-    """Names after SET= and the like in blocks that are passed through."""
+    """Return the names after SET= and the like in blocks that are passed through."""
     blocks = (block for section in scene.deck.sections for block in section.blocks)
     lines = (line for block in blocks if isinstance(block, Opaque) for line in block.lines)
     return {folded(field.partition("=")[2]) for line in lines for field in line.split(",") if "=" in field}
 
 
 def _repeated(sections: Iterable[Section]) -> list[Section]:
-    """Sections of a set that already has one."""
+    """Return the sections of sets that already have a section."""
     known: set[str] = set()
-    found: list[Section] = []
+    repeated: list[Section] = []
     for section in sections:
         name = name_key(section.name)
         if name in known:
-            found.append(section)
+            repeated.append(section)
         known.add(name)
-    return found
+    return repeated

@@ -1,4 +1,4 @@
-"""What may stand once and stands twice: keywords, and records that a name or a number tells apart."""
+"""Keywords and records that are given twice and may be given once."""
 
 from __future__ import annotations
 
@@ -20,11 +20,12 @@ REF022 = Code("REF022", "given-twice", Severity.WARNING)
 
 @rule(REF022)
 def given_twice(context: LintContext) -> Iterator[Problem]:
-    """What may stand once stands twice: a keyword, or the set, vessel, heading, frequency or depth of a record.
+    """A keyword that may be given once is given twice, or two records have the same set, vessel or heading.
 
-    A run takes one of the two, and whoever changes the other one changes nothing: mostly a block that was copied kept
-    its first name. Of sections and coefficients of a set the later one holds; of the others it is not documented.
-    Remove one of them, or correct its name. Sets, curves, nodes, elements and seabed laws have rules of their own.
+    So are two records with the same frequency or depth. A run takes one of the two, and a change of the unused one has
+    no effect. Mostly a copied block kept its first name. Of two sections or coefficients of a set the later one is
+    used; for the others this is not documented. Remove one of them, or correct its name. Sets, curves, nodes, elements
+    and seabed laws have their own rules.
 
     Example:
          $MODEL
@@ -58,7 +59,7 @@ def _is_unique(slot: FieldSpec) -> bool:
 
 
 def _list_of(path: Path, block: int) -> Path:
-    """Where the list stands whose records a field tells apart: one of a block goes on in the next one."""
+    """Return the path of the list whose records a field distinguishes; a list may go on in the next block."""
     return path[:-2] if len(path) <= len(("records", 0, "field")) else (block, *path[:-2])
 
 
@@ -71,8 +72,8 @@ def _words(slot: FieldSpec, value: object, block: Block) -> str:
 
 @joint(GEO006)
 def said_of_the_section(_: LintContext, found: Found) -> Iterator[Joined]:
-    """A section that a set has twice, where it is also said which set has none."""
+    """Join a repeated section of a set to the finding that another set has none."""
     for problem in found[GEO006.code]:
-        same = [one for one in found.get(REF022.code, ()) if one.where == problem.where]
+        same = [repeat for repeat in found.get(REF022.code, ()) if repeat.where == problem.where]
         if same:
             yield Joined(problem, same)

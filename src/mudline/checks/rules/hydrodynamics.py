@@ -25,7 +25,8 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     """Elements have no hydrodynamic properties in a load case with waves or a current.
 
     No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right in a moonpool,
-    and a slip elsewhere. Inner pipes of *PIP SECTION need none. Put the elements into a set with coefficients.
+    and a mistake elsewhere. Inner pipes of *PIP SECTION need no coefficients. Put the elements into a set with
+    coefficients.
 
     Example on held:
          $MODEL
@@ -54,10 +55,10 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in blocks:
         for entry in block.sets:
-            found = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
-            if found is None:
+            set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
+            if set_ is None:
                 return
-            covered[found.elements] = True
+            covered[set_.elements] = True
     bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
     if bare.size:
         what = first_of("element", scene.element_ids[bare[0]], bare.size)
@@ -69,10 +70,10 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
 def added_mass_order(context: LintContext) -> Iterator[Problem]:
     """A line of `*HYDRODYNAMIC SETS` gives two different added mass coefficients, whose order is inferred.
 
-    mudline reads the normal one first, as decks of the older program (.das) have them; the manual's page on theory
+    mudline reads the normal coefficient first, as in decks of the older program (.das). The manual's page on theory
     lists the tangential one first, and no public page shows the line itself. Nothing that mudline evaluates depends on
-    it, but whoever copies the values should know. Where the coefficients are the defaults, the normal inertia minus 1
-    and 0, leave the two fields out: then there is no doubt.
+    the order, but it matters if the values are copied. If the coefficients are the defaults, the normal inertia minus 1
+    and 0, leave both fields empty: then there is no doubt.
 
     Example on sets:
           GEN=3, 4
@@ -85,16 +86,16 @@ def added_mass_order(context: LintContext) -> Iterator[Problem]:
     """
     if context.deck.file.lower().endswith(".das"):
         return
-    found = []
+    lines = []
     for where, entry in entries_of_sets(context.blocks("HYDRODYNAMIC SETS")):
         normal, tangential, inertia = (
             number(entry.constant, name) for name in ("normal_added_mass", "tangential_added_mass", "normal_inertia")
         )
         if abs(normal - tangential) > 0.0:
-            found.append((where.inside("constant", "normal_added_mass"), normal, tangential, inertia))
-    if found:
-        where, normal, tangential, inertia = found[0]
-        others = f"; so are those of {len(found) - 1} more sets" * (len(found) > 1)
+            lines.append((where.inside("constant", "normal_added_mass"), normal, tangential, inertia))
+    if lines:
+        where, normal, tangential, inertia = lines[0]
+        others = f"; so are those of {len(lines) - 1} more sets" * (len(lines) > 1)
         defaults = normal == inertia - 1.0 and tangential == 0.0
         advice = "these are the defaults, remove both" if defaults else "keep them if they are meant so"
         message = (

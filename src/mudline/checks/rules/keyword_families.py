@@ -46,17 +46,17 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    found = context.deck.blocks_with("superseded_by")
-    for number, (where, block) in enumerate(one for one in found if one[1].subject == "seabed"):
+    blocks = context.deck.blocks_with("superseded_by")
+    for number, (where, block) in enumerate(place for place in blocks if place[1].subject == "seabed"):
         newer = " and ".join(map(str, block.facts.superseded_by))
         message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
         yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))
 
 
 def _migration(context: LintContext) -> Repair | None:
-    """What `mudline migrate` does, to all blocks at once; None where it refuses, or a second file is needed.
+    """Return the repair of `mudline migrate` for all blocks at once; None if it refuses, or needs a second file.
 
-    Only when repairs are made, the decks of the folder are searched for those that continue this one.
+    The folder is searched for decks that continue this deck only when repairs are made.
     """
     deck, text = context.deck, context.text
     if text is None or context.scene.errors():
@@ -81,7 +81,7 @@ def _migration(context: LintContext) -> Repair | None:
 def mixed_families(context: LintContext) -> Iterator[Problem]:
     """The model has legacy and new seabed keywords.
 
-    The manual says that a non-linear curve is used where there is one. The rest is inferred: of two curves, and of two
+    The manual says that a non-linear curve is used if there is one. All else is inferred: of two curves, or of two
     numbers, that of the newer keywords is used. Another version of the program may read the deck otherwise. The message
     lists what each set gets, and the curves that no element gets. Keep one family.
 
@@ -103,16 +103,16 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
     legacy = _first(context, filter(is_superseded, context.keywords))
     new = _first(context, filter(supersedes, context.keywords)) if legacy else None
     if not legacy or not new or context.problems_of(SBD002):
-        return  # of two seabeds, one of which goes, SBD002 speaks
+        return  # two types of seabed, of which one is removed: SBD002 reports them
     own = len(context.scene.deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
-    other = (new if is_superseded(keyword) else legacy)[1]
-    message = f"*{keyword} and *{other} are in one model{_laws_by_set(context.scene)}: keep one family"
+    second = (new if is_superseded(keyword) else legacy)[1]
+    message = f"*{keyword} and *{second} are in one model{_laws_by_set(context.scene)}: keep one family"
     yield Problem(SBD016, message, where=where)
 
 
 def _laws_by_set(scene: Scene) -> str:
-    """What each set gets where both families give laws, as far as it is known: ` (SET=A gets curve clay)`."""
+    """Return the law of each set in words, if both families give laws that are known: ` (SET=A gets curve clay)`."""
     laws = scene.laws
     if not scene.element_ids.size or laws.uncertain or len({set_law.family for set_law in laws.set_laws}) < 2:
         return ", and how they combine is partly inferred"
@@ -131,7 +131,7 @@ def _laws_by_set(scene: Scene) -> str:
 
 
 def _called(scene: Scene, index: int) -> str:
-    """A law of a set as a reader knows it: `curve clay`, `stiffness 500`, `a rigid seabed`."""
+    """Return the name of a set's law for a reader: `curve clay`, `stiffness 500`, `a rigid seabed`."""
     set_law = scene.laws.set_laws[index]
     match set_law.kind:
         case LawKind.CURVE if set_law.family == "legacy":

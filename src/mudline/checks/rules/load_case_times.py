@@ -1,4 +1,4 @@
-"""Load cases in time, and what their values say about each other."""
+"""Load cases in time, and contradictions between their values."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     """The end of a run in time does not come after its start.
 
     The run would have no time step, or go backwards: two values were exchanged, or one was typed into the wrong field.
-    Nothing else is said of the length of such a run. Correct the start or the end. The same holds for the part of a
-    run that is summarised.
+        Nothing else is reported about the length of such a run. Correct the start or the end. The same holds for the
+        part of a run that is summarised.
 
     Example on storm:
         - 120.0, 0.0, 0.05, 24.0
@@ -65,9 +65,9 @@ def _backwards(span: object, where: Where) -> Iterator[Problem]:
 def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
     """The suggested time step does not lie between the least and the largest one.
 
-    A variable step begins with the suggested length and stays between the limits, so their order is least, suggested,
-    largest; on the line the suggested one stands first. Of several lines each holds from a later time on. Correct the
-    order of the values.
+    A variable step begins with the suggested length and stays between the limits: least, suggested, largest. On the
+    line the suggested step is the first field. Each of several lines applies from a later time on. Correct the order of
+    the values.
 
     Example:
          $LOAD CASE
@@ -104,10 +104,10 @@ def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
 
 @rule(TIM006)
 def storage_given_twice(context: LintContext) -> Iterator[Problem]:
-    """A load case says twice when its results are stored.
+    """A load case gives twice the times at which its results are stored.
 
-    The manual allows one `*DATABASE` in a load case. A second one, left over from another run, makes it a matter of
-    chance whether the times that a report needs are in the results. Remove all but one.
+    The manual allows one `*DATABASE` in a load case. If a second one is left over from another run, the times that a
+    report needs may be missing from the results. Remove all but one.
 
     Example on storm:
           3.0, 9.0, 180.0
@@ -129,10 +129,10 @@ def storage_given_twice(context: LintContext) -> Iterator[Problem]:
 
 @rule(TIM007)
 def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
-    """Results are stored from a time on at which the run has ended.
+    """Storage of results begins when the run has already ended.
 
-    The run takes its hours and leaves no results. The first time of `*DATABASE` was meant for a longer run, or start
-    and interval were exchanged. Correct it, or the end of `*TIME`.
+    The run takes its hours and leaves no results. The first time of `*DATABASE` belongs to a longer run, or start and
+    interval were exchanged. Correct it, or the end of `*TIME`.
 
     Example on storm:
           3.0, 9.0, 180.0
@@ -150,7 +150,7 @@ def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
     }
     for where, block in context.blocks("DATABASE", "LOAD CASE"):
         start, end = number(block, "start"), ends.get(where.section, math.inf)
-        if start >= end > 0.0:  # of an end that is wrong itself TIM001 tells
+        if start >= end > 0.0:  # TIM001 reports an end that is wrong itself
             message = f"results are stored from {start:g} on, and the run ends at {end:g}: correct one of them"
             yield Problem(TIM007, message, where=where.inside("start"))
 
@@ -159,8 +159,8 @@ def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
 def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
     """A Stokes or Dean wave has the period of an equivalent Airy wave, but no amplitude for it.
 
-    The Airy wave stands for it where a vessel responds to it; of an Airy wave without height the vessel
-    feels nothing, and the manual forbids it. Give its amplitude, or leave out both values.
+    The response of a vessel is computed with the equivalent Airy wave. Without an amplitude the vessel does not
+    respond, and the manual forbids it. Give the amplitude, or leave out both values.
 
     Example:
          $LOAD CASE
@@ -181,7 +181,8 @@ def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     """A vessel drifts by a sinusoid and by a file.
 
     A file of displacements has the whole slow motion of a vessel, and the manual allows one kind of drift for each
-    vessel. A line is left over from an earlier load case, or the name of another vessel was meant. Remove one kind.
+    vessel. Either a line is left over from an earlier load case, or the name of another vessel was meant. Remove one
+    kind.
 
     Example:
          $MODEL

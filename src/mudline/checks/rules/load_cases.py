@@ -1,4 +1,4 @@
-"""Sections that are missing, and keywords of a load case that lack what a run needs, or that have no effect in it."""
+"""Missing sections, and keywords of a load case that lack what a run needs, or have no effect in it."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ _FREQUENCY = "FREQUENCY"
 
 
 def _analysis(context: LintContext) -> set[str]:
-    """The kinds of run that the deck names."""
+    """Return the kinds of run that the deck names."""
     blocks = context.blocks("ANALYSIS TYPE", "LOAD CASE")
     return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
 
 
 @rule(SYN019)
 def no_section(context: LintContext) -> Iterator[Problem]:
-    """The file has no section, and so nothing of a deck.
+    """The file has no section, so it is not a deck.
 
-    A file of no bytes is what a copy leaves that was broken off, or a disk that was full; one of comments or words
-    alone is a title whose deck is missing. Fetch the file again, or take it out of the folder of decks.
+    An empty file is left by an interrupted copy or a full disk. A file of comments or text alone is a title whose deck
+    is missing. Fetch the file again, or take it out of the folder of decks.
 
     Example:
          C Export riser, rev C
@@ -103,7 +103,7 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
 
 @rule(TIM005)
 def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
-    """*NON LINEAR STATIC stands in a run that is not one in the frequency domain.
+    """*NON LINEAR STATIC is given in a run that is not in the frequency domain.
 
     It sets the steps, the tolerance and the iterations of the static solution from which dynamics in the frequency
     domain start, and has no effect elsewhere. Remove it, or correct *ANALYSIS TYPE.

@@ -1,4 +1,4 @@
-"""What numbers of a deck are compared by, where it is not themselves: the measures and conditions of `Usual`."""
+"""Measures and conditions of `Usual`: quantities that numbers of a deck are compared by instead of themselves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_shape import swapped
-from mudline.checks.unit_slips import Units, is_placeholder, meant_unit
+from mudline.checks.unit_slips import DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.keeping import kept_lines
@@ -28,32 +28,32 @@ from mudline.model.scene.sections import weights
 _STEEL_E = YOUNG[1]
 _STEEL_DENSITY = WALL[2]
 _LIGHTEST_STEEL = 7000.0
-"""kg/m3: a steel pipe is no lighter, as contents and coatings only add to its mass."""
+"""Density in kg/m3 below which no steel pipe lies: contents and coatings only add to its mass."""
 _WIDEST_PIPE = 2.5
-"""m: wider steel is a hull, whose density may be anything."""
+"""Diameter in m above which steel is a hull, whose density may be anything."""
 _METAL = (2600.0, 6e10)
-"""kg/m3, N/m2: what is lighter or softer may be a composite, whose moduli are independent of each other."""
+"""Density in kg/m3 and modulus in N/m2 of a metal; lighter or softer composites have independent moduli."""
 _SEA_WATER = 1025.0
 _SOIL_WEIGHT = 5e3
-"""N/m3: submerged weight of clay."""
+"""Submerged weight of clay in N/m3."""
 _LONG = 0.025
 """Frequency, in Hz or rad/s, of waves of 40 s and longer."""
 _DEEP = 5.0
-"""m: nearer to the mudline soil may be of any weakness."""
+"""Depth in m above which soil may be of any weakness."""
 _SHALLOW = 100.0
-"""m: in shallower water offsets are compared with this depth."""
+"""Water depth in m that offsets in shallower water are compared with."""
 _PEAK_PERIOD = 1.25
-"""Peak over mean zero up-crossing period of a Jonswap sea, at least."""
+"""Ratio of peak to mean zero up-crossing period of a Jonswap sea, at least."""
 _SHORT = 3.2
-"""m: mobilisation lengths up to the usual characteristic length of 10 ft are no slip of units."""
+"""Length in m: mobilisation lengths up to the usual characteristic length of 10 ft are not slips of units."""
 _MOST_PAIRS = 10_000_000
-"""Laws times sections, beyond which nothing is known of weights."""
+"""Number of laws times sections beyond which weights are not computed."""
 _DIGITS = 16
-"""Of the number of a node."""
+"""Number of digits of a node number, at most."""
 _SHARE = 0.3
-"""Of the weight in air that a line with contents has in water at least."""
+"""Ratio of submerged weight to weight in air of a line with contents, at least."""
 _LEAST_FORCE = 100.0
-"""N/m that a curve is compared with where the weight of the pipe is not known; less for cables of less than 0.1 m."""
+"""Force in N/m that a curve is compared with if the pipe's weight is unknown; less for cables thinner than 0.1 m."""
 
 
 NOWHERE = Where()
@@ -61,15 +61,20 @@ NOWHERE = Where()
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """The numbers of a part, in SI where the units are known; `changed` ones instead of its own.
+    """Numbers of a part, in SI where the units are known.
 
-    `where` is the place of the part, `holder` the part around it, `columns` are its fields in the order of a line. Of a
-    table, `part` is what holds it, `table` has the rows and `rows` declares them. The weights of pipes are known if it
-    `weighs` them, the depth of the water if it is `deep`.
+    weighs: the weights of pipes are known.
+    deep: the depth of the water is known.
+    part: the part; of a table, the part that holds it.
+    holder: the part around it.
+    where: place of the part.
+    columns: its fields in the order of a line.
+    table, rows: the rows of a table, and their declaration.
+    changed: numbers that replace those of the part.
     """
 
     context: LintContext
-    units: Units
+    units: DeckUnits
     weighs: bool = True
     deep: bool = True
     part: Any = None
@@ -81,45 +86,45 @@ class Numbers:
     changed: Mapping[str, float] = field(default_factory=dict)
 
     def __call__(self, name: str) -> float:
-        """A number by the name of its field; NaN for one that is not given."""
-        found = self.changed.get(name)
-        return number(self.part, name) * self.size(name) if found is None else found
+        """Return a number in SI by the name of its field; NaN if it is not given."""
+        changed_value = self.changed.get(name)
+        return number(self.part, name) * self.size(name) if changed_value is None else changed_value
 
     def size(self, name: str) -> float:
-        """The unit of a field in SI."""
-        return next((self.units.size(one.about.unit) for one in self.columns if one.name == name), 1.0)
+        """Return the unit of a field in SI."""
+        return next((self.units.size(slot.about.unit) for slot in self.columns if slot.name == name), 1.0)
 
     def having(self, changed: Mapping[str, float]) -> Numbers:
-        """The same with some numbers (in SI) changed."""
+        """Return the same numbers with some of them (in SI) changed."""
         return replace(self, changed=changed)
 
     @property
     def water(self) -> float:
-        """Density of the water; that of sea water where the deck's may not be one."""
+        """Density of the water; that of sea water if the deck's is not plausible."""
         density = self.context.scene.surroundings.density * self.units.size("M/L3")
         return density if not self.units.known or 900.0 <= density <= 2500.0 else _SEA_WATER
 
     @property
     def depth(self) -> float:
-        """Depth of the water; NaN where it is not known."""
+        """Depth of the water; NaN if it is not known."""
         return self.context.scene.surroundings.depth * self.units.size("L") if self.deep else math.nan
 
     @property
     def density(self) -> float:
-        """Density of the wall in kg/m3, judged against sea water in units that are not known."""
+        """Density of the wall in kg/m3; relative to sea water if the units are not known."""
         return self("density") if self.units.known else over(self("density"), self.water) * _SEA_WATER
 
 
-def over(value: float, other: float) -> float:
-    """A number over another one; NaN unless that is above 0."""
-    return value / other if other > 0.0 else math.nan
+def over(value: float, divisor: float) -> float:
+    """Return the ratio of two numbers; NaN unless the second is above 0."""
+    return value / divisor if divisor > 0.0 else math.nan
 
 
 # ----------------------------------------------------------------------------------------------------------- conditions
 
 
 def _steel_wall(of: Numbers) -> bool:
-    """Whether the wall is as dense as steel, or holds a number that is so in another unit."""
+    """Return True if the wall is as dense as steel, or would be with its number in another unit."""
     if _LIGHTEST_STEEL <= of.density <= 40_000.0:
         return True
     own = of.units.size("M/L3")
@@ -169,7 +174,7 @@ CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
 
 
 def _mass_width(of: Numbers, name: str, value: float) -> float:
-    """A diameter over that of as much water as the mass; a small one is excused by a wider one beside it."""
+    """Return a diameter over that of a water column of equal mass; a wider diameter next to it excuses a small one."""
     mass = of("mass")
     wet = math.sqrt(over(mass * 4.0, math.pi * of.water)) if not is_placeholder(mass) else math.nan
     own = value if name == "db" or math.isnan(of("db")) else of("db")
@@ -178,7 +183,7 @@ def _mass_width(of: Numbers, name: str, value: float) -> float:
 
 
 def _times_others(of: Numbers, _name: str, value: float) -> float:
-    """An external diameter over the wider one of drag and buoyancy; NaN unless both are given."""
+    """Return an external diameter over the wider of drag and buoyancy diameter; NaN unless both are given."""
     others = of("dd"), of("db")
     return over(value, max(others)) if min(others) > 0.0 else math.nan
 
@@ -204,7 +209,7 @@ def _long_heave(of: Numbers, name: str, value: float) -> float:
 
 
 def _steepness(of: Numbers, height: float) -> float:
-    """Height over length in deep water, of the peak period of a sea; NaN where gravity is not known."""
+    """Return height over wave length in deep water at the peak period of a sea; NaN if gravity is not known."""
     gravity = of.context.scene.surroundings.gravity * of.units.size("L/T2")
     gravity = 9.81 if of.units.known and not 9.0 < gravity < 11.0 else gravity
     period = of("period") * (_PEAK_PERIOD if getattr(of.holder, "spec", None) == "HSTZ" else 1.0)
@@ -212,7 +217,7 @@ def _steepness(of: Numbers, height: float) -> float:
 
 
 def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
-    """How far a vessel is at first from the farthest of the nodes that it holds."""
+    """Return the initial distance of a vessel from the farthest of the nodes that it holds."""
     scene = of.context.scene
     held = of.context.once(_held_nodes).get(folded(str(getattr(of.holder, "vessel", ""))), [])
     nodes = scene.coordinates[np.isin(scene.node_ids, held)] if held else ()
@@ -221,8 +226,8 @@ def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
 
 
 def _held_nodes(context: LintContext) -> dict[str, list[int]]:
-    """The nodes that each vessel holds, by its name."""
-    found: dict[str, list[int]] = {}
+    """Return the nodes that each vessel holds, by the vessel's name."""
+    nodes_by_vessel: dict[str, list[int]] = {}
     labels = {
         folded(f"{{{line.label}}}"): str(int(number(line.node, "number")))
         for _, block in context.blocks("LABEL")
@@ -234,25 +239,25 @@ def _held_nodes(context: LintContext) -> dict[str, list[int]]:
             node, _, vessel = line.partition(",")
             node = labels.get(folded(node), node).strip()
             if node.isdecimal() and len(node) < _DIGITS:
-                found.setdefault(folded(vessel.partition(",")[0]), []).append(int(node))
-    return found
+                nodes_by_vessel.setdefault(folded(vessel.partition(",")[0]), []).append(int(node))
+    return nodes_by_vessel
 
 
 def _shortest_period(context: LintContext) -> float:
-    """The shortest period of the waves of a load case, of random seas the peak; infinite without waves."""
+    """Return the shortest wave period of a load case, for random seas the peak period; infinite without waves."""
     placed = context.scene.context.placed.items()
-    blocks = (block for (_, keyword), found in placed if keyword.startswith("WAVE-") for _, block in found)
-    given = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
+    blocks = (block for (_, keyword), listed in placed if keyword.startswith("WAVE-") for _, block in listed)
+    values = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
     periods = (
         1.0 / value if usual is SEA_FREQUENCY else value
-        for usual, value in given
+        for usual, value in values
         if usual in (SEA_FREQUENCY, SEA_PERIOD, WAVE_PERIOD) and isinstance(value, float) and value > 0.0
     )
     return min(periods, default=math.inf)
 
 
 def _between_axes(of: Numbers, _name: str, _value: float) -> float:
-    """The angle between two axes of a row in degrees; 0 where one has no length."""
+    """Return the angle between two axes of a row in degrees; 0 if one of them has no length."""
     first, second = (np.nan_to_num([of(f"{axis}{which}") for axis in "xyz"]) for which in (1, 2))
     lengths = float(np.linalg.norm(first) * np.linalg.norm(second))
     return math.degrees(math.acos(max(-1.0, min(float(first @ second) / lengths, 1.0)))) if lengths else 0.0
@@ -262,7 +267,7 @@ def _between_axes(of: Numbers, _name: str, _value: float) -> float:
 
 
 class _Laid(NamedTuple):
-    """What lies on each law of the seabed: weight and diameter of its pipes, NaN where they are not known."""
+    """Pipes that lie on each law of the seabed: their weight and diameter, NaN where they are not known."""
 
     weight: list[float]
     width: list[float]
@@ -272,9 +277,9 @@ class _Laid(NamedTuple):
 
 
 def _laid(context: LintContext) -> _Laid:
-    """The largest weight and diameter of the sections on each law, in the deck's units.
+    """Return the largest weight and diameter of the sections on each law, in the deck's units.
 
-    The weight is the submerged one, or what a pipe that floats has with its contents: a share of that in air.
+    The weight is the submerged one. For a pipe that floats it is that with contents: a share of the weight in air.
     """
     laws, table, around = context.scene.laws, context.scene.section_table, context.scene.surroundings
     weight, width = [math.nan] * len(laws.set_laws), [math.nan] * len(laws.set_laws)
@@ -288,15 +293,15 @@ def _laid(context: LintContext) -> _Laid:
             weight[law] = float(np.fmax.reduce(heavy[row], initial=math.nan))
             width[law] = float(np.fmax.reduce(wide[row], initial=math.nan))
     of_curve: dict[int, list[int]] = {}
-    for index, given in enumerate(laws.set_laws):
-        of_curve.setdefault(given.curve, []).append(index)
-    of_laws = {given.where: index for index, given in enumerate(laws.set_laws) if given.kind is LawKind.LINEAR}
+    for index, each in enumerate(laws.set_laws):
+        of_curve.setdefault(each.curve, []).append(index)
+    of_laws = {each.where: index for index, each in enumerate(laws.set_laws) if each.kind is LawKind.LINEAR}
     curves = {curve.where: index for index, curve in enumerate(laws.curves)}
     return _Laid(weight, width, of_laws, curves, of_curve)
 
 
 def _sinking(of: Numbers, name: str, value: float) -> float:
-    """Diameters that pipes on a linear bed sink under their own weight."""
+    """Return the penetration of pipes on a linear seabed under their own weight, in diameters."""
     laid = of.context.once(_laid)
     law = laid.laws.get(of.where.inside(name))
     if law is None or not of.weighs or not laid.weight[law] > 0.0:
@@ -305,7 +310,7 @@ def _sinking(of: Numbers, name: str, value: float) -> float:
 
 
 def _times_weight(of: Numbers, _name: str, _value: float) -> float:
-    """The largest force of a curve over the weight of the pipes that follow it."""
+    """Return the largest force of a curve over the weight of the pipes that follow it."""
     laid, curves = of.context.once(_laid), of.context.scene.laws.curves
     index = laid.curves.get(of.where)
     if index is None or not curves[index].whole or swapped(curves[index]):
@@ -322,7 +327,7 @@ def _times_weight(of: Numbers, _name: str, _value: float) -> float:
 
 
 def _times_pipe(of: Numbers, _name: str, value: float) -> float:
-    """A mobilisation length over the widest pipe that it holds for, in units that are not known over ten of them."""
+    """Return a mobilisation length over the widest pipe it applies to; over ten such pipes in unknown units."""
     if value == 10.0 * of.units.size("L") or (value <= _SHORT and of.units.known):
         return math.nan
     widths = of.context.once(_resisted)
@@ -332,7 +337,7 @@ def _times_pipe(of: Numbers, _name: str, value: float) -> float:
 
 
 def _resisted(context: LintContext) -> dict[Where, float]:
-    """The widest pipe that each place with friction holds for, in the deck's units."""
+    """Return the widest pipe that each place with friction applies to, in the deck's units."""
     scene = context.scene
     resistance, friction = scene.resistance, scene.extensions.get("SEABED FRICTION")
     widest = np.full(len(resistance.places) + 1, np.nan)
@@ -342,7 +347,7 @@ def _resisted(context: LintContext) -> dict[Where, float]:
 
 
 def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:
-    """The secant of a curve between its outermost points, in SI."""
+    """Return the secant of a curve between its outermost points, in SI."""
     points = _points(of)
     if points is None:
         return math.nan
@@ -351,7 +356,7 @@ def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:
 
 
 def _skin_strain(of: Numbers, _name: str, _value: float) -> float:
-    """The largest curvature of a curve times the radius of the widest pipe that has it."""
+    """Return the largest curvature of a curve times the radius of the widest pipe that has it."""
     points, name = _points(of), getattr(of.part, "curve", None)
     if points is None or not isinstance(name, str):
         return math.nan
@@ -360,25 +365,25 @@ def _skin_strain(of: Numbers, _name: str, _value: float) -> float:
 
 
 def _bent(context: LintContext) -> dict[str, float]:
-    """The largest diameter of the sections with each moment-curvature curve, by its name, in the deck's units."""
-    found: dict[str, float] = {}
+    """Return the largest diameter of the sections on each moment-curvature curve, by its name, in the deck's units."""
+    diameters: dict[str, float] = {}
     for section in context.scene.section_table.sections:
         for _, name in names_given(section.entry, Names.MOMENT_CURVATURE):
-            found[folded(name)] = float(np.fmax(found.get(folded(name), math.nan), section.diameter))
-    return found
+            diameters[folded(name)] = float(np.fmax(diameters.get(folded(name), math.nan), section.diameter))
+    return diameters
 
 
 def _points(of: Numbers) -> Floats | None:
-    """Abscissas and ordinates of a curve, in SI; None where one is not known."""
+    """Return abscissas and ordinates (n, 2) of a curve, in SI; None if a value is not known."""
     if of.table is None or of.rows is None or not of.rows.row or len(of.table) < FEWEST_POINTS:
         return None
     columns = record_schema(of.rows.row).columns
-    found = np.column_stack([of.table.column(axis) * of.units.size(columns[axis].about.unit) for axis in of.rows.axes])
-    return found if np.isfinite(found).all() else None
+    points = np.column_stack([of.table.column(axis) * of.units.size(columns[axis].about.unit) for axis in of.rows.axes])
+    return points if np.isfinite(points).all() else None
 
 
 def _times_soil(of: Numbers, _name: str, _value: float) -> float:
-    """The largest resistance of a soil spring over the weight of the soil above it and the diameter of the pipe."""
+    """Return the largest resistance of a soil spring over the weight of the soil above and the pipe's diameter."""
     points, depth, scene = _points(of), of("depth"), of.context.scene
     entry = scene.set_table.find(str(of.holder.set_name)) if getattr(of.holder, "set_name", None) else None
     if points is None or not depth >= _DEEP or not of.units.known or entry is None:
@@ -413,6 +418,6 @@ WEIGHED = {
     "diameters that the pipe sinks under its weight",
     "times the weight of the pipe, or 100 N/m, at its largest force",
 }
-"""Measures in which the weight of the pipe has a part."""
+"""Measures that depend on the weight of the pipe."""
 OF_DEPTH = {"m above the water", "times the water depth"}
-"""Measures in which the depth of the water has a part."""
+"""Measures that depend on the depth of the water."""

@@ -40,12 +40,12 @@ GEO015 = Code("GEO015", "no-elements", Severity.INFO)
 
 _PARTS = ("MODEL", "LOAD CASE")
 _ROUNDED = 1e-6
-"""Share of a length by which it may be rounded."""
+"""Relative rounding of a length."""
 _OF_CABLE = ("node", "cable", "distance")
 
 
 def _is_whole(context: LintContext) -> bool:
-    """Whether a deck shows a whole model and a load case of it, no line of which is lost."""
+    """Return True if a deck shows a whole model and a load case of it, and no line of them is lost."""
     scene = context.scene
     reading = scene.context
     shown = {section.name for section in scene.deck.sections if section.name in _PARTS}
@@ -66,17 +66,17 @@ def _blocks(context: LintContext) -> Iterator[tuple[Where, Block | Opaque]]:
 
 
 def lacks(context: LintContext, *gifts: Gift) -> bool:
-    """Whether what a whole model does not show of some kinds is missing: no line that is not read may give it."""
+    """Return True if a model lacks something of these kinds: no unread line may give it."""
     return context.once(_is_whole) and not _unread_give(context, *gifts)
 
 
 def _unread_give(context: LintContext, *gifts: Gift) -> bool:
-    """Whether a line that is not read may give a model something of some kinds."""
-    return any(may_give(*one, gift) for one in context.once(_not_read) for gift in gifts)
+    """Return True if an unread line may give a model something of these kinds."""
+    return any(may_give(*unread, gift) for unread in context.once(_not_read) for gift in gifts)
 
 
 def _not_read(context: LintContext) -> list[tuple[str, str]]:
-    """The blocks of which lines are not read: keyword and section."""
+    """Return keyword and section of the blocks that have unread lines."""
     sections = context.scene.deck.sections
     blocks = [(where, block) for where, block in _blocks(context) if type(block) is Opaque or kept_lines(block)]
     return [(block.keyword, sections[where.section].name) for where, block in blocks]
@@ -84,11 +84,11 @@ def _not_read(context: LintContext) -> list[tuple[str, str]]:
 
 @rule(GEO015)
 def no_elements(context: LintContext) -> Iterator[Problem]:
-    """A model with nodes and a load case of it stand in the deck, and no element.
+    """The deck has a model with nodes and a load case, but no element.
 
-    Without elements nothing lies on the seabed: no contact is checked or evaluated, and a deck without a finding says
-    nothing of its line. Add *ELEMENT or *LINES, if the deck is more than a part of a job. Decks that continue another
-    one have the elements of that.
+    Without elements nothing lies on the seabed: no contact is checked or evaluated, and a deck without a finding may
+        still be wrong. Add *ELEMENT or *LINES, if the deck is more than a part of a job. A deck that continues another
+        one takes the elements from there.
 
     Example:
          $MODEL
@@ -124,9 +124,8 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
     """An element has no geometric properties, while others of its model have.
 
     No set with a line in *GEOMETRIC SETS holds it: it has neither stiffness nor weight. A range of a set ends too
-    early, or a new part of the line was not put into a set. Extend the set, or give it a section. Decks that are only
-    the model or only the load case are left out, and so are elements of joints, springs and the like, which take no
-    properties.
+    early, or a new part of the line was not put into a set. Extend the set, or give it a section. Decks with only the
+    model or only the load case are left out. So are elements that take no properties, such as joints and springs.
 
     Example on held:
           GEN=1, 2
@@ -153,7 +152,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
 
 @rule(GEO009)
 def node_without_element(context: LintContext) -> Iterator[Problem]:
-    """A node belongs to no element, and nothing else names it.
+    """A node belongs to no element, and nothing else refers to it.
 
     It has no effect. It is left over from an earlier layout, or the number of a node in *ELEMENT is wrong. Remove the
     node, or correct the element.
@@ -182,9 +181,9 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
 def end_not_held(context: LintContext) -> Iterator[Problem]:
     """A line ends at a node that nothing holds.
 
-    Neither *BOUNDARY nor a spring, a vessel or a body has the node, so the end is free. That is right for a pipe that
-    is laid or hangs from one end, and else a wrong number. Hold the node, or correct the number. A deck that holds no
-    node at all is left out.
+    Neither *BOUNDARY nor a spring, a vessel or a body refers to the node, so the end is free. That is right for a pipe
+    that is laid or hangs from one end, and otherwise a wrong number. Hold the node, or correct the number. A deck that
+    holds no node at all is left out.
 
     Example on held:
         + 3, 1
@@ -205,15 +204,15 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
 
 
 def _placed(scene: Scene) -> Mask:
-    """The nodes whose place is known: those of a GEN= between others that are not defined are not."""
+    """Return a mask of the nodes whose place is known; nodes of a GEN= between undefined nodes have none."""
     x, y = scene.coordinates[:, 0], scene.coordinates[:, 1]
     return ~(np.isnan(x) & np.isnan(y))
 
 
 def _named(context: LintContext) -> Mask:
-    """The nodes that anything but an element names, also in lines whose form is not public."""
-    found: Mask = context.once(_named_nodes)
-    return found
+    """Return a mask of the nodes that anything but an element refers to, also in lines whose form is not public."""
+    named: Mask = context.once(_named_nodes)
+    return named
 
 
 def _named_nodes(context: LintContext) -> Mask:
@@ -234,7 +233,7 @@ def _named_nodes(context: LintContext) -> Mask:
 
 
 def _of_block(block: Part) -> Iterator[int]:
-    """The numbers of nodes that a block gives, those of kept lines among them."""
+    """Yield the node numbers that a block gives, including those of unread lines."""
     if may_name(type(block), Names.NODE):
         yield from (ident for _, ident in idents_given(block, Names.NODE) if isinstance(ident, int))
     yield from _whole(word for line in kept_lines(block) for word in line.replace("=", ",").split(","))
@@ -254,8 +253,8 @@ def _whole(words: Iterator[str]) -> Iterator[int]:
 def short_cable(context: LintContext) -> Iterator[Problem]:
     """A cable is shorter than the distance between the nodes at its ends.
 
-    A cable hangs between its two nodes, so it is at least as long as the straight line. Length and a coordinate do not
-    fit each other: correct one of them.
+    A cable hangs between its two nodes, so it is at least as long as the straight line. Its length does not fit a
+    coordinate of its ends. Correct one of them.
 
     Example:
          $MODEL

@@ -20,9 +20,9 @@ from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import FLAT, NEAR
 
 HIGHEST = 100.0
-"""Diameters above the seabed: a line that lies level does not hang there."""
+"""Height above the seabed, in diameters, at which a level line does not hang."""
 LEVEL = 0.1
-"""Rise to length, along the ground, of a line that lies level."""
+"""Ratio of rise to horizontal length of a level line."""
 
 
 @rule(GEO005)
@@ -30,9 +30,9 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     """The line cannot reach the seabed, or lies as if Z were vertical.
 
     X is vertical in a deck, and 0 at the mudline. Nodes with another datum, or with the height as their last
-    coordinate, never touch the seabed, or all of them do. Correct the coordinates. As the static solution of a deck may
-    start above the seabed, and a riser or a jumper may hang there for good, only these are reported, all of them for
-    the elements with a seabed law:
+    coordinate, never touch the seabed, or all of them do. Correct the coordinates. The static solution of a deck may
+    start above the seabed, and a riser or a jumper may hang there for good. Therefore only these cases are reported,
+    each for the elements with a seabed law:
 
     * every node lies above the sea surface (*OCEAN gives the depth);
     * the line lies level over 100 diameters above the seabed: it rises by less than a tenth of its length, or its
@@ -68,15 +68,15 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
 
 @rule(GEO017)
 def beyond_the_survey(context: LintContext) -> Iterator[Problem]:
-    """The line goes on where the seabed that the deck gives has ended.
+    """The line goes beyond the end of the seabed that the deck gives.
 
-    Outside of the hull of scattered points, and of the bounds of all planes, there is no seabed: a pipe gets no force
-    there, and no warning from a run. Beyond its ends a profile is taken as level, whatever the ground does. Give the
-    seabed as far as the line goes, or correct the coordinates.
+    Outside the hull of scattered points, and outside the bounds of all planes, there is no seabed: a pipe gets no force
+    there, and a run gives no warning. A profile is taken as level beyond its ends, whatever the real ground does. Give
+    the seabed as far as the line goes, or correct the coordinates.
 
-    Reported are the nodes of elements with a seabed law that lie beyond the end and not more than 100 diameters above
-    the level there: that of the end of a profile, of the nearest place of a plane, of the highest point of a surface.
-    `mudline evaluate` reports the same of the positions of every step. Compiled profiles are left out.
+    Reported are nodes of elements with a seabed law that lie beyond the end, up to 100 diameters above the level there.
+    That level is the end of a profile, the nearest place of a plane, or the highest point of a surface. `mudline
+    evaluate` reports the same for the positions of every step. Compiled profiles are left out.
 
     Example:
          $MODEL
@@ -114,11 +114,14 @@ def beyond_the_survey(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO017, f"{which} {survey.end}: {survey.consequence}", where=scene.nodes.where(int(left[0])))
 
 
-class _Line(NamedTuple):
-    """What is known of the nodes (n,) that belong to elements with a seabed law.
+class _LineExtent(NamedTuple):
+    """Nodes (n,) that belong to elements with a seabed law, and their extent; NaN where a value is not known.
 
-    Smallest and largest coordinates and heights above the seabed, the largest diameter, the water depth; NaN where a
-    value is not known.
+    used: the nodes.
+    x, y, z: smallest and largest coordinates.
+    heights: smallest and largest heights above the seabed.
+    diameter: the largest one.
+    depth: that of the water.
     """
 
     used: Mask
@@ -129,19 +132,19 @@ class _Line(NamedTuple):
     diameter: float
     depth: float
     flat: tuple[int, int, int]
-    """Nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
+    """Number of nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
     level: int
-    """Nodes as low as the lowest one."""
+    """Number of nodes as low as the lowest one."""
 
 
 LAID = 3
-"""Nodes of a line that lie on the seabed."""
+"""Number of nodes of a line that lie on the seabed, at least."""
 ROUNDED = 1e-3
-"""Diameters by which nodes on one level may differ."""
+"""Height difference in diameters up to which nodes are on one level."""
 
 
 def _is_low(context: LintContext) -> bool:
-    """Whether no line can be reported, as every node lies near the seabed and Z does not span the depth."""
+    """Return True if no line can be reported: every node lies near the seabed, and Z does not span the depth."""
     bounds, depth = context.once(bounds_of), _water_depth(context)
     if not bounds.highest <= HIGHEST * bounds.thinnest:
         return False
@@ -152,13 +155,13 @@ def _is_low(context: LintContext) -> bool:
 
 
 def _water_depth(context: LintContext) -> float:
-    """The depth that the last *OCEAN gives, NaN without any."""
+    """Return the depth of the last *OCEAN; NaN without any."""
     oceans = context.blocks("OCEAN")
     return number(oceans[-1][1], "depth") if oceans else math.nan
 
 
-def _line(context: LintContext) -> _Line | None:
-    """The line, None where nothing is known of it."""
+def _line(context: LintContext) -> _LineExtent | None:
+    """Return the extent of the line; None if nothing is known of it."""
     scene = context.scene
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     for block in blocks_of(len(scene.element_ids)):
@@ -176,16 +179,16 @@ def _line(context: LintContext) -> _Line | None:
         low = scene.coordinates[used, 2] - z[0] <= diameter
     flat = int(near[:, 0].sum()), int(near[:, 2].sum()), int(low.sum())
     level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
-    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
+    return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:
-    """The smallest and the largest of the values in use, NaN with a NaN among them."""
+    """Return the smallest and the largest of the values in use; NaN if one of them is NaN."""
     return float(values.min(where=used, initial=np.inf)), float(values.max(where=used, initial=-np.inf))
 
 
-def _above(line: _Line) -> str:
-    """What is wrong with a line that hangs above the seabed, or ""."""
+def _above(line: _LineExtent) -> str:
+    """Return the fault of a line that hangs above the seabed in words, or ""."""
     lowest, highest = line.heights
     if lowest > line.depth > 0.0:
         return (
@@ -201,8 +204,8 @@ def _above(line: _Line) -> str:
     return ""
 
 
-def _along_z(line: _Line) -> str:
-    """What is wrong with a line whose last coordinate is its height, or ""."""
+def _along_z(line: _LineExtent) -> str:
+    """Return the fault of a line whose last coordinate is its height in words, or ""."""
     near = NEAR * line.depth
     first, last = line.z
     upright = abs(last - first - line.depth) <= near and (abs(first) <= near or abs(last) <= near)

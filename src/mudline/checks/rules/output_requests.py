@@ -1,4 +1,4 @@
-"""What a deck asks of the results: names of output variables."""
+"""Results that a deck requests: names of output variables."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ WORDS = (
     *("EFFECTIVE", "TENSION", "AXIAL", "FORCE", "LOCAL", "SHEAR", "BENDING", "MOMENT", "TORQUE", "CURVATURE"),
     *("RESULTANT", "STRESS", "STRAIN", "MISES", "REACTION", "MOTION", "DISPLACEMENT", "VELOCITY", "ACCELERATION"),
 )
-"""Words of the outputs of a run, from the manual's page on the database of forces; there are others."""
+"""Words in the names of outputs, from the manual's page on the database of forces; the list is not complete."""
 _REQUESTS = "POSTPROCESSING"
 _SHORTEST = 4
-"""Letters of a word that is compared."""
+"""Number of letters from which a word is compared."""
 
 
 @rule(REF021)
 def misspelt_output(context: LintContext) -> Iterator[Problem]:
     """The name of an output variable has a word that is nearly one of the usual words.
 
-    Results are asked for by name, as EFFECTIVE TENSION. With a letter wrong the run ends without them, and hours are
-    lost. Correct the word. Other words are not reported, as not every variable is known.
+    Results are requested by name, such as EFFECTIVE TENSION. With one wrong letter the run ends without them, and hours
+    are lost. Correct the word. Other words are not reported, as not every variable is known.
 
     Example:
          $SUMMARY POSTPROCESSING
@@ -47,8 +47,8 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
         return
     effort = Effort()
     own = len(context.deck.own_sections)
-    given = [(where, name) for where, name in used_names(context.deck, Names.VARIABLE) if where.section < own]
-    for where, name in [*given, *_of_kept_lines(context)]:
+    requests = [(where, name) for where, name in used_names(context.deck, Names.VARIABLE) if where.section < own]
+    for where, name in [*requests, *_of_kept_lines(context)]:
         words = name.upper().replace("-", " ").split()
         for word in words:
             near = nearest(word, WORDS, effort) if word not in WORDS and len(word) >= _SHORTEST else ""
@@ -58,7 +58,7 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
 
 
 def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
-    """The texts that begin lines of postprocessing which are not read, where no setting stands before them."""
+    """Yield the texts at the start of unread postprocessing lines that begin without a setting."""
     for where, _, line in unread_lines(context.scene.context):
         if context.deck.sections[where.section].name.endswith(_REQUESTS):
             first = read_line(line, Span(0, len(line))).groups[0]

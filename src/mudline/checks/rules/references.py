@@ -1,4 +1,4 @@
-"""What one place of a deck uses and another one defines: element sets, parameters, vessels, the water."""
+"""Names that are defined in one place and used in another: element sets, parameters, vessels, the water."""
 
 from __future__ import annotations
 
@@ -93,7 +93,10 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
 
 def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
-    """A line break after every 20 elements, indented as the line is; None where more than commas is between them."""
+    """Return a repair that breaks a line after every 20 elements; None if anything but commas is between them.
+
+    New lines are indented as the line is.
+    """
     source, line = text.source.unified, text.span(where)
     indentation = source[line_around(source, line.start).start : line.start] if line else ""
     edits: list[TextEdit] = []
@@ -114,9 +117,9 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
 def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
-    Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
-    stiffness and curve. Names are case-insensitive. It is an info where the numbers of both lie apart, so that they add
-    up. Put the elements under one SET=, or choose another name.
+    A change of one definition does not remove the elements of the other one from the set. They keep its stiffness and
+    curve. Names are case-insensitive. It is an info if the numbers of both lie apart, so that they add up. Put the
+    elements under one SET=, or choose another name.
 
     Example on sets:
           1, 2
@@ -142,7 +145,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
 
 
 def _spans(entry: ElementSet) -> Iterator[tuple[int, int]]:
-    """The lowest and the highest number of each line of a set that has numbers alone."""
+    """Yield the lowest and the highest number of each line of a set that has only numbers."""
     for member in entry.members:
         span = getattr(member, "generate", None)
         numbers = getattr(member, "elements", None) or ([span.start, span.end] if span else [])
@@ -153,10 +156,10 @@ def _spans(entry: ElementSet) -> Iterator[tuple[int, int]]:
 
 @rule(REF020)
 def repeated_name(context: LintContext) -> Iterator[Problem]:
-    """Two vessels, or two other things of one kind, have one name.
+    """Two vessels, or two other objects of one kind, have the same name.
 
-    The language does not say which of them a name means then. Names are case-insensitive. Choose another name, or keep
-    one of them. Sets and curves have rules of their own.
+    The language does not say which of them the name then refers to. Names are case-insensitive. Choose another name, or
+    keep one of them. Sets and curves have their own rules.
 
     Example:
          $MODEL
@@ -176,8 +179,8 @@ def repeated_name(context: LintContext) -> Iterator[Problem]:
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     """A parameter is defined twice: the later value applies everywhere.
 
-    Equations before the second definition use its value too: the first definition is overridden, although a reader
-    finds it first. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
+    Equations before the second definition use its value too. A reader finds the first definition first, but it is
+    overridden. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
 
     Example on parameters:
         - Depth, 910.0
@@ -204,7 +207,7 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
 
 
 def _names(parameter: Parameter) -> list[str]:
-    """The parameters that a line defines."""
+    """Return the parameters that a line defines."""
     name, value = parameter.name, parameter.value
     if is_unknown(name) or is_unknown(value):
         return []
@@ -217,7 +220,7 @@ _WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
 
 
 def in_water(deck: Deck) -> Iterator[tuple[Where, str]]:
-    """The waves and currents of load cases, of kinds that are read or not: places and keywords."""
+    """Yield place and keyword of all waves and currents of load cases, read or not."""
     for i, section in enumerate(deck.sections):
         for j, block in enumerate(section.blocks if section.name == "LOAD CASE" else ()):
             if _WATER.fullmatch(block.keyword):

@@ -39,7 +39,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     """Lateral resistance and transverse friction are given for the same elements.
 
     A lateral spring replaces transverse friction and never adds to it: the program sets the transverse coefficient to
-    zero. Lateral walking is then resisted by the spring alone, however large the coefficient is. Keep the one that the
+    zero. Only the spring then resists lateral walking, however large the coefficient is. Keep the one that the
     assessment relies on.
 
     Example on seabed:
@@ -60,11 +60,11 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 
 @rule(SBD013)
 def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
-    """FRICTION= seems to have the order of fields of a legacy surface.
+    """FRICTION= seems to have the field order of a legacy surface.
 
-    After the two coefficients *RIGID SURFACE has characteristic lengths, whose default is 3.048 m or 10 ft, where
-    FRICTION= has mobilisation lengths. A line copied from a legacy deck then spreads the build-up of friction over
-    metres, and the pipe slides far before it is held. Leave the field empty, or give the mobilisation length.
+    After the two coefficients *RIGID SURFACE has characteristic lengths, whose default is 3.048 m or 10 ft. FRICTION=
+    has mobilisation lengths there. A line copied from a legacy deck then mobilises friction over metres, and the pipe
+    slides far before it is held. Leave the field empty, or give the mobilisation length.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -109,9 +109,9 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 
 
 def _of_load_cases(context: LintContext) -> Iterator[Problem]:
-    """Stiffnesses of *FRICTION in directions in which no place of the model has a coefficient."""
+    """Yield problems of *FRICTION stiffnesses in directions in which no place of the model has a coefficient."""
     scene = context.scene
-    blocks = [found for section in ("LOAD CASE", "MODES") for found in context.blocks("FRICTION", section)]
+    blocks = [placed for section in ("LOAD CASE", "MODES") for placed in context.blocks("FRICTION", section)]
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
     entries = list(given(context))
@@ -130,7 +130,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
 
 @rule(SBD015)
 def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
-    """A suction zone has an extent and no stiffness.
+    """A suction zone has an extent but no stiffness.
 
     The extent is the height over which suction resists a rising pipe; without a stiffness there is no suction. Give the
     suction stiffness, or remove the extent.
@@ -178,12 +178,12 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
 
 @rule(SBD024)
 def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
-    """Friction has a longitudinal coefficient and no transverse one.
+    """Friction has a longitudinal coefficient but no transverse one.
 
-    The second coefficient is 0 unless it is given (stated for the legacy surfaces, inferred for FRICTION=), so nothing
-    but the pipe itself resists sideways movement: it slides under the smallest current. People who mean one coefficient
-    for both directions write it once. Give both, or a 0 where no transverse friction is meant. A line with LATERAL=
-    needs none, as its spring replaces transverse friction.
+    The second coefficient is 0 unless it is given (stated for the legacy surfaces, inferred for FRICTION=). Then only
+    the pipe itself resists sideways movement, and it slides under the smallest current. If one coefficient is meant for
+    both directions, it is often written once. Give both, or a 0 where no transverse friction is meant. A line with
+    LATERAL= needs no transverse coefficient, as its spring replaces transverse friction.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -210,7 +210,8 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """A mobilisation length is under a ten-thousandth of the diameter.
 
     Friction then builds up almost at once: its spring is so stiff that the solution jumps between stick and slip and
-    hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer one.
+        hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer
+        mobilisation length.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -237,8 +238,8 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
             yield Problem(SBD019, message, where=where.inside(*path))
 
 
-class Given(NamedTuple):
-    """A set of *SEABED PROPERTIES, or the first line of a legacy surface; `type_` is None where it is not known."""
+class FrictionEntry(NamedTuple):
+    """Set of *SEABED PROPERTIES, or first line of a legacy surface; `type_` is None where it is not known."""
 
     part: Any
     where: Where
@@ -246,30 +247,30 @@ class Given(NamedTuple):
     legacy: bool
 
     def place(self, name: str) -> Where:
-        """The place of a value; names are those of the fields of *ELASTIC SURFACE."""
+        """Return the place of a value; names are those of the fields of *ELASTIC SURFACE."""
         return self.where.inside(*self._path(name))
 
     def value(self, name: str) -> float | None:
-        """A value: None where the deck gives none, NaN where it could not be read."""
-        found = self.part
+        """Return a value: None where the deck gives none, NaN where it could not be read."""
+        number = self.part
         for step in self._path(name):
-            found = getattr(found, step, None)
-        if found is None:
+            number = getattr(number, step, None)
+        if number is None:
             return None
-        return float(cast("float", found)) if isinstance(found, float | int) else _UNKNOWN
+        return float(cast("float", number)) if isinstance(number, float | int) else _UNKNOWN
 
     def _path(self, name: str) -> tuple[str, ...]:
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
 
 
-def given(context: LintContext) -> list[Given]:
-    """All of them: legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
+def given(context: LintContext) -> list[FrictionEntry]:
+    """Return legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
     return context.once(_found)
 
 
-def _found(context: LintContext) -> list[Given]:
-    found = [
-        Given(
+def _found(context: LintContext) -> list[FrictionEntry]:
+    entries = [
+        FrictionEntry(
             getattr(surface, "properties", None),
             where.inside("properties"),
             surface.facts.seabed_type,
@@ -279,12 +280,12 @@ def _found(context: LintContext) -> list[Given]:
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
-            found.append(Given(entry, where.inside("sets", index), type_, legacy=False))
-    return found
+            entries.append(FrictionEntry(entry, where.inside("sets", index), type_, legacy=False))
+    return entries
 
 
-def resisting(context: LintContext) -> list[Given]:
-    """Those that may give more than a stiffness: the others have nothing that rules about friction look at."""
+def resisting(context: LintContext) -> list[FrictionEntry]:
+    """Return the surfaces and sets that give more than a stiffness, which the rules about friction need."""
     return [
         entry
         for entry in given(context)
@@ -296,20 +297,20 @@ def resisting(context: LintContext) -> list[Given]:
 
 
 def positive(value: float | None) -> bool:
-    """Whether a value is given, could be read and is above zero."""
+    """Return True if a value is given, could be read and is above zero."""
     return value is not None and value > 0.0
 
 
-def absent(entry: Given, name: str) -> bool:
-    """Whether the deck gives no value, or zero."""
+def absent(entry: FrictionEntry, name: str) -> bool:
+    """Return True if the deck gives no value, or zero."""
     value = entry.value(name)
     return value is None or value == 0.0
 
 
-def friction_replaced(context: LintContext, entry: Given) -> bool:
-    """Whether every element that follows this place has its friction from `*SEABED FRICTION` instead.
+def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
+    """Return True if `*SEABED FRICTION` replaces the friction of every element that follows this place.
 
-    Of sets whose elements the deck does not show only the names are compared.
+    For sets whose elements the deck does not show only the names are compared.
     """
     friction = context.scene.extensions.get("SEABED FRICTION")
     if friction is None:

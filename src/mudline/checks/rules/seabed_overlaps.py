@@ -29,11 +29,14 @@ SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
 def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     """Elements are given seabed properties twice.
 
-    The later definition in the file overrides the earlier one as a whole: nothing of that remains. A set that refines a
-    larger one given before it is the usual way to write a deck and is not reported. Reported are a definition that
-    overrides an earlier one for all its elements, as SET=ALL after the other sets does, and sets of which each has
-    elements that the other one lacks. A definition of which nothing is left is a warning if its values are others. For
-    curves of *EMBEDMENT no order is documented: there any overlap of two different curves is a warning. Put the larger
+    The later definition in the file overrides the earlier one as a whole. A set that refines a larger set given before
+    it is the usual way to write a deck and is not reported. Two cases are reported:
+
+    * a definition overrides an earlier one for all its elements, as SET=ALL does after the other sets. It is a warning
+      if its values differ;
+    * two sets overlap, and each has elements that the other one lacks.
+
+    For curves of *EMBEDMENT no order is documented: any overlap of two different curves is a warning. Put the larger
     set first, or give each element one definition.
 
     Example on sets:
@@ -58,7 +61,7 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
 
 
 def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
-    """What the deck itself gives, without the deck that it continues."""
+    """Return the laws that the deck itself gives, without the deck that it continues."""
     grants = [grant for grant in context.scene.laws.set_laws if grant.family == family]
     own = len(context.scene.deck.own_sections) if grants else 0
     return [grant for grant in grants if grant.where.section < own]
@@ -68,12 +71,12 @@ def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
 def law_without_effect(context: LintContext) -> Iterator[Problem]:
     """A seabed definition applies to no element.
 
-    Several later definitions together override it for all elements of the set; or a legacy surface is followed by
-    another one; or the set is made of subsets without any element. Changing such a value has no effect on the results.
-    Remove it, or correct the sets. A single later definition that overrides an earlier one for all its elements is
-    reported as SBD008, a set with nothing in it as REF010, and legacy beside new keywords as SBD016. Not reported are
-    the stiffness of a legacy surface beside curves for every element, and values that an extension keyword replaces, as
-    Flexcom still reads them.
+    Several later definitions together override it for all elements of the set; or a later legacy surface replaces it;
+    or the set is made of subsets without any element. A change of its values has no effect on the results. Remove it,
+    or correct the sets. A single later definition that overrides an earlier one for all its elements is reported as
+    SBD008, an empty set as REF010, and a mix of legacy and new keywords as SBD016. Not reported are the stiffness of a
+    legacy surface next to curves for every element, and values that an extension keyword replaces, as Flexcom still
+    reads them.
 
     Example on sets:
           GEN=3, 4
@@ -94,7 +97,7 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
 
 
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
-    """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
+    """Yield sets of *SEABED PROPERTIES that no element follows, unless SBD008 or REF010 gives the reason."""
     scene = context.scene
     followed = {*present(scene.laws.covered)}
     new = _own_grants(context, "new")
@@ -123,9 +126,9 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
 
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
-    """Legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    found = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
-    for where, surface in found[:-1]:
+    """Yield legacy surfaces that a later one replaces, unless SBD002 reports two types."""
+    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
+    for where, surface in surfaces[:-1]:
         message = (
             f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
         )
@@ -133,7 +136,7 @@ def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
 
 
 class Overlap(NamedTuple):
-    """Places of two sets in their list, and the elements (indices) of the earlier one that the later one overrides."""
+    """Overlap of two sets: their places in the list, and the elements (indices) that the later set overrides."""
 
     earlier: int
     later: int
@@ -141,7 +144,10 @@ class Overlap(NamedTuple):
 
 
 def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
-    """Each set against those that held its elements until then; sets that are not known against their namesakes."""
+    """Yield the overlaps of each set with the sets that held its elements until then.
+
+    Sets of unknown elements are compared with sets of the same name.
+    """
     holder = np.full(count, -1, dtype=np.intp)
     names: dict[str, int] = {}
     for index, later in enumerate(sets):
@@ -164,28 +170,28 @@ def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
 
 
 def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:
-    """Overlaps that are reported, each with the place of the overridden definition in the list."""
+    """Yield the reported overlaps, each with the place of the overridden definition in the list."""
     for earlier, later, elements in overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
-        one, other = grants[earlier].set_, grants[later].set_
+        first, second = grants[earlier].set_, grants[later].set_
         where = grants[later].where
         place = where._replace(path=(*where.path[:2], "set"))
-        if within(one, other, len(scene.element_ids)):
+        if within(first, second, len(scene.element_ids)):
             message = (
-                f"{_called(one, other)} is overridden by this one for all its elements: "
+                f"{_called(first, second)} is overridden by this one for all its elements: "
                 "put the larger set first, or remove one"
             )
             lost = not _alike(scene, grants[earlier], grants[later])
             yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
-        elif not within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+        elif not within(second, first, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
-                f"this definition overrides the earlier one of SET={shown(one.name)} for "
+                f"this definition overrides the earlier one of SET={shown(first.name)} for "
                 f"{_counted(scene, elements)}: give each element one definition"
             )
             yield earlier, Problem(SBD008, message, where=place)
 
 
 def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
-    """Whether the elements of one set are all in another one, as far as they are known."""
+    """Return True if the elements of one set are all in another one, as far as they are known."""
     if folded(whole.name) in (folded(part.name), folded(ALL)):
         return True
     if part.open or whole.open:
@@ -206,16 +212,16 @@ def _counted(scene: Scene, elements: Indices) -> str:
     return first_of("element", scene.element_ids[elements.min()], elements.size)
 
 
-def _alike(scene: Scene, one: SetLaw, other: SetLaw) -> bool:
-    """Whether two sets of *SEABED PROPERTIES give the same, curves of the same points included."""
-    first, second = (_entry(scene, grant) for grant in (one, other))
-    same = one.kind is other.kind is LawKind.CURVE and np.array_equal(_points(scene, one), _points(scene, other))
-    given = [name for name in type(first).model_fields if name != "set_name" and not (same and name == "stiffness")]
-    return all(getattr(first, name) == getattr(second, name) for name in given)
+def _alike(scene: Scene, left: SetLaw, right: SetLaw) -> bool:
+    """Return True if two sets of *SEABED PROPERTIES give the same values, including the points of their curves."""
+    first, second = (_entry(scene, grant) for grant in (left, right))
+    same = left.kind is right.kind is LawKind.CURVE and np.array_equal(_points(scene, left), _points(scene, right))
+    names = [name for name in type(first).model_fields if name != "set_name" and not (same and name == "stiffness")]
+    return all(getattr(first, name) == getattr(second, name) for name in names)
 
 
 def _points(scene: Scene, grant: SetLaw) -> Floats:
-    """The points of the curve of a set; a NaN, which equals nothing, where there is no such curve."""
+    """Return the points of the curve of a set; a NaN, which equals nothing, if there is no curve."""
     return scene.laws.curves[grant.curve].points if grant.curve >= 0 else np.array([np.nan])
 
 
@@ -225,16 +231,16 @@ def _entry(scene: Scene, grant: SetLaw) -> Record:
 
 
 def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
-    """Overlaps that matter: of curves with other points, on elements that no newer keyword holds."""
+    """Yield overlaps of *EMBEDMENT that matter: different curves, on elements that no newer keyword holds."""
     curves = scene.laws.curves
     for earlier, later, elements in overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
-        one, other = curves[grants[earlier].curve], curves[grants[later].curve]
+        first, second = curves[grants[earlier].curve], curves[grants[later].curve]
         held = elements[scene.laws.of_element[elements] != scene.laws.covered[elements]]
-        if np.array_equal(one.points, other.points) or (elements.size and not held.size):
+        if np.array_equal(first.points, second.points) or (elements.size and not held.size):
             continue
         which = _counted(scene, held) if held.size else "elements"
         message = (
             f"*EMBEDMENT gives another curve for {which}, of SET={shown(grants[earlier].set_.name)}: the later one is "
             "used, which is not documented (inferred); give each element one curve"
         )
-        yield Problem(SBD008, message, None, Severity.WARNING, other.title)
+        yield Problem(SBD008, message, None, Severity.WARNING, second.title)

@@ -1,4 +1,4 @@
-"""Where nodes lie relative to the seabed."""
+"""Positions of nodes relative to the seabed."""
 
 from __future__ import annotations
 
@@ -29,26 +29,28 @@ _VERTICAL = 90.0
 _FEW = 64
 
 DEEPEST = 5.0
-"""Diameters below the seabed."""
+"""Depth below the seabed in diameters."""
 
 _IN_PLANE = (1, 2)
 _FREEDOMS = range(1, 7)
 
 
 def depths(context: LintContext) -> Floats:
-    """Depths (n,) of the deck's coordinates normal to the seabed, negative above it; NaN where they are not known.
+    """Return depths (n,) of the nodes normal to the seabed, negative above it; NaN where they are not known.
 
-    Of a polyline and of a surface it is a lower bound: no point of the seabed is nearer. A surface is triangulated
-    between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
-    points. In a trench that lowers the seabed it is that below the bottom. Several rules need them, and ask
-    `context.once`.
+    * For a polyline and a surface the depth is a lower bound: no point of the seabed is nearer.
+    * A surface is triangulated between its points, so it lies nowhere below the lowest of them.
+    * A cubic profile may lie anywhere between its points, so its depths are not known.
+    * In a trench that lowers the seabed, depths count from its bottom.
+
+    Several rules need the depths: they call `context.once`.
     """
     lowering = _lowering(context.scene)
     return _depths(context.scene) if lowering is None else _depths(context.scene) - lowering
 
 
 def _lowering(scene: Scene) -> Floats | None:
-    """By how much (n,) trenches lower the seabed at nodes; None where none does."""
+    """Return the depth (n,) by which trenches lower the seabed at nodes; None if none does."""
     trenches = scene.extensions.get("SEABED TRENCH")
     if (
         not len(scene.node_ids)
@@ -61,7 +63,7 @@ def _lowering(scene: Scene) -> Floats | None:
     block = trenches.of_element[elements]
     deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
     y0, z0, y1, z1 = (trenches.values(block, "centreline", name) for name in ("y0", "z0", "y1", "z1"))
-    found = np.zeros(len(scene.node_ids))
+    lowering = np.zeros(len(scene.node_ids))
     for nodes in scene.element_nodes[elements].T:
         _, y, z = scene.coordinates[nodes].T
         with np.errstate(all="ignore"):
@@ -69,8 +71,8 @@ def _lowering(scene: Scene) -> Floats | None:
             share = np.clip((top - 2.0 * away) / (top - bottom), 0.0, 1.0)
         known = nodes >= 0
         lower = deep * np.where(np.isnan(away), 1.0, share)  # without a line of its own it lies below the pipe
-        np.fmax.at(found, nodes[known], lower[known])
-    return found
+        np.fmax.at(lowering, nodes[known], lower[known])
+    return lowering
 
 
 def _depths(scene: Scene) -> Floats:
@@ -84,14 +86,14 @@ def _depths(scene: Scene) -> Floats:
         if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
             level = _is_level(floor)
-            found = np.empty(len(x))
+            depth = np.empty(len(x))
             for block in blocks_of(len(x)):
                 if level:
-                    found[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
+                    depth[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
                 else:
                     along = _along(floor.direction, y[block], z[block])
-                    found[block] = along * np.sin(slope) - x[block] * np.cos(slope)
-            return found
+                    depth[block] = along * np.sin(slope) - x[block] * np.cos(slope)
+            return depth
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
         if floor.kind is SeabedKind.SURFACE:
@@ -100,13 +102,13 @@ def _depths(scene: Scene) -> Floats:
 
 
 def _is_level(floor: SeabedShape) -> bool:
-    """Whether a seabed is X = 0."""
+    """Return True if the seabed is X = 0."""
     kind = floor.kind
     return (kind is SeabedKind.FLAT or kind is SeabedKind.SLOPING) and floor.slope == 0.0 and floor.direction == 0.0
 
 
 def _is_bed(scene: Scene) -> bool:
-    """Whether slopes are below 90 degrees, and the deck describes one seabed; other rules report where it does not."""
+    """Return True if slopes are below 90 degrees and the deck describes one seabed; other rules report the contrary."""
     floor = scene.seabed
     if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
@@ -114,9 +116,12 @@ def _is_bed(scene: Scene) -> bool:
 
 
 class Bounds(NamedTuple):
-    """The highest and the deepest node, normal to the seabed, the lowest X, the first and the last Z: NaN with a NaN.
+    """Extremes of the nodes, computed once for all rules; NaN if a coordinate is NaN, infinite without nodes.
 
-    Of the known diameters the smallest, inf without any. With no nodes all is infinite.
+    highest, deepest: the largest distances above and below the seabed, normal to it.
+    lowest: the smallest X.
+    first, last: the smallest and the largest Z.
+    thinnest: the smallest known diameter, inf without any.
     """
 
     highest: float
@@ -128,7 +133,7 @@ class Bounds(NamedTuple):
 
 
 def bounds_of(context: LintContext) -> Bounds:
-    """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
+    """Return the extremes of the nodes, which excuse most decks from further checks; rules call `context.once`."""
     scene = context.scene
     axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= _FEW else []
     if axes and isfinite(sum(map(sum, axes))):  # of few without numpy, which takes three times as long
@@ -154,7 +159,7 @@ def bounds_of(context: LintContext) -> Bounds:
 
 
 def steepness(scene: Scene) -> Floats:
-    """Slopes (n,) of the seabed under the nodes as a tangent, without sign: of a profile, or of a uniform slope.
+    """Return slopes (n,) of the seabed under the nodes as a tangent, without sign, of a profile or a uniform slope.
 
     NaN where they are not known.
     """
@@ -168,12 +173,12 @@ def steepness(scene: Scene) -> Floats:
     slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
     place = _along(floor.direction, y, z)
     sides = (np.searchsorted(points[:, 0], place, side) for side in ("left", "right"))
-    found: Floats = np.maximum(*(slopes[side] for side in sides))
-    return found
+    steepest: Floats = np.maximum(*(slopes[side] for side in sides))
+    return steepest
 
 
 def _along(direction: float, y: Floats, z: Floats) -> Floats:
-    """The horizontal coordinate in which a seabed that is the same across it rises or falls."""
+    """Return the horizontal coordinate along which a seabed rises or falls that is constant across it."""
     turned = np.radians(direction)
     along: Floats = y * np.cos(turned) + z * np.sin(turned)
     return along
@@ -187,7 +192,7 @@ def _slopes(points: Floats) -> Floats:
 
 
 def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
-    """Distances to the profile at least; beyond its ends, where it is level, they are exact."""
+    """Return lower bounds of the distances below the profile; beyond its ends, where it is level, they are exact."""
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
     steepest = float(_slopes(points).max(initial=0.0))
     below: Floats = np.interp(along, points[:, 0], points[:, 1]) - x
@@ -196,7 +201,7 @@ def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
 
 
 def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
-    """Depth below the highest plane whose bounds hold the node; of two as high the later one counts."""
+    """Return the depth below the highest plane whose bounds hold the node; of equally high planes the later counts."""
     highest = np.full(len(x), -np.inf)
     depth = np.full(len(x), np.nan)
     for plane in floor.planes:
@@ -211,7 +216,7 @@ def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats
 
 
 def first_of(thing: str, first: int, count: int) -> str:
-    """Some elements or nodes in words, by the number of the first and how many they are."""
+    """Return elements or nodes in words: the number of the first one and their count."""
     return f"{thing} {first}" if count == 1 else f"{count} {thing}s (first: {first})"
 
 
@@ -219,9 +224,9 @@ def first_of(thing: str, first: int, count: int) -> str:
 def deep_node(context: LintContext) -> Iterator[Problem]:
     """Nodes lie more than five diameters below the seabed.
 
-    Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations are
-    measured upwards from the mudline at X = 0, and not from the sea surface. Correct the coordinates. Of a
-    three-dimensional seabed only its lowest point is used; cubic and compiled profiles, and models with soil curves,
+    Pipes on the seabed sink by a fraction of their diameter. A node this deep usually has the wrong datum: elevations
+    are measured upwards from the mudline at X = 0, and not from the sea surface. Correct the coordinates. For a
+    three-dimensional seabed only its lowest point is used. Cubic and compiled profiles, and models with soil curves,
     are left out.
 
     Example on pipe:
@@ -249,7 +254,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
 
 
 def _surface(scene: Scene) -> str:
-    """Where the datum seems to be, if the lowest node lies at minus the water depth."""
+    """Return the likely datum in words, if the lowest node lies at minus the water depth; else ""."""
     oceans = [block for _, block in scene.deck.blocks("OCEAN")]
     depth = number(oceans[-1], "depth") if oceans else np.nan
     with np.errstate(invalid="ignore"):
@@ -263,10 +268,10 @@ def _surface(scene: Scene) -> str:
 def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid seabed.
 
-    Such a seabed holds its nodes along its normal, which lies between the directions 1 and 2. A node with a constraint
-    in one of the two only is held in both by the program: it can no longer slide down the slope, and the reaction there
-    is larger than the deck suggests. Constrain both, or none. Reported are nodes on the seabed or below it, or less
-    than a diameter above it.
+    The seabed holds its nodes along its normal, which lies between the directions 1 and 2. The program holds a node
+    with a constraint in one of them in both: it can no longer slide down the slope, and the reaction there is larger
+    than the deck suggests. Constrain both, or none. Reported are nodes on the seabed or below it, or less than a
+    diameter above it.
 
     Example:
          $MODEL
@@ -295,17 +300,17 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
         return
-    held = [one for one in held_nodes(scene) if one.dof in _IN_PLANE]
+    held = [line for line in held_nodes(scene) if line.dof in _IN_PLANE]
     if not held or scene.context.restart:  # the deck that is continued may constrain the other one
         return
-    given = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
+    constrained = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
     for _, dof, nodes, _ in held:
-        given[dof - 1, nodes] = True
-    alone = (given[0] != given[1]) & _on_slope(context)
+        constrained[dof - 1, nodes] = True
+    alone = (constrained[0] != constrained[1]) & _on_slope(context)
     for where, dof, nodes, _ in held:
-        found = nodes[alone[nodes]]
-        if found.size:
-            which = first_of("node", scene.node_ids[found[0]], found.size)
+        single = nodes[alone[nodes]]
+        if single.size:
+            which = first_of("node", scene.node_ids[single[0]], single.size)
             message = (
                 f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
                 "both are held there: give both, or remove this one"
@@ -314,7 +319,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
 
 
 def _widest(scene: Scene) -> Floats:
-    """The largest diameter (n,) of the elements at each node; 0 where none is known."""
+    """Return the largest diameter (n,) of the elements at each node; 0 where none is known."""
     widest = np.zeros(len(scene.node_ids))
     ends = scene.element_nodes
     known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
@@ -324,15 +329,15 @@ def _widest(scene: Scene) -> Floats:
 
 
 def _on_slope(context: LintContext) -> Mask:
-    """Nodes within a diameter of a seabed that is not level."""
+    """Return a mask (n,) of the nodes within a diameter of a seabed that is not level."""
     scene = context.scene
     near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
     sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
     return sloping
 
 
-class Held(NamedTuple):
-    """What a line of `*BOUNDARY` holds: its place, the degree of freedom, the indices of its nodes, and how."""
+class HeldNodes(NamedTuple):
+    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
 
     where: Where
     dof: int
@@ -340,8 +345,8 @@ class Held(NamedTuple):
     how: tuple[object, object]
 
 
-def held_nodes(scene: Scene) -> Iterator[Held]:
-    """What each line of `*BOUNDARY` holds; of those whose form is not public nothing."""
+def held_nodes(scene: Scene) -> Iterator[HeldNodes]:
+    """Yield the nodes that each line of `*BOUNDARY` holds; lines whose form is not public are left out."""
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
         for i, type_ in enumerate(cast("Boundary", block).types):
             for j, entry in enumerate(type_.entries):
@@ -351,13 +356,13 @@ def held_nodes(scene: Scene) -> Iterator[Held]:
                     if values is None:
                         continue
                     at, step = freedom_and_step(values)
-                    given = (values.third, values.fourth, values.fifth, None)
+                    fields = (values.third, values.fourth, values.fifth, None)
                     numbers: tuple[object, ...] = (values.start, values.end, step)
-                    dof, value, place = given[at - 2], given[at - 1], place.inside("generate")
+                    dof, value, place = fields[at - 2], fields[at - 1], place.inside("generate")
                 else:
                     numbers, dof, value = (entry.node, entry.node, 1), entry.dof, entry.value
                     place = place.inside("dof")
                 whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
                 if whole and cast("int", numbers[2]) > 0 and dof in _FREEDOMS:
                     nodes = scene.nodes.between(*cast("tuple[int, int, int]", numbers))
-                    yield Held(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))
+                    yield HeldNodes(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))

@@ -1,4 +1,4 @@
-"""Soil springs: the depths of their curves, and how resistance goes on along each."""
+"""Soil springs: the depths of their curves, and the resistance along each curve."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ CRV016 = Code("CRV016", "soil-gains-again", Severity.INFO)
 def repeated_depth(context: LintContext) -> Iterator[Problem]:
     """A soil spring has two curves at one depth, or a depth above the one before it.
 
-    Between the depths that are given the resistance is interpolated: at a depth that stands twice it jumps, or one of
-    its curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
-    not follow each other downwards are an info, as nothing says that they must. Correct the depth.
+    The resistance is interpolated between the given depths: at a depth that is given twice it jumps, or one of its
+        curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
+        not ascend are an info, as nothing says that they must. Correct the depth.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -55,11 +55,11 @@ def repeated_depth(context: LintContext) -> Iterator[Problem]:
 
 @rule(CRV016)
 def soil_gains_again(context: LintContext) -> Iterator[Problem]:
-    """The resistance of a soil spring falls, and rises again farther out.
+    """The resistance of a soil spring falls, and rises again at larger displacements.
 
-    Soil that softens falls to a residual resistance and stays there; one that has lost strength gains none by being
-    pushed farther. A curve that rises again has mostly a digit wrong in one point, or two points exchanged. Correct it,
-    or leave it if it was measured so. Each side of a curve is looked at for itself.
+    Softening soil falls to a residual resistance and stays there; it does not regain strength at larger displacements.
+    A curve that rises again mostly has a wrong digit in one point, or two points exchanged. Correct it, or leave it if
+    it was measured so. Each side of a curve is checked by itself.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -86,14 +86,14 @@ def soil_gains_again(context: LintContext) -> Iterator[Problem]:
 
 
 def _springs(context: LintContext) -> Iterator[tuple[Where, list[Any]]]:
-    """Return the curves of each set of soil springs, and their place."""
+    """Yield the place and the curves of each set of soil springs."""
     for where, block in context.scene.deck.blocks_with("soil_springs"):
         for index, entry in enumerate(block.sets):
             yield where.inside("sets", index, "curves"), entry.curves
 
 
 def _gains_again(points: Table) -> int | None:
-    """The row to which resistance falls before it rises again, on either side of a curve; None without one."""
+    """Return the row to which resistance falls before it rises again, on either side of a curve; None without one."""
     resistance, displacement = points.column(0), points.column(1)
     for side in (1.0, -1.0):
         rows = np.flatnonzero((side * displacement >= 0.0) & np.isfinite(resistance))

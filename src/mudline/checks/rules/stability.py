@@ -1,4 +1,4 @@
-"""What keeps a solution from being found, or from being right."""
+"""Causes that keep a solution from being found, or from being right."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
 
 
 def _release(law: SuctionLaw) -> Floats:
-    """|slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
+    """Return |slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
     from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
 
     with np.errstate(all="ignore"):
@@ -91,18 +91,22 @@ def _release(law: SuctionLaw) -> Floats:
 def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     """The fixed time step is coarse for the stiffest contact.
 
-    A node on the seabed oscillates with omega, the root of stiffness over the mass that it carries. Every law counts:
-    the normal law, *SEABED UNLOADING, *SEABED SOIL where the pipe turns, friction that sticks, lateral springs, and
-    suction while it is mobilised.
-    Implicit schemes that are called unconditionally stable are so for linear systems: contact that opens and closes
-    adds energy to a bare mass that lands when omega times the step is large; at 0.5 the rebound of Newmark's scheme is
-    up to 3 % too fast, above that far more. Only backward Euler never adds energy; generalised-alpha with rho = 0 adds
-    1 % of the speed on a clay that softens and 5 % where its force jumps at the mudline, more at other speeds, and both
-    damp. This rule, off unless it is selected, is about such a mass, without bending, tension and water, which soften
-    the landing of a line: whether the step of a deck is short enough for its touchdown zone is what `mudline study`
-    measures. The mass is that of the section without contents and added water; friction with a mobilisation length has
-    its spring under the static normal force. Give the step that the message names where `mudline study` finds the
-    deck's own too long.
+    A node on the seabed oscillates at omega = sqrt(stiffness / mass), with the mass that the node carries. The stiffest
+    law counts: the normal law, *SEABED UNLOADING, *SEABED SOIL where the pipe turns, sticking friction, lateral
+    springs, and suction while it is mobilised.
+
+    Unconditional stability of an implicit scheme holds for linear systems only. Contact that opens and closes adds
+    energy to a bare mass that lands, if omega times the step is large:
+
+    * with Newmark's scheme the rebound is up to 3 % too fast at 0.5, and far more above;
+    * generalised-alpha with rho = 0 adds 1 % of the speed on a clay that softens, 5 % where its force jumps at the
+      mudline, and more at other speeds;
+    * backward Euler never adds energy. It damps, as generalised-alpha does.
+
+    This rule, off unless it is selected, considers such a mass without bending, tension and water, which soften the
+    landing of a line. `mudline study` measures if the step of a deck is short enough for its touchdown zone. The mass
+    is that of the section without contents and added water. Friction with a mobilisation length has its spring under
+    the static normal force. If `mudline study` finds the deck's step too long, give the step that the message names.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -121,10 +125,10 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     from mudline.model.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - most decks do without
     from mudline.model.scene.oscillation import oscillations  # noqa: PLC0415 - most decks do without
 
-    springs = [one for one in oscillations(scene, scene.contact_input("cut")).found if one.omega > 0.0]
+    springs = [spring for spring in oscillations(scene, scene.contact_input("cut")).found if spring.omega > 0.0]
     if not springs:
         return
-    stiffest = max(springs, key=lambda one: one.omega)
+    stiffest = max(springs, key=lambda spring: spring.omega)
     advised = rounded_down(ADVISED_OMEGA_DT / stiffest.omega)
     for where, block in blocks:
         step = getattr(cast("TimeSpan", block).fixed, "increment", None)
@@ -139,14 +143,16 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
 
 @rule(STB004)
 def lateral_softening(context: LintContext) -> Iterator[Problem]:
-    """The lateral resistance falls while the pipe moves on.
+    """The lateral resistance decreases while the pipe keeps moving.
 
-    Behind the breakout of LATERAL=PEAK-RESIDUAL or F114 the resistance falls to its residual: this is a negative
-    stiffness, (peak - residual) N over the distance between the two displacements. Only a structure that is stiffer
-    sideways, per unit length, has one equilibrium there; a softer one jumps, and the motion grows at a rate that is the
-    root of that stiffness over the mass. The message gives the stiffness under the static normal force, for the node
-    that needs most, and the step that resolves the rate, where weight and mass are known. Use that step through
-    breakout, or a static solution by displacements.
+    Beyond the breakout of LATERAL=PEAK-RESIDUAL or F114 the resistance decreases to its residual. This is a negative
+    stiffness: (peak - residual) N over the distance between the two displacements. Only a structure that is stiffer
+    sideways, per unit length, has a unique equilibrium there. A softer one jumps, and the motion grows at the rate
+    sqrt(that stiffness / mass).
+
+    The message gives the stiffness under the static normal force, for the node that needs most, and the step that
+    resolves the rate, if weight and mass are known. Use that step through breakout, or a static solution controlled by
+    displacement.
 
     Example on pipe:
          $MODEL
@@ -173,7 +179,7 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
 
     if not any(map(softens, extension.entries)) or scene.blocking("cut"):
         return
-    known = {one.where: one for one in oscillations(scene, scene.contact_input("cut")).softening}
+    known = {spring.where: spring for spring in oscillations(scene, scene.contact_input("cut")).softening}
     needs = "equilibrium needs a structural stiffness per unit length above (peak - residual) N / distance"
     for entry, place in zip(extension.entries, extension.places, strict=True):
         where = place.inside("peak")
@@ -183,30 +189,30 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
 
 
 def _effect(kind: str, product: float) -> str:
-    """What happens to a mass that lands, or to a spring that does not lift off, at a product of frequency and step."""
+    """Return the effect of omega dt on a mass that lands, or on a spring that does not lift off, in words."""
     if kind in {"friction", "lateral"}:
         return "the spring of what sticks is not resolved"
     fast = "up to 11 %" if product <= 1.0 else "far" if product <= _TWICE else "up to three times"
     return f"with Newmark's scheme a bare mass rebounds {fast} too fast"
 
 
-def _described(scene: Scene, one: Oscillation) -> str:
-    """Law, node and line of a contact, with the file of a deck that this one continues."""
+def _described(scene: Scene, item: Oscillation) -> str:
+    """Return the law, node and line of a contact in words, with the file if it is in a continued deck."""
     from mudline.model.scene.oscillation import line_of  # noqa: PLC0415 - most decks do without
 
-    line, base = line_of(scene, one.where), scene.deck.base_of(one.where)
+    line, base = line_of(scene, item.where), scene.deck.base_of(item.where)
     place = f", line {line}" if line else ""
-    return f"{one.name}, node {scene.node_ids[one.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
+    return f"{item.name}, node {scene.node_ids[item.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
 
 
 @rule(STB003)
 def stiff_jump(context: LintContext) -> Iterator[Problem]:
     """The stiffness of the seabed jumps by a factor of more than 10 000.
 
-    It does so where two segments of a curve meet, flat ones left out, or where an element on a curve has a neighbour on
-    a linear seabed that is so much stiffer, or softer, than every segment. The solver loses digits at such a jump, and
-    the pipe bends sharply at the edge. Usually an exponent is wrong. Correct the point or the stiffness; real rock
-    beside mud needs a transition.
+    It does so where two segments of a curve meet, flat segments left out, or where an element on a curve has a
+    neighbour on a linear seabed that is stiffer, or softer, than every segment by this factor. The solver loses digits
+    at such a jump, and the pipe bends sharply at the edge. Usually an exponent is wrong. Correct the point or the
+    stiffness; real rock next to mud needs a transition.
 
     Example on clay:
         - 0.1, 1.2E-3
@@ -223,7 +229,7 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
 
 
 def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Problem]:
-    """Jumps at points of a curve."""
+    """Yield jumps at points of a curve."""
     steep = np.flatnonzero(slopes)
     before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
     jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
@@ -240,7 +246,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
 
 
 def _beside(context: LintContext) -> Iterator[Problem]:
-    """Jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
+    """Yield jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
     scene = context.scene
     grants = scene.laws.set_laws
     reported: set[tuple[int, int]] = set()
@@ -269,7 +275,7 @@ def _beside(context: LintContext) -> Iterator[Problem]:
 
 
 def _extremes(entry: SceneCurve) -> tuple[float, float]:
-    """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
+    """Return the smallest and the largest slope of a curve, flat segments left out; NaN without any."""
     if entry.curve is None or not entry.whole:
         return (math.nan, math.nan)
     slopes = np.abs(entry.curve.slopes)
@@ -278,7 +284,7 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
 
 
 def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
-    """Pairs of elements that meet at a node: one on a linear seabed, one on a curve."""
+    """Return pairs of elements that meet at a node: the first on a linear seabed, the second on a curve."""
     law = scene.law
     if not (np.count_nonzero(law == LawKind.LINEAR) and np.count_nonzero(law == LawKind.CURVE)):
         nothing: Indices = np.zeros(0, dtype=np.intp)
@@ -287,18 +293,18 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     order = np.argsort(nodes, kind="stable")
     elements, at = order // 2, nodes[order]
     meet = (at[1:] == at[:-1]) & (at[1:] >= 0)
-    one, other = elements[:-1][meet], elements[1:][meet]
-    one, other = np.append(one, other), np.append(other, one)
-    wanted = (law[one] == LawKind.LINEAR) & (law[other] == LawKind.CURVE)
-    return one[wanted], other[wanted]
+    first, second = elements[:-1][meet], elements[1:][meet]
+    first, second = np.append(first, second), np.append(second, first)
+    mixed = (law[first] == LawKind.LINEAR) & (law[second] == LawKind.CURVE)
+    return first[mixed], second[mixed]
 
 
 @rule(EXT008)
 def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 
-    Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
-    trench would lie above the seabed. The stiffness is raised to the slope reached. Give a higher one.
+    Soil unloads at least as stiffly as it was loaded. With a softer return path a cycle would release energy, and the
+    trench would lie above the seabed. The stiffness is raised to the slope reached. Give a higher stiffness.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -328,12 +334,12 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
 
 
 def _steepest(scene: Scene) -> Floats:
-    """Steepest slope of each element's law below the mudline, per unit of penetration; NaN where it is not known."""
+    """Return the steepest slope of each element's law below the mudline, per unit of penetration; NaN if not known."""
     linear = np.array([*(np.nan if grant.unknown else grant.stiffness for grant in scene.laws.set_laws), np.nan])
     slopes = np.array([*(_curve_slope(scene, grant.curve) for grant in scene.laws.set_laws), np.nan])
-    found = scene.laws.of_element
+    of_element = scene.laws.of_element
     with np.errstate(over="ignore"):
-        steep: Floats = np.where(scene.law == LawKind.LINEAR, linear[found], slopes[found] / scene.diameter)
+        steep: Floats = np.where(scene.law == LawKind.LINEAR, linear[of_element], slopes[of_element] / scene.diameter)
     return steep
 
 

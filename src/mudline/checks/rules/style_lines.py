@@ -1,4 +1,4 @@
-"""Comments, keyword lines and suppression comments; the lines that style rules look at."""
+"""Comments, keyword lines and suppression comments, and the lines that style rules check."""
 
 from __future__ import annotations
 
@@ -40,9 +40,10 @@ _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 def rule_of_text(
     code: Code, gate: Callable[[str], object], *, off: bool = False
 ) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
-    """Make a function of a text and its unified source a rule: decks in JSON and YAML have nothing of its kind.
+    """Return a decorator that makes a rule of a function of a text and its unified source.
 
-    `gate` looks at the whole source, quickly: without a match the function is not called.
+    Decks in JSON and YAML have no text, and nothing is reported in them. `gate` is a quick test of the whole source:
+    without a match the function is not called.
     """
 
     def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
@@ -60,7 +61,7 @@ def rule_of_text(
 
 
 class Placed(NamedTuple):
-    """A line, or a run of them; `read` is the block that it stands in, `kept` says that this block has no model."""
+    """Line, or run of lines; `read` is its block, `kept` is True if this block has no model."""
 
     leaf: Leaf
     read: ReadBlock | None
@@ -68,7 +69,7 @@ class Placed(NamedTuple):
 
 
 def placed_leaves(text: TextOrigin) -> Iterator[Placed]:
-    """Every line but those of keywords and sections."""
+    """Yield every line except those of keywords and sections."""
     preamble = text.tree.preamble
     yield from (Placed(leaf, None, kept=False) for leaf in preamble.leaves)
     yield from (Placed(leaf, None, kept=False) for block in preamble.blocks for leaf in block.leaves)
@@ -80,7 +81,7 @@ def placed_leaves(text: TextOrigin) -> Iterator[Placed]:
 
 
 def data_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock]]:
-    """The lines with values of the blocks that have a model."""
+    """Yield the lines with values of the blocks that have a model."""
     source, sections = text.source.unified, text.tree.sections
     for (section, number), read in text.read.items():
         for leaf in sections[section].blocks[number].leaves:
@@ -89,13 +90,13 @@ def data_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock]]:
 
 
 def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
-    """Whether a line is a KEY= that the keyword knows."""
+    """Return True if a line is a KEY= that the keyword knows."""
     known = leaf.kind in (Kind.SETTING, Kind.UNDECIDED)
     return known and first_key(source, leaf.span) in all_keys(type(read.model))
 
 
 def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterator[re.Match[str]]:
-    """The first match of a pattern on each line of a span."""
+    """Yield the first match of a pattern on each line of a span."""
     at = span.start
     while at < span.end and (match := pattern.search(source, at, span.end)):
         yield match
@@ -103,7 +104,7 @@ def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterato
 
 
 def line_around(source: str, offset: int) -> Span:
-    """The line that an offset stands in, without its LF; `source` is a unified text."""
+    """Return the line around an offset, without its LF; `source` is a unified text."""
     end = source.find("\n", offset)
     return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
 
@@ -154,7 +155,7 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 @rule_of_text(STY009, lambda source: re.search(_COMMENT_BELOW, source) or INDENTED_COMMENT.match(source))
 def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
-    """A line that looks like a comment is indented, and so it is data.
+    """A line that looks like a comment is indented, so it is read as data.
 
     Only a C in column 1 makes a comment; the manual mentions no other (inferred). With a space before it the line is
     read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment, remove the
@@ -222,12 +223,12 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 
 def _known(head: str) -> bool:
-    """Whether a head names a known section or keyword: what follows a name may be a remark."""
+    """Return True if a line begins with a known section or keyword; the text after the name may be a remark."""
     return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
 
 
 def head_lines(text: TextOrigin) -> Iterator[Span]:
-    """Every line that begins a section or a keyword."""
+    """Yield every line that begins a section or a keyword."""
     for section in (text.tree.preamble, *text.tree.sections):
         yield from (head.span for head in (section.head, *(block.head for block in section.blocks)) if head)
 
@@ -236,7 +237,7 @@ def head_lines(text: TextOrigin) -> Iterator[Span]:
 def unused_suppression(context: LintContext) -> Iterator[Problem]:
     """A suppression comment suppresses nothing.
 
-    It was written for a finding that is no longer there, or names no rule; the next fault of that kind would be hidden
+    It was written for a finding that is no longer there, or names no rule. The next fault of that kind would be hidden
     before anyone has seen it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is not
     unused. The fix removes the code, or the comment when it names nothing else.
 
@@ -249,6 +250,6 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:19
     """
-    found = context.once(suppressions)
-    if found is not None:
-        yield from found.unknown()
+    known = context.once(suppressions)
+    if known is not None:
+        yield from known.unknown()

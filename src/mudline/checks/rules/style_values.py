@@ -40,7 +40,7 @@ _ENDINGS = (" \n", "\t\n", " \r", "\t\r")
 
 _EXPONENT = r"(?<=[0-9.]{0})[-+]?+[0-9]"
 _GATES = (re.compile("D" + _EXPONENT.format("D")), re.compile("d" + _EXPONENT.format("d")))
-"""Two patterns that begin with one letter each: these are found many times as fast as one with either."""
+"""Two patterns that begin with one letter each: the search is many times as fast as for both letters in one pattern."""
 
 _SEEN = re.compile(r"[0-9.][dD][-+]?+[0-9]")
 _NUMBER = re.compile(r"(?<![^ \t\n,=])[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)[dD][-+]?[0-9]++(?![^ \t\r\n,])")
@@ -70,7 +70,7 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 
 def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
-    """Spaces for the tabs of a line, nothing for those at its end; None where one is inside a value."""
+    """Return a repair that replaces tabs by spaces and removes those at the end; None if a tab is inside a value."""
     groups = read_line(source, line, slashes=type(read.model).slashes).groups
     if any(_holds_tab(source, group) for group in groups):
         return None
@@ -84,8 +84,8 @@ def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
 
 
 def _holds_tab(source: str, group: Group) -> bool:
-    """Whether a tab is part of a value of a group, or of its key."""
-    within = any("\t" in given.text for given in group.fields)
+    """Return True if a tab is part of a value of a group, or of its key."""
+    within = any("\t" in field.text for field in group.fields)
     if group.key:
         return within or "\t" in source[group.span.start : source.index("=", group.span.start)].strip()
     return within and not (len(group.fields) == 1 and blank_separated(group.fields[0].text))
@@ -95,7 +95,7 @@ def _holds_tab(source: str, group: Group) -> bool:
 def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The numbers of a row are separated only by spaces.
 
-    They are read as if there were commas between them, but the language separates fields by commas, and an empty field
+    They are read as if there were commas between them. But the language separates fields by commas, and an empty field
     cannot be seen among spaces. Use commas.
 
     Example on clay:
@@ -118,7 +118,7 @@ def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 
 def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
-    """The lines of a run, or what follows a KEY=, of numbers and spaces only; what is one value is a name."""
+    """Yield the lines of a run, or the text after a KEY=, of numbers and spaces only; a single value is a name."""
     if leaf.kind is Kind.RUN:
         yield from (trimmed(source, *match.span()) for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span))
     elif match := _BEHIND_KEY.search(source, *leaf.span):
@@ -150,7 +150,7 @@ def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 
 def _own_lines(text: TextOrigin) -> Iterator[Span]:
-    """All lines but the data of blocks without a model, and of no block."""
+    """Yield all lines except the data of blocks without a model, and data outside of blocks."""
     yield from head_lines(text)
     for leaf, read, kept in placed_leaves(text):
         if not kept and (read is not None or leaf.kind in (Kind.COMMENT, Kind.BLANK)):
@@ -170,25 +170,25 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 5:12
     """
-    numbers = _Numbers()
+    numbers = _NumberFinder()
     for leaf, read in data_leaves(text):
         for match in first_of_lines(_SEEN, source, leaf.span):
             line = line_around(source, match.start())
-            if found := numbers.of_line(source, leaf.span, line, read):
-                yield _problem(source, found)
+            if spans := numbers.of_line(source, leaf.span, line, read):
+                yield _problem(source, spans)
 
 
-def _problem(source: str, found: list[Span]) -> Problem:
-    """One finding for the numbers of a line, at the first of them."""
-    new = [source[slice(*span)].translate(_TO_E) for span in found]
-    more = f" (and {len(found) - 1} more on this line)" if len(found) > 1 else ""
+def _problem(source: str, numbers: list[Span]) -> Problem:
+    """Return one problem for the numbers of a line, at the first of them."""
+    new = [source[slice(*span)].translate(_TO_E) for span in numbers]
+    more = f" (and {len(numbers) - 1} more on this line)" if len(numbers) > 1 else ""
     message = f"the exponent D is Fortran's: write {new[0]}{more}"
-    repair = Repair("safe", "write E", tuple(zip(found, new, strict=True)))
-    return Problem(STY003, message, found[0], repair=repair)
+    repair = Repair("safe", "write E", tuple(zip(numbers, new, strict=True)))
+    return Problem(STY003, message, numbers[0], repair=repair)
 
 
-class _Numbers:
-    """Tells the numbers of a block from its names; what is known of the last block is remembered."""
+class _NumberFinder:
+    """Finder of numbers among the values of a block; its knowledge of the last block is remembered."""
 
     def __init__(self) -> None:
         self.read: ReadBlock | None = None
@@ -196,7 +196,7 @@ class _Numbers:
         self.paths: dict[Span, Path] = {}
 
     def of_line(self, source: str, leaf: Span, line: Span, read: ReadBlock) -> list[Span]:
-        """The numbers with a D on a line."""
+        """Return the numbers with a D on a line."""
         if read is not self.read:
             self.read = read
             self.tables = {run.start for runs in read.places.runs.values() for _, run in runs}

@@ -1,4 +1,4 @@
-"""Values outside of what is usual of their fields: what is compared, and the slip that explains each."""
+"""Values outside the usual range of their fields: the compared quantity, and the slip that explains each value."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
 from mudline.checks.rules.data_files import operator_files
 from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
-from mudline.checks.unit_slips import Units, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
+from mudline.checks.unit_slips import DeckUnits, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
@@ -40,23 +40,23 @@ CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UN
 
 
 def unusual_values(context: LintContext) -> list[Problem]:
-    """What is outside of the usual values of its field; several rules need it, and ask `context.once`.
+    """Return the problems of values outside the usual range of their field; rules call `context.once`.
 
-    Lines in which SYN015 found decimal commas are left out. Where gravity, a density or a length is unusual, the weight
-    of a pipe counts as not known, and where nodes lie too high for it, the depth of the water.
+    Lines in which SYN015 found decimal commas are left out. If gravity, a density or a length is unusual, the weight of
+    a pipe counts as unknown. If nodes lie too high for the depth of the water, that depth counts as unknown.
     """
     deck = Numbers(context, units_of(context))
     with np.errstate(all="ignore"):  # numbers may be as large as they like
         judged = _of_deck(deck)
-        measures = {one.usual.of for one in judged}
-        heavy = bool(measures & WEIGHED) and any(one.problem.code in (UNT001, UNT004, UNT006) for one in judged)
+        measures = {each.usual.of for each in judged}
+        heavy = bool(measures & WEIGHED) and any(each.problem.code in (UNT001, UNT004, UNT006) for each in judged)
         shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
         if heavy or shallow:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
-    found = [one.problem for one in judged]
+    problems = [each.problem for each in judged]
     text = context.text
-    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and found else set()
-    return [one for one in found if not commas or not text or text.place(one).line not in commas]
+    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and problems else set()
+    return [problem for problem in problems if not commas or not text or text.place(problem).line not in commas]
 
 
 def _of_deck(deck: Numbers) -> list[Judged]:
@@ -66,7 +66,7 @@ def _of_deck(deck: Numbers) -> list[Judged]:
 
 
 def _in_files(deck: Numbers) -> Iterator[Judged]:
-    """What is unusual in the files of operators that a deck names, one finding a file."""
+    """Yield unusual values in the files of operators that a deck names, one finding for each file."""
     for file in deck.context.once(operator_files):
         from mudline.language.keywords.library.vessel_motions import VesselRao  # noqa: PLC0415 - few decks have one
 
@@ -80,17 +80,17 @@ def _in_files(deck: Numbers) -> Iterator[Judged]:
 
 
 def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
-    """The unusual values of one code."""
-    return (one for one in context.once(unusual_values) if one.code is code)
+    """Return the unusual values of one code."""
+    return (problem for problem in context.once(unusual_values) if problem.code is code)
 
 
 # ------------------------------------------------------------------------------------------------------- what is judged
 
 
 class Judged(NamedTuple):
-    """A finding about a field, and the range that its value is outside of.
+    """Finding about a field, and the range that its value lies outside of.
 
-    `explains` are the fields of its row that are unusual for the same reason.
+    `explains` lists the fields of its row that are unusual for the same reason.
     """
 
     usual: Usual
@@ -101,69 +101,69 @@ class Judged(NamedTuple):
 
 @cache
 def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, ...]]:
-    """The fields of a part that have usual values, and those that hold tables or parts with such fields."""
-    slots = [slot for slot in record_schema(part).slots if slot.usuals or any(any(_judged(one)) for one in slot.parts)]
+    """Return the fields of a part that have usual values, and those that hold tables or parts with such fields."""
+    slots = [slot for slot in record_schema(part).slots if slot.usuals or any(any(_judged(sub)) for sub in slot.parts)]
     own = tuple(slot for slot in slots if slot.usuals and not isinstance(slot.about, Rows))
     return own, tuple(slot for slot in slots if slot.parts)
 
 
 def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Judged]:
-    """What is unusual in a part and in those inside it: of a part one finding of each code, with others under it."""
+    """Yield unusual values in a part and in the parts inside it, merged to one finding of each code for a part."""
     own, outer = _judged(type(part))
     if not (own or outer):
         return
-    given = [
+    suspects = [
         (slot, math.nan if isinstance(value, Part) else float(value))
         for slot, low, high in (_ranges(type(part), deck.units) if own else ())
         if isinstance(value := getattr(part, slot.name, None), float | int | Part)
         and (isinstance(value, Part) or not low <= value <= high)
     ]
-    if not (given or outer):
+    if not (suspects or outer):
         return
     of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    yield from _of_row([one for slot, value in given for one in _compared(of, slot, value, slot.json)])
+    yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
     for slot in outer:
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
             yield from _inside(deck, value, part, where.inside(slot.json))
         elif isinstance(value, Table):
             yield from _in_table(of, slot, value)
-        for index, one in enumerate(value if isinstance(value, list) else ()):
-            if isinstance(one, Part):
-                yield from _inside(deck, one, part, where.inside(slot.json, index))
+        for index, item in enumerate(value if isinstance(value, list) else ()):
+            if isinstance(item, Part):
+                yield from _inside(deck, item, part, where.inside(slot.json, index))
 
 
 @lru_cache(512)
-def _ranges(part: type[Part], units: Units) -> list[tuple[FieldSpec, float, float]]:
-    """The fields of a part that have usual values, each with the values (as the deck has them) that need no look.
+def _ranges(part: type[Part], units: DeckUnits) -> list[tuple[FieldSpec, float, float]]:
+    """Return the fields of a part that have usual values, each with the range (as in the deck) that needs no check.
 
-    Where more is compared than the number itself, all need one: NaN.
+    If a field compares more than the number itself, every value needs a check: the range is NaN.
     """
-    found = []
+    ranges = []
     for slot in _judged(part)[0]:
         usuals, size = slot.usuals, units.size(slot.about.unit)
         low, high = max(usual.low for usual in usuals), min(usual.high for usual in usuals)
         plain = not any(usual.of for usual in usuals)
-        found.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
-    return found
+        ranges.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
+    return ranges
 
 
-def _of_row(found: Sequence[Judged]) -> Iterator[Judged]:
-    """One finding of each code, with the others under it; one of all that an exchange or a comma explains."""
-    cause = next((one for one in found if one.explains), None)
+def _of_row(row: Sequence[Judged]) -> Iterator[Judged]:
+    """Yield one finding of each code with the others merged into it, or one for what an exchange explains."""
+    cause = next((judged for judged in row if judged.explains), None)
     explained = cause.explains if cause else ()
     rows: dict[Code | None, list[Judged]] = {}
-    for one in sorted(found, key=lambda one: one is not cause):
-        rows.setdefault(None if one is cause or one.slot in explained else one.problem.code, []).append(one)
+    for judged in sorted(row, key=lambda judged: judged is not cause):
+        rows.setdefault(None if judged is cause or judged.slot in explained else judged.problem.code, []).append(judged)
     for first, *others in rows.values():
-        more = f"; also unusual: {', '.join(in_words(one.slot) for one in others)}" if others else ""
-        following = tuple(one.problem for one in others)
+        more = f"; also unusual: {', '.join(in_words(judged.slot) for judged in others)}" if others else ""
+        following = tuple(judged.problem for judged in others)
         problem = replace(first.problem, message=first.problem.message + more, following=following)
         yield first._replace(problem=problem)
 
 
 def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
-    """What is unusual in a table: of a column the first row; where that is nothing, in the whole of it."""
+    """Yield unusual values in a table: the first row of a column, or else of the table as a whole."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     names = [column.name for column in columns]
     for index, column in enumerate(columns):
@@ -177,8 +177,8 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
         for at, value in enumerate(values.tolist()):
             cells = SimpleNamespace(**dict(zip(names, table.values[at].tolist(), strict=False)))
             row = replace(of, part=cells, holder=of.part, columns=columns)
-            if found := _compared(row, column, value, slot.json, at, index):
-                yield from found
+            if judged := _compared(row, column, value, slot.json, at, index):
+                yield from judged
                 return
     yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan)
 
@@ -187,7 +187,7 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
 
 
 def _compared(of: Numbers, slot: FieldSpec, value: float, *path: str | int) -> list[Judged]:
-    """The finding about a value (as the deck has it), for the first of its ranges that it is outside of; or none."""
+    """Return the finding about a value (as in the deck), for the first range that it lies outside of, or none."""
     for usual in slot.usuals:
         if _is_unusual(of, slot, usual, value) and not slot.about.fault(value):
             where = of.where.inside(*path)
@@ -199,14 +199,14 @@ def _compared(of: Numbers, slot: FieldSpec, value: float, *path: str | int) -> l
 
 
 def _quantity(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> float:
-    """What is compared, of a number in SI."""
+    """Return the compared quantity of a number in SI."""
     if usual.of.startswith("/"):
         return over(value, of(usual.of[1:]))
     return MEASURES[usual.of](of, slot.name, value) if usual.of else value
 
 
 def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
-    """Whether a value (as the deck has it) is outside of a range that holds for it."""
+    """Return True if a value (as in the deck) lies outside a range that applies to it."""
     unit = slot.about.unit
     if (value == 0.0 and usual.of[:1] in ("", "/")) or not (usual.of or of.units.known or of.units.compares(unit)):
         return False
@@ -219,13 +219,13 @@ def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> boo
 
 
 def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, strict: bool = False) -> str:
-    """What a value looks like and what to write, in words, where a unit explains it."""
+    """Return the likely unit of a value and the advice in words, if a unit explains it; else ""."""
     unit = slot.about.unit
     if not math.isnan(usual.meant):
-        found = meant_unit(
+        unit_name = meant_unit(
             usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number), strict=strict
         )
-        return f"{value!r} looks like {found}, write it in{of.units.behind(unit)}" if found else ""
+        return f"{value!r} looks like {unit_name}, write it in{of.units.behind(unit)}" if unit_name else ""
     quantity = _quantity(of, slot, usual, value * of.units.size(unit)) if usual.explained else math.nan
     which = next(
         (word for factor, word in _TIMES.items() if quantity and usual.low <= quantity * factor <= usual.high), ""
@@ -238,39 +238,41 @@ _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3},\d{3}(?:\.\d*)?(?![\d.,]*\d)")
 
 
 def _seen(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
-    """What was found and what was expected, in words."""
+    """Return the value found and the value expected in words."""
     unit = slot.about.unit
     behind = of.units.behind(unit)
     written = int(value) if slot.kind is Kind.WHOLE and math.isfinite(value) else value
-    said = f"{in_words(slot)} is {written!r}{behind}"
+    subject = f"{in_words(slot)} is {written!r}{behind}"
     if math.isnan(value):
-        said = f"the {cast('Rows', slot.about).curve}{_name(of.part)}" if of.table is not None else slot.about.meaning
+        subject = (
+            f"the {cast('Rows', slot.about).curve}{_name(of.part)}" if of.table is not None else slot.about.meaning
+        )
     why = f" ({usual.why})" if usual.why else ""
     if not usual.of:
-        return f"{said}, expected {usual.span(of.units.size(unit))}{behind}{why}"
+        return f"{subject}, expected {usual.span(of.units.size(unit))}{behind}{why}"
     quantity = _quantity(of, slot, usual, value * of.units.size(unit))
-    other = next((f"times {one.label}" for one in of.columns if usual.of == f"/{one.name}"), usual.of)
-    return f"{said}, {float(f'{quantity:.3g}'):g} {other}, expected {usual.span()}{why}"
+    what = next((f"times {col.label}" for col in of.columns if usual.of == f"/{col.name}"), usual.of)
+    return f"{subject}, {float(f'{quantity:.3g}'):g} {what}, expected {usual.span()}{why}"
 
 
 def _name(part: Part) -> str:
-    """The name that a curve defines, in quotes behind a blank, or ""."""
+    """Return the name that a curve defines, in quotes after a space, or ""."""
     named = (getattr(part, slot.name) for slot in record_schema(type(part)).slots if slot.about.defines)
     return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
 
 
 _Advice = tuple[str, Sequence[FieldSpec]]
-"""What to do about a value, in words, and the fields of its row that this explains."""
+"""Advice on a value in words, and the fields of its row that it explains."""
 
 
 def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> _Advice:
-    """What to do about a value: the unit, the exchange or the comma that explains it."""
+    """Return the advice on a value: the unit, the exchange or the comma that explains it."""
     if of.table is not None:
         return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
         return "correct it", ()
-    if found := _explanation(of, slot, usual, value):
-        return found, ()
+    if explanation := _explanation(of, slot, usual, value):
+        return explanation, ()
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
     if not alone and (exchanged := _exchange(of, slot, where)):
         return exchanged
@@ -283,13 +285,13 @@ def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Whe
 
 
 def _lacks_point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
-    """Whether a decimal point may be lost or misplaced."""
+    """Return True if a decimal point may be lost or misplaced."""
     sized = value * of.units.size(slot.about.unit)
     return slot.kind is not Kind.WHOLE and lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each))
 
 
 def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
-    """What to do about a whole curve: exchange its columns, or write its ordinates in another unit."""
+    """Return the advice on a whole curve: exchange its columns, or write its ordinates in another unit."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     over, ordinate = (columns[axis] for axis in cast("Rows", slot.about).axes)
     if usual is BENT:
@@ -304,31 +306,31 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
 
 
 def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
-    """With which number beside it a value seems to be exchanged, or which comma is one too many; None if none."""
-    row = [(one, number(of.part, one.name)) for one in of.columns if not one.key and not one.row]
-    row = [(one, value) for one, value in row if not math.isnan(value)]
-    fields, values = [one for one, _ in row], [value for _, value in row]
-    for left, (one, other) in enumerate(pairwise(fields)):
+    """Return the advice to exchange a value with its neighbour, or to remove a comma of thousands, if either fits."""
+    row = [(first, number(of.part, first.name)) for first in of.columns if not first.key and not first.row]
+    row = [(first, value) for first, value in row if not math.isnan(value)]
+    fields, values = [first for first, _ in row], [value for _, value in row]
+    for left, (first, second) in enumerate(pairwise(fields)):
         exchanged = [*values[:left], values[left + 1], values[left], *values[left + 2 :]]
-        real = one.kind is other.kind is Kind.REAL and 0.0 not in values[left : left + 2]
-        if slot in (one, other) and real and _all_usual(of, fields, exchanged, (one, other)):
-            return f"{one.label} and {other.label} seem to be exchanged, write {one.label} first", (one, other)
+        real = first.kind is second.kind is Kind.REAL and 0.0 not in values[left : left + 2]
+        if slot in (first, second) and real and _all_usual(of, fields, exchanged, (first, second)):
+            return f"{first.label} and {second.label} seem to be exchanged, write {first.label} first", (first, second)
     text = of.context.text
     line = text.source.line(text.place(Problem(UNT007, "", where=where)).line) if text else ""
     for comma in _THOUSANDS.finditer(line):
         left = line[: comma.start()].count(",")
         joined = [*values[:left], sum(values[left : left + 2], 999.0 * values[left]), *values[left + 2 :]]
         if len(joined) < len(values) and _all_usual(of, fields[:-1], joined, fields[:-1]):
-            return f"a comma of thousands seems to stand in {comma[0]}, write {comma[0].replace(',', '')}", fields
+            return f"{comma[0]} seems to have a thousands comma, write {comma[0].replace(',', '')}", fields
     return None
 
 
 def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float], asked: Sequence[FieldSpec]) -> bool:
-    """Whether some fields of a row would be usual, and allowed, if it had other values (as the deck has them)."""
-    sized = {one.name: value * of.units.size(one.about.unit) for one, value in zip(fields, values, strict=True)}
-    other = of.having(sized)
+    """Return True if the `asked` fields of a row would be usual, and allowed, with these values (as in the deck)."""
+    sized = {slot.name: value * of.units.size(slot.about.unit) for slot, value in zip(fields, values, strict=True)}
+    changed = of.having(sized)
     return not any(
-        one.about.fault(value) or any(_is_unusual(other, one, usual, value) for usual in one.usuals)
-        for one, value in zip(fields, values, strict=True)
-        if one in asked
+        slot.about.fault(value) or any(_is_unusual(changed, slot, usual, value) for usual in slot.usuals)
+        for slot, value in zip(fields, values, strict=True)
+        if slot in asked
     )

@@ -1,4 +1,4 @@
-"""Rules that report unusual values, each those of its code, and what only follows from them."""
+"""Rules that report unusual values, one rule for each code, and the joints of their consequences."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from mudline.language.syntax.rows import read_number
 def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     """The gravity of *OCEAN does not fit the unit system of the file.
 
-    The suffix says in which units a deck is: .keyxm in metres and newtons, gravity 9.81; .keyxi in feet and pounds,
-    gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it was
-    converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
+    The suffix gives the units of a deck: .keyxm is in metres and newtons, gravity 9.81; .keyxi in feet and pounds,
+        gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it
+        was converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
 
     Example on ocean:
         - 500.0, 1025.0, 32.2
@@ -35,14 +35,18 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
 
 @rule(UNT002)
 def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
-    """A force or stiffness of the seabed looks as if it were in another unit.
+    """A force or stiffness of the seabed seems to be in another unit.
 
-    A seabed of less than 478 N/m for each metre (10 lbf/ft for each foot) supports no pipe, lateral springs and suction
-    of less than 95 N/m for each metre (2 lbf/ft for each foot) hold none, a cohesion of less than 95 Pa (2 lbf/ft2) is
-    that of a fluid, and all that is above 2.1E11 N/m2 is stiffer than steel. The largest force of a curve is compared
-    with the submerged weight of the pipe that follows it: below a tenth of that the pipe lies deeper than the curve
-    reaches. Where the weight is not known, it is compared with 10 N/m, for cables thinner than 0.1 m with less. Such a
-    value is usually written in kilonewtons or kips. Write it in newtons or pounds. Zero is accepted.
+    Too small are:
+
+    * a seabed stiffness below 478 N/m for each metre (10 lbf/ft for each foot), which supports no pipe;
+    * lateral springs and suction below 95 N/m for each metre (2 lbf/ft for each foot), which hold no pipe;
+    * a cohesion below 95 Pa (2 lbf/ft2), which is that of a fluid;
+    * a curve whose largest force is below a tenth of the submerged weight of its pipe, which then lies deeper than the
+      curve reaches. If the weight is not known, the limit is 10 N/m, and less for cables thinner than 0.1 m.
+
+    Any stiffness above 2.1E11 N/m2 is stiffer than steel. Such values are usually written in kilonewtons or kips. Write
+    them in newtons or pounds. Zero is accepted.
 
     Example on seabed:
         - STIFFNESS=50.0
@@ -58,8 +62,8 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
     """A friction coefficient is above 2.
 
     Pipes on soil have coefficients of 0.2 to 1, seldom a little more. Above 2 the field usually holds a stiffness or a
-    mobilisation length: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which begin with the
-    stiffness. Correct the field.
+    mobilisation length: FRICTION= has another field order than *ELASTIC SURFACE, which begins with the stiffness.
+    Correct the field.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -73,16 +77,18 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 
 @rule(UNT004)
 def suspicious_density(context: LintContext) -> Iterator[Problem]:
-    """The density of the water or of a pipe wall looks as if it were in another unit.
+    """The density of the water or of a pipe wall seems to be in another unit.
 
-    Densities are in kg/m3 in metric decks and in slug/ft3 in imperial ones. Water has 900 to 2500 kg/m3, heavy brines
-    included; 0 and the density of air are accepted. 1.025 is t/m3, 64 is lb/ft3, and a density like a depth beside a
-    depth like a density means that the two were exchanged. A wall has 10 to 40 000 kg/m3, as foam is light and the
-    steel of a riser joint may carry the mass of all that is around it; 0 and powers of ten are accepted as
-    placeholders. More in a section with an area of its own is reported only where it is steel in another unit. A pipe
-    up to 2.5 m wide with the modulus of steel and without an area of its own has 7000 kg/m3 at least. In user units
-    whose *OCEAN does not tell them only the ratio is checked: steel is 7 to 8.4 times as heavy as water, and not 1000
-    times more or less than that.
+    Densities are in kg/m3 in metric decks and in slug/ft3 in imperial decks.
+
+    * Water has 900 to 2500 kg/m3, heavy brines included; 0 and the density of air are accepted. 1.025 is t/m3, and 64
+      is lb/ft3. If the density looks like a depth, and the depth like a density, the two were exchanged.
+    * A wall has 10 to 40 000 kg/m3, as foam is light, and the steel of a riser joint may carry the mass of all that is
+      around it. 0 and powers of ten are accepted as placeholders. In a section with its own area a larger density is
+      reported only if it is steel in another unit.
+    * A pipe up to 2.5 m wide with the modulus of steel and without its own area has at least 7000 kg/m3.
+    * In user units that *OCEAN does not reveal only the ratio is checked: steel is 7 to 8.4 times as heavy as water,
+      and not 1000 times more or less than that.
 
     Example on ocean:
         - 500.0, 1.025, 9.81
@@ -95,14 +101,19 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
 
 @rule(UNT005)
 def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
-    """Young's modulus or the shear modulus looks as if it were in another unit, or the two do not fit each other.
+    """Young's modulus or the shear modulus seems to be in another unit, or the two do not fit each other.
 
-    Moduli are in N/m2 in metric decks and in lbf/ft2 in imperial ones. Less than 1E5 N/m2 is softer than any rubber:
-    207 is GPa, 207000 is MPa; 0 and powers of ten are accepted as placeholders. A steel wall (7000 kg/m3 or more) is
-    also reported where its modulus is that of steel in kPa, psi, ksi or the unit of the other system. E and G of a
-    material give Poisson's ratio, E/2G - 1, from 0 to 0.5: in any units, it is reported when negative, as it is when
-    the two are exchanged, and when above 0.5 for metals (2600 kg/m3 and 60 GPa or more). Composites may have any. A
-    section gets one finding, and FLEXIBLE, MOORING and TRUSS sections, which have no modulus, none.
+    Moduli are in N/m2 in metric decks and in lbf/ft2 in imperial decks.
+
+    * Less than 1E5 N/m2 is softer than any rubber (207 is GPa, 207000 is MPa). 0 and powers of ten are accepted as
+      placeholders.
+    * A steel wall (7000 kg/m3 or more) is also reported if its modulus is that of steel in kPa, psi, ksi or the unit of
+      the other system.
+    * E and G of a material give Poisson's ratio, E/2G - 1, from 0 to 0.5, in any units. A negative ratio, which
+      exchanged moduli give, is reported. A ratio above 0.5 is reported for metals (2600 kg/m3 and 60 GPa or more).
+      Composites may have any ratio.
+
+    A section gets one finding at most. FLEXIBLE, MOORING and TRUSS sections have no modulus and get none.
 
     Example on pipe:
         - 207.0, 79.6, 0.3239, 0.2889, 7850.0
@@ -149,13 +160,13 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 
 @rule(UNT007)
 def unusual_value(context: LintContext) -> Iterator[Problem]:
-    """A value is far outside of what its field usually holds.
+    """A value is far outside the usual range of its field.
 
-    The keyword's page says of every field what is usual, with the reason: a source, or mechanics. A wave of 106 m, a
-    period of 1.4 s, a direction of 1800 degrees or a current of 13 m/s runs without a word, and its results look like
-    others. The value is mostly in another unit or column, or has lost its decimal point: the message proposes what
-    would explain it. Correct the value. Values are compared in SI: those of user units where *OCEAN tells which they
-    are, and all that have no dimension.
+    The keyword's page gives the usual range of every field with its reason: a source, or mechanics. A wave of 106 m, a
+    period of 1.4 s, a direction of 1800 degrees or a current of 13 m/s runs without a warning, and its results look
+    plausible. The value is mostly in another unit or column, or has lost its decimal point: the message proposes an
+    explanation. Correct the value. Values are compared in SI. In user units they are compared if *OCEAN reveals the
+    units, or if they have no dimension.
 
     Example on storm:
         - 3.0, 9.0, 1800.0
@@ -168,10 +179,10 @@ def unusual_value(context: LintContext) -> Iterator[Problem]:
 
 @rule(UNT008)
 def remarkable_value(context: LintContext) -> Iterator[Problem]:
-    """A value is seldom so large or so small.
+    """A value is unusually large or small, but not impossible.
 
-    Neither mechanics nor a source says that it is wrong, and it may well be meant: most decks have other values in this
-    field, as its keyword's page says. Look at its unit and its decimal point once, or leave it.
+    Neither mechanics nor a source says that it is wrong, and it may well be intended. Most decks have other values in
+    this field, as its keyword's page says. Check its unit and its decimal point once, or leave it.
 
     Example on storm:
           3.0, 9.0, 180.0
@@ -187,7 +198,7 @@ def remarkable_value(context: LintContext) -> Iterator[Problem]:
 
 @joint(UNT004, UNT005, UNT006)
 def water_in_another_mass(context: LintContext, found: Found) -> Iterator[Joined]:
-    """In user units, whose are known by the density of the water: what follows from a density in another unit."""
+    """Join findings to the density of the water that causes them: in user units it reveals the units of the deck."""
     text = context.text
     wrong = {code: problems for code, problems in found.items() if code.startswith("UNT")}
     if text is None or len(wrong) == 1 or not text.source.name.lower().endswith((".keyx", ".keyxu")):
@@ -209,7 +220,7 @@ def water_in_another_mass(context: LintContext, found: Found) -> Iterator[Joined
 
 @joint(*CODES.values(), UNT008)
 def lines_of_another_keyword(context: LintContext, found: Found) -> Iterator[Joined]:
-    """What is unusual beside a line that does not fit its keyword: the lines may belong to one that is missing."""
+    """Join unusual values to a nearby line that does not fit its keyword: the lines may belong to a missing keyword."""
     text = context.text
     if text is None:
         return

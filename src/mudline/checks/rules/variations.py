@@ -1,4 +1,4 @@
-"""Decks of variations: what keeps them from being expanded."""
+"""Decks of variations: faults that keep them from being expanded."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def cannot_expand(context: LintContext) -> Iterator[Problem]:
     """The decks that *VARIATION and *COMBINATIONS describe cannot be written.
 
     Parameters of one variation have different numbers of values, two decks would have one name, or a file cannot be
-    added: `mudline expand` refuses the deck. Misspelt names of parameters, variations and keywords have rules of their
-    own, and where one of these is found, or the deck has errors, nothing more is said here.
+    added: `mudline expand` refuses the deck. Misspelt names of parameters, variations and keywords have their own
+    rules. If one of them reports the deck, or the deck has errors, this rule reports nothing.
 
     Example:
          $PREPROCESSOR
@@ -45,7 +45,7 @@ def cannot_expand(context: LintContext) -> Iterator[Problem]:
 
     try:
         faults = plan_faults(context.deck)
-    except DeckError:  # said elsewhere
+    except DeckError:  # reported elsewhere
         return
     for problem in {problem.where: problem for problem in reversed(faults)}.values():  # the first of a place
         yield replace(problem, code=REF023, blocks=Blocks.NEVER)

@@ -1,4 +1,4 @@
-"""Elements that nothing supports vertically: no seabed law applies to them, or one without stiffness."""
+"""Elements without vertical support: no seabed law applies to them, or a law without stiffness."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """Nothing supports elements of the model vertically.
 
     Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
-    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed in the
-    deck's coordinates, and no law, or a stiffness of 0, applies to them; inner pipes of *PIP SECTION need none. A
-    static run may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
+    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed in the deck's
+    coordinates, and no law, or a stiffness of 0, applies to them. Inner pipes of *PIP SECTION need no law. A static run
+    may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
 
     Example on sets:
           GEN=3, 4
@@ -57,7 +57,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     if "SEABED CONTACT" in context.keywords:
         return  # it may hold the pipe
     if context.problems_of(SBD004):
-        return  # that there is no stiffness is reported there
+        return  # it reports that there is no stiffness
     yield from _zeros(context)
     free = scene.law == LawKind.NONE
     if not np.count_nonzero(free):
@@ -74,7 +74,7 @@ _LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORE
 
 
 def _stray_laws(context: LintContext) -> Iterator[Problem]:
-    """Lines of *SEABED PROPERTIES in blocks that are passed through: their keyword line is missing."""
+    """Yield lines of *SEABED PROPERTIES in blocks that are passed through: their keyword line is missing."""
     for number, section in enumerate(context.deck.sections):
         for index, block in enumerate(section.blocks):
             if type(block) is not Opaque or section.name not in (sections_of(block.keyword) or ()):
@@ -83,18 +83,18 @@ def _stray_laws(context: LintContext) -> Iterator[Problem]:
                 continue
             where = Where(number, index)
             head = context.text.head(where)
-            found = _LAW.search(context.text.source.text, head.end if head else 0)
+            match = _LAW.search(context.text.source.text, head.end if head else 0)
             message = (
                 f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
             )
-            place = Span(*found.span()) if found else head or Span(0, 0)
+            place = Span(*match.span()) if match else head or Span(0, 0)
             line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
-            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if found else None
+            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if match else None
             yield Problem(SBD006, message, place, repair=repair)
 
 
 def _zeros(context: LintContext) -> Iterator[Problem]:
-    """Stiffnesses of 0 of elements that lie at or below the seabed."""
+    """Yield stiffnesses of 0 of elements that lie at or below the seabed."""
     scene = context.scene
     grants = scene.laws.set_laws
     zero = [
@@ -112,13 +112,13 @@ def _zeros(context: LintContext) -> Iterator[Problem]:
 
 
 _SAME_PLACE = 3
-"""Decimals in which the coordinates of the pipes of a pipe in a pipe agree."""
+"""Number of decimals to which the coordinates of the pipes of a pipe in a pipe agree."""
 
 
 def _inner_pipes(scene: Scene, free: Mask) -> Mask:
-    """Those of the elements without a law (m,) that lie in another pipe, so that the seabed does not touch them.
+    """Return a mask (m,) of the elements without a law that lie in another pipe, out of reach of the seabed.
 
-    Where *PIP SECTION does not name them, but they are connected, their middles are those of elements with a law.
+    They are named by *PIP SECTION, or their middles coincide with those of elements with a law.
     """
     inside = in_another_pipe(scene)
     placed = (scene.element_nodes >= 0).all(axis=1)
@@ -129,7 +129,7 @@ def _inner_pipes(scene: Scene, free: Mask) -> Mask:
 
 
 def in_another_pipe(scene: Scene) -> Mask:
-    """The elements (m,) of the inner pipes that `*PIP SECTION` names."""
+    """Return a mask (m,) of the elements of the inner pipes that `*PIP SECTION` names."""
     inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in scene.deck.blocks("PIP SECTION"):
         for pipe in cast("PipSections", block).pipes:
@@ -139,19 +139,19 @@ def in_another_pipe(scene: Scene) -> Mask:
 
 
 def _middles(scene: Scene, elements: Indices) -> list[tuple[float, ...]]:
-    """The middles of some elements whose nodes are known, rounded."""
+    """Return the rounded middles of some elements whose nodes are known."""
     return list(map(tuple, scene.coordinates[scene.element_nodes[elements]].mean(axis=1).round(_SAME_PLACE).tolist()))
 
 
 def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
-    """Blocks without stiffness that hold for elements, unless a later one whose elements are not known may hold."""
+    """Yield blocks without stiffness that apply to elements, unless a later block of unknown elements may apply."""
     if not elements.size:
         return
     grants = scene.laws.set_laws
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
-    found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
-    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
+    groups = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
+    for index, first, count in zip(*(part.tolist() for part in groups), strict=True):
         where = grants[index].where
         if legacy_open or last_open > index or grants[index].unknown or max(scene.laws.gaps, default=Where()) >= where:
             continue
@@ -163,7 +163,7 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
 
 
 def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
-    """Elements at or below the seabed without any law; without any seabed in the deck only those below count."""
+    """Yield elements at or below the seabed without any law; if the deck has no seabed, only those below it."""
     if not elements.size:
         return
     scene = context.scene
@@ -177,27 +177,27 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
         where = f"{'at or below' if seabed else 'below'} the seabed{_level(scene)}"
         which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
         message = f"{which} {where} and no seabed law applies: give STIFFNESS= to a set of them"
-        sets = (one for one in scene.set_table.named.values() if one.where and lying[0] in one.elements)
-        bare = [one for one in sets if (scene.law[one.elements] == LawKind.NONE).all()]
-        given = context.written("SEABED PROPERTIES")
-        place = given[0][0] if bare and given else scene.table.numbered.where(int(lying[0]))
+        sets = (set_ for set_ in scene.set_table.named.values() if set_.where and lying[0] in set_.elements)
+        bare = [set_ for set_ in sets if (scene.law[set_.elements] == LawKind.NONE).all()]
+        properties = context.written("SEABED PROPERTIES")
+        place = properties[0][0] if bare and properties else scene.table.numbered.where(int(lying[0]))
         yield Problem(SBD006, message, where=place)
 
 
 def _level(scene: Scene) -> str:
-    """Where a flat seabed is, for a message."""
+    """Return the level of a flat seabed for a message, or ""."""
     return " (X = 0)" if scene.seabed.kind is SeabedKind.FLAT else ""
 
 
 def _depths(context: LintContext, elements: Indices) -> Floats:
-    """Mean depths of the two nodes below the seabed, at least; NaN where one is not known."""
+    """Return lower bounds of the mean depth of each element's two nodes below the seabed; NaN if one is not known."""
     scene = context.scene
-    found = np.full(len(elements), np.nan)
+    mean_depths = np.full(len(elements), np.nan)
     ends = scene.element_nodes[elements]
     known = (ends >= 0).all(axis=1)
     if scene.seabed.kind is SeabedKind.FLAT:
         below = 0.0 - scene.coordinates[ends[known], 0]
     else:
         below = context.once(depths)[ends[known]]
-    found[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
-    return found
+    mean_depths[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
+    return mean_depths

@@ -1,4 +1,4 @@
-"""Waves and currents against each other, the depth of the water and the time steps of the run."""
+"""Waves and currents compared with each other, the depth of the water and the time steps of the run."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ CUR001 = Code("CUR001", "current-ends-below-surface", Severity.WARNING)
 STEEPEST = 0.142
 """Height over length of the steepest regular wave in deep water (Michell 1893)."""
 STEPS = 20
-"""Time steps of a wave period, at least."""
+"""Number of time steps in a wave period, at least."""
 _OF_WAVE = ("amplitude", "height", "period")
-"""Fields of a wave by which time steps are judged."""
+"""Fields of a wave that the time step is compared with."""
 _ROUNDED = 1e-3
 """Share of the water depth by which a profile may miss the surface."""
 
 
 class _Wave(NamedTuple):
-    """A wave of one period: its height, and the place of the height."""
+    """Wave of one period: its height, and the place of the height."""
 
     height: float
     period: float
@@ -45,7 +45,7 @@ class _Wave(NamedTuple):
 
 
 def waves(context: LintContext) -> list[_Wave]:
-    """The regular waves of a load case whose height and period are known."""
+    """Return the regular waves of a load case whose height and period are known."""
     found = []
     for where, block in context.blocks("WAVE-REGULAR", "LOAD CASE"):
         for index, entry in enumerate(cast("RegularWaves", block).waves):
@@ -58,7 +58,7 @@ def waves(context: LintContext) -> list[_Wave]:
 
 
 def by_height(context: LintContext) -> Iterator[tuple[Where, Any]]:
-    """The waves of a load case that are blocks of their own, with a height and an Airy wave for vessels."""
+    """Return the waves that have their own keyword, with a height and an equivalent Airy wave for vessels."""
     return chain(context.blocks("WAVE-STOKES", "LOAD CASE"), context.blocks("WAVE-DEANS", "LOAD CASE"))
 
 
@@ -66,9 +66,9 @@ def by_height(context: LintContext) -> Iterator[tuple[Where, Any]]:
 def breaking_wave(context: LintContext) -> Iterator[Problem]:
     """A regular wave is steeper than a wave can be.
 
-    A wave whose height is more than 0.142 of its length in deep water, g T^2 / (2 pi), breaks before it is so high. In
-    shallow water it breaks at a lower height still. Height and period were exchanged, the height is given where the
-    amplitude belongs, or a unit is wrong. Correct the wave.
+    In deep water a wave breaks when its height is more than 0.142 of its length g T^2 / (2 pi). In shallow water it
+    breaks at a smaller height still. Height and period were exchanged, the height is given instead of the amplitude, or
+    a unit is wrong. Correct the wave.
 
     Example on storm:
         - 9.0, 6.0, 180.0
@@ -88,7 +88,7 @@ def breaking_wave(context: LintContext) -> Iterator[Problem]:
 
 
 def _gravity(context: LintContext) -> float:
-    """Gravity of the last *OCEAN, else of the unit system; NaN where neither tells it."""
+    """Return the gravity of the last *OCEAN, else of the unit system; NaN if neither gives it."""
     oceans = context.blocks("OCEAN")
     given = number(oceans[-1][1], "gravity") if oceans else math.nan
     if given > 0.0:
@@ -98,12 +98,12 @@ def _gravity(context: LintContext) -> float:
 
 @rule(TIM003)
 def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
-    """Loads grow in less than a wave period, or longer than the run lasts.
+    """The ramp of loads is shorter than a wave period, or longer than the run.
 
-    The ramp lets a run begin without a jolt; over less than the longest wave period the first wave comes at once, and
-    the motions that it excites spoil the start of the results. A ramp beyond the end of the run never lets the loads
-    reach their full size. Correct the ramp, the last value of the first line of *TIME. A ramp of 0 and runs that
-    continue another one are left out.
+    The ramp lets a run begin without a jolt. If it is shorter than the longest wave period, the first wave comes at
+    once, and the motions that it excites spoil the start of the results. With a ramp beyond the end of the run the
+    loads never reach their full size. Correct the ramp, the last value of the first line of *TIME. A ramp of 0 and runs
+    that continue another one are left out.
 
     Example on storm:
         - 0.0, 120.0, 0.05, 5.0
@@ -127,9 +127,9 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
 def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
     """The time step is more than a twentieth of the shortest wave period.
 
-    Between such steps the wave is no smooth curve any more: forces and motions at its crest are missed. Of a variable
-    step the largest one counts, of random seas no period is looked at. Shorten the step; whether it is short enough for
-    the seabed too is what `mudline study` measures.
+    With such steps the wave is no longer a smooth curve: forces and motions at its crest are missed. The largest of
+        variable steps counts; periods of random seas are not checked. Shorten the step. `mudline study` measures if it
+        is short enough for the seabed too.
 
     Example on storm:
         - 0.0, 120.0, 1.0, 24.0
@@ -149,7 +149,7 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
 
 @joint(TIM003, TIM004, WAV002)
 def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
-    """What only follows from a wave or a time step that is not usual itself."""
+    """Join findings to their cause: a wave or a time step that is itself unusual."""
     rest = [one for code in (WAV002, TIM003, TIM004) for one in found.get(code.code, ())]
     for cause in found.get(UNT007.code, ()):
         at = cause.where
@@ -170,7 +170,7 @@ def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
 
 
 def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
-    """The spans of time of a load case."""
+    """Yield the time spans of a load case."""
     for where, block in context.blocks("TIME", "LOAD CASE"):
         for name in ("fixed", "variable"):
             if (span := getattr(block, name)) is not None:
@@ -178,7 +178,7 @@ def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
 
 
 def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
-    """The time steps of a load case: fixed ones, and the largest of variable ones."""
+    """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
     for where, span in _spans(context):
         yield where.inside("increment"), number(span, "increment")
     for where, block in context.blocks("TIME", "LOAD CASE"):
@@ -191,8 +191,8 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
     """A current profile ends below the surface of the sea.
 
     Elevations count upward from X = 0 at the mudline, unless OPTION=DESCEND gives depths below the water line. A
-    profile that ends far below the surface was written from the surface down, or for another depth; the current is
-    mostly strongest where it lacks points. Give a point at the surface, or OPTION=DESCEND.
+    profile that ends far below the surface was written from the surface down, or for another depth. Its missing points
+    are mostly where the current is strongest. Give a point at the surface, or OPTION=DESCEND.
 
     Example on storm:
           3.0, 9.0, 180.0

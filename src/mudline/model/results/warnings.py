@@ -33,7 +33,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
-from mudline.model.scene.weights import Contents, attached, contents, left_out, operating_weight
+from mudline.model.scene.weights import PipeContents, attached, contents, left_out, operating_weight
 
 BALANCED = (1.0 / 3.0, 3.0)
 """Total reaction over submerged weight, beyond which positions are far from equilibrium."""
@@ -239,7 +239,7 @@ class ContactWatch:
             step, column = np.argwhere(gap == least)[0].tolist()
             self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
 
-    def _least_weight(self) -> tuple[Floats, Contents | None]:
+    def _least_weight(self) -> tuple[Floats, PipeContents | None]:
         """The least submerged weight per length (m,) over the load cases, and the first case in which one floats."""
         scene = self._scene
         gravity, masses = scene.surroundings.gravity, attached(scene).weighing

@@ -1,1 +1,1 @@
-"""A deck resolved: sets expanded, diameters, lengths and laws as arrays, and the deck line behind every index."""
+"""Resolved deck: sets expanded, diameters, lengths and laws as arrays, and the deck line behind every index."""

@@ -1,4 +1,4 @@
-"""The laws that few decks ask for: smoothing, nodal stiffness, unloading, suction, friction, trenches."""
+"""Assignments of laws that few decks use: smoothing, nodal stiffness, unloading, suction, friction, trenches."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SLOWEST = 1e-3
 
 
 def element_smoothing(scene: ResolvedDeck) -> LawAssignment:
-    """The elements with a linear law that have a quadratic zone (`SMOOTHING=` and `FORM=` of `*SEABED CONTACT`)."""
+    """Return the elements with a linear law and a quadratic zone (`SMOOTHING=` and `FORM=` of `*SEABED CONTACT`)."""
     extension = scene.extensions["SEABED CONTACT"]
     block = np.where(scene.law == LawKind.LINEAR, extension.of_element, -1)
     stiffness = scene.law_arrays().linear_stiffness
@@ -40,54 +40,54 @@ def element_smoothing(scene: ResolvedDeck) -> LawAssignment:
 
 
 def _half_width(extension: Extension, block: Indices, penetration: Floats, diameter: Floats) -> Floats:
-    """Half widths h of the points that follow each `block` (-1: none), from static penetrations Z and diameters D.
+    """Return half widths h at points that follow each `block` (-1: none), from static penetrations Z and diameters D.
 
-    The number that is given, else that of AUTO, without a diameter from Z alone; 0 for NONE.
+    It is the given number, or that of AUTO, which depends on Z alone if there is no diameter; 0 for NONE.
     """
     from mudline.model.contact.laws.linear import automatic_half_width  # noqa: PLC0415 - only now is it needed
 
     automatic = automatic_half_width(penetration, np.where(np.isnan(diameter), np.inf, diameter))
     automatic = np.where(np.isfinite(automatic), automatic, 0.0)
-    given = extension.values(block, "smoothing", default=0.0)
-    width: Floats = np.where(_is_auto(extension, block), automatic, given)
+    explicit = extension.values(block, "smoothing", default=0.0)
+    width: Floats = np.where(_is_auto(extension, block), automatic, explicit)
     return np.where(block >= 0, width, 0.0)
 
 
 def _is_auto(extension: Extension, block: Indices) -> Mask:
-    """Whether each block leaves the width to the static penetration; that is the default but beside DAMPING= alone."""
+    """Return a mask of blocks whose width follows from static penetration: the default, except with only DAMPING=."""
 
     def auto(entry: object) -> bool:
         names = ("form", "nodal_stiffness") if getattr(entry, "damping", None) is not None else ()
-        given: object = getattr(entry, "smoothing", None)
+        smoothing: object = getattr(entry, "smoothing", None)
         asked = not names or any(getattr(entry, name, None) is not None for name in names)
-        return given == "AUTO" or (given is None and asked)
+        return smoothing == "AUTO" or (smoothing is None and asked)
 
     return marked(map(auto, extension.entries), block)
 
 
 def damping(scene: ResolvedDeck) -> list[LawAssignment]:
-    """Damping of elements with a law per unit length, and of the nodes of those with a stiffness of their nodes."""
+    """Return the damping of elements with a law per unit length, and of nodes with nodal stiffness."""
     extension = scene.extensions["SEABED CONTACT"]
-    given = np.nan_to_num(extension.values(extension.of_element, "damping"))
-    rows = np.flatnonzero((given > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
+    values = np.nan_to_num(extension.values(extension.of_element, "damping"))
+    rows = np.flatnonzero((values > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
     length = np.where(scene.nodal & np.isfinite(scene.length), scene.length, 0.0)
-    of_nodes = summed(0.5 * given * length, scene.element_nodes, len(scene.node_ids))
+    of_nodes = summed(0.5 * values * length, scene.element_nodes, len(scene.node_ids))
     nodes = np.flatnonzero(of_nodes > 0.0)
     return [
-        LawAssignment("damping", rows, {"damping": given[rows]}),
+        LawAssignment("damping", rows, {"damping": values[rows]}),
         LawAssignment("nodal damping", nodes, {"damping": of_nodes[nodes]}),
     ]
 
 
 def weightless(scene: ResolvedDeck) -> int:
-    """How many elements leave the width to a weight that is not known or not above 0, and so are not smoothed."""
+    """Return the number of elements that are not smoothed because their submerged weight is unknown or not above 0."""
     extension = scene.extensions["SEABED CONTACT"]
     auto = _is_auto(extension, extension.of_element) & np.isin(scene.law, (LawKind.LINEAR, LawKind.NODAL))
     return int((auto & ~(scene.submerged_weight > 0.0)).sum())
 
 
 def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
-    """The springs of the nodes (`NODAL STIFFNESS=` of `*SEABED CONTACT`), with their quadratic zones."""
+    """Return the springs of the nodes (`NODAL STIFFNESS=` of `*SEABED CONTACT`), with their quadratic zones."""
     extension = scene.extensions["SEABED CONTACT"]
     block = _nodal_blocks(scene, extension)
     stiffness = nodal_stiffness(scene, extension)
@@ -100,20 +100,20 @@ def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
 
 
 def nodal_stiffness(scene: ResolvedDeck, extension: Extension) -> Floats:
-    """Kn of each node (n,), force per length; NaN for nodes of which no element has a nodal law."""
+    """Return Kn of each node (n,), force per length; NaN for nodes without an element with a nodal law."""
     return extension.values(_nodal_blocks(scene, extension), "nodal_stiffness")
 
 
 def _nodal_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
-    """The block that gives each node (n,) its stiffness: the last one that one of its nodal elements follows, or -1."""
+    """Return the block that gives each node (n,) its stiffness: the last one that its nodal elements follow, or -1."""
     of_element = np.where(scene.law == LawKind.NODAL, extension.of_element, -1)
     return at_nodes(of_element, scene.element_nodes, len(scene.node_ids))
 
 
 def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Floats]:
-    """Static penetrations W L_t / Kn of the nodes (n,), and the diameters that go with them.
+    """Return static penetrations W L_t / Kn of the nodes (n,), and their diameters (n,).
 
-    W L_t is half of the weight of each of a node's elements, its diameter the mean of theirs.
+    W L_t is half of the total weight of a node's elements. Its diameter is the mean of theirs.
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
     with np.errstate(all="ignore"):
@@ -121,7 +121,7 @@ def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Fl
 
 
 def _sizes(scene: ResolvedDeck) -> Floats:
-    """Mean diameters (n,) of the elements at the nodes; NaN where none is known."""
+    """Return mean diameters (n,) of the elements at the nodes; NaN if none is known."""
     ends, count, known = scene.element_nodes, len(scene.node_ids), ~np.isnan(scene.diameter)
     with np.errstate(all="ignore"):
         sizes = summed(np.where(known, scene.diameter, 0.0), ends, count)
@@ -129,7 +129,7 @@ def _sizes(scene: ResolvedDeck) -> Floats:
 
 
 def unloading_lines(scene: ResolvedDeck) -> LawAssignment:
-    """The elements on a curve or a linear law that unload on a line of their own (`*SEABED UNLOADING`)."""
+    """Return the elements on a curve or a linear law with their own unloading stiffness (`*SEABED UNLOADING`)."""
     extension = scene.extensions["SEABED UNLOADING"]
     rows = np.flatnonzero((extension.of_element >= 0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
     return LawAssignment("unloading", rows, {"stiffness": extension.values(extension.of_element[rows], "stiffness")})
@@ -149,34 +149,34 @@ SOIL_FIELDS = {
 
 
 def soils(scene: ResolvedDeck) -> LawAssignment:
-    """The hysteretic soil of the elements on an elastic seabed (`*SEABED SOIL`)."""
+    """Return the hysteretic soil of the elements on an elastic seabed (`*SEABED SOIL`)."""
     rows = np.flatnonzero(scene.law == LawKind.SOIL)
     return LawAssignment("soil", rows, soil_parameters(scene.extensions["SEABED SOIL"], rows))
 
 
 def soil_parameters(extension: Extension, elements: Indices) -> dict[str, Floats]:
-    """The parameters of some elements (k,) with a soil, by name."""
+    """Return the parameters of some elements (k,) with a soil, by name."""
     from mudline.model.contact.laws.soil import SOIL  # noqa: PLC0415 - only now is it needed
 
     block = extension.of_element[elements]
     default = {each.name: math.nan if each.default is None else each.default for each in SOIL.parameters}
-    found = {name: extension.values(block, *path) for name, path in SOIL_FIELDS.items()}
-    found = {name: np.where(np.isnan(values), default[name], values) for name, values in found.items()}
+    parameters = {name: extension.values(block, *path) for name, path in SOIL_FIELDS.items()}
+    parameters = {name: np.where(np.isnan(values), default[name], values) for name, values in parameters.items()}
     factor, weight = (extension.values(block, "buoyancy", name) for name in ("factor", "weight"))
-    return found | {"buoyancy": np.nan_to_num(factor * weight)}
+    return parameters | {"buoyancy": np.nan_to_num(factor * weight)}
 
 
 def element_suction(scene: ResolvedDeck) -> LawAssignment:
-    """The suction laws of the elements on an elastic seabed (`*SEABED SUCTION`)."""
+    """Return the suction laws of the elements on an elastic seabed (`*SEABED SUCTION`)."""
     extension = scene.extensions["SEABED SUCTION"]
     elements = np.flatnonzero((extension.of_element >= 0) & (scene.law != LawKind.RIGID))
     return LawAssignment("suction", elements, suction_law(scene, extension, elements)._asdict())
 
 
 def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) -> SuctionLaw:
-    """What the blocks that some elements (k,) follow say, in the deck's units; NaN for what they leave open.
+    """Return the suction law of the blocks that some elements (k,) follow, in the deck's units; NaN for missing values.
 
-    The power laws are the explicit ones, else those that follow from cohesion and diameter.
+    The power laws are the explicit ones, or else those that follow from cohesion and diameter.
     """
     from mudline.model.contact.laws.suction import SuctionFactors, SuctionLaw, from_cohesion  # noqa: PLC0415 - only now is it needed
 
@@ -185,8 +185,8 @@ def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) ->
     diameter = np.where(np.isnan(cohesion), np.nan, scene.diameter[elements])
     units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
     computed = from_cohesion(cohesion, diameter, *units)
-    given = [extension.values(block, law, name) for law in ("force", "depth") for name in ("factor", "exponent")]
-    factors = (np.where(np.isnan(own), other, own) for own, other in zip(given, computed, strict=True))
+    written = [extension.values(block, law, name) for law in ("force", "depth") for name in ("factor", "exponent")]
+    factors = (np.where(np.isnan(own), default, own) for own, default in zip(written, computed, strict=True))
     first, second = (extension.values(block, "cutoff", name) for name in ("first", "second"))
     slowest = _SLOWEST / LENGTH_UNIT.get(scene.units, math.nan)
     return SuctionLaw(
@@ -200,15 +200,15 @@ def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) ->
 
 
 def _cyclic(entry: object) -> tuple[float, float]:
-    """Factor and floor of CYCLIC=; the floor is NaN where there is none."""
-    given = cast("SuctionSet", entry).cyclic
-    return number(given, "factor", number(entry, "cyclic", 1.0)), number(given, "floor")
+    """Return factor and floor of CYCLIC=; the floor is NaN if it is not given."""
+    cyclic = cast("SuctionSet", entry).cyclic
+    return number(cyclic, "factor", number(entry, "cyclic", 1.0)), number(cyclic, "floor")
 
 
 def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
-    """The friction of the nodes that have any; that across the line up to the breakout, where they have one.
+    """Return the friction of the nodes that have any; the lateral one up to the breakout, if they have one.
 
-    Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
+    Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient. Nodes of a rigid seabed
     have no friction, as their normal reaction is that of a constraint.
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
@@ -238,7 +238,7 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
 
 
 def _refuse_endless_springs(scene: ResolvedDeck, rising: Floats, nodes: Indices) -> None:
-    """Raise DeckError for a node whose springs (k, 2) for each unit of its normal force are no finite numbers."""
+    """Raise DeckError if springs (k, 2) per unit of normal force at a node are not finite numbers."""
     endless = np.isinf(rising).any(axis=1)
     if endless.any():
         node = int(scene.node_ids[nodes[np.argmax(endless)]])
@@ -247,25 +247,25 @@ def _refuse_endless_springs(scene: ResolvedDeck, rising: Floats, nodes: Indices)
 
 
 def _of_properties(scene: ResolvedDeck) -> Floats:
-    """Coefficients, constant springs and mobilisation lengths (3, n, 2) by `FRICTION=`; NaN where there is none.
+    """Return coefficients, constant springs and mobilisation lengths (3, n, 2) of `FRICTION=`; NaN if not given.
 
-    The default length at a node is the least of its elements' lengths, up to a largest.
+    The default length at a node is the smallest of its elements' lengths, up to a maximum.
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
     block = at_nodes(scene.resistance.of_element, ends, count)
-    given = {
+    by_name = {
         name: np.array([*(getattr(entry, name) for entry in scene.resistance.values), (np.nan, np.nan)])[block]
         for name in ("friction", "mobilisation", "characteristic")
     }
-    largest = np.fmin(given["characteristic"], np.inf)
+    largest = np.fmin(by_name["characteristic"], np.inf)
     largest = np.where(np.isinf(largest), LARGEST_MOBILISATION.get(scene.units, np.inf), largest)
     default = np.fmin(_shortest(scene)[:, None], largest)
-    length = np.where(given["mobilisation"] > 0.0, given["mobilisation"], default)
-    return np.stack([given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
+    length = np.where(by_name["mobilisation"] > 0.0, by_name["mobilisation"], default)
+    return np.stack([by_name["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
 
 
 def _shortest(scene: ResolvedDeck) -> Floats:
-    """The least length of each node's elements; infinite where none is above 0."""
+    """Return the smallest length of each node's elements; infinite if none is above 0."""
     shortest = np.full(len(scene.node_ids), np.inf)
     usable = np.isfinite(scene.length) & (scene.length > 0.0)
     for end in scene.element_nodes[usable].T:
@@ -274,7 +274,7 @@ def _shortest(scene: ResolvedDeck) -> Floats:
 
 
 def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Floats:
-    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no length but that of a breakout."""
+    """Return the same as `_of_properties` for `*SEABED FRICTION`; it gives springs, and lengths only for a breakout."""
     coefficients, stiffness = (
         np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
         for part in ("coefficients", "stiffness")
@@ -288,21 +288,21 @@ def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Fl
 
 
 def breaks_out(entry: object) -> bool:
-    """Whether a block of `*SEABED FRICTION` gives a breakout."""
+    """Return True if a block of `*SEABED FRICTION` gives a breakout."""
     return getattr(entry, "lateral", None) in {"PEAK-RESIDUAL", "F114"}
 
 
 def softens(entry: object) -> bool:
-    """Whether a block of `*SEABED FRICTION` gives a breakout with less behind it."""
+    """Return True if a block of `*SEABED FRICTION` gives a breakout whose residual is below its peak."""
     from mudline.model.contact.laws.breakout import F114_RESIDUAL  # noqa: PLC0415 - only now
 
-    given = cast("FrictionSet", entry)
-    residual = F114_RESIDUAL[0] if given.lateral == "F114" else number(given.residual, "factor")
-    return breaks_out(given) and number(given.peak, "factor") > residual
+    friction = cast("FrictionSet", entry)
+    residual = F114_RESIDUAL[0] if friction.lateral == "F114" else number(friction.residual, "factor")
+    return breaks_out(friction) and number(friction.peak, "factor") > residual
 
 
 def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssignment]:
-    """The breakout of the nodes with friction that have one (`LATERAL=` of `*SEABED FRICTION`)."""
+    """Return the breakout of the nodes with friction that have one (`LATERAL=` of `*SEABED FRICTION`)."""
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is None or not any(map(breaks_out, extension.entries)):
         return []
@@ -312,30 +312,30 @@ def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssi
 
 
 def _friction_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
-    """The block of `*SEABED FRICTION` that each node (n,) follows, -1 for none."""
+    """Return the block of `*SEABED FRICTION` that each node (n,) follows, -1 for none."""
     return at_nodes(extension.of_element, scene.element_nodes, len(scene.node_ids))
 
 
 def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
-    """The parameters of the breakout of all nodes (n,); NaN where there is none."""
+    """Return the parameters of the breakout of all nodes (n,); NaN if there is none."""
     from mudline.model.contact.laws.breakout import F114_DISPLACEMENTS, F114_RESIDUAL  # noqa: PLC0415 - only now
 
     extension = scene.extensions["SEABED FRICTION"]
     block = _friction_blocks(scene, extension)
     published = extension.says(block, "lateral", "F114")
     peak, residual, size = extension.values(block, "peak", "factor"), F114_RESIDUAL, _sizes(scene)
-    given: dict[str, tuple[Floats | float, Floats]] = {
+    parameters: dict[str, tuple[Floats | float, Floats]] = {
         "peak_displacement": (extension.values(block, "peak", "displacement"), F114_DISPLACEMENTS[0] * size),
         "peak_growth": (0.0, F114_DISPLACEMENTS[1] * size),
         "residual": (extension.values(block, "residual", "factor") / peak, residual[0] / peak),
         "residual_growth": (0.0, residual[1] / peak),
         "residual_displacement": (extension.values(block, "residual", "displacement"), F114_DISPLACEMENTS[2] * size),
     }
-    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in given.items()}
+    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in parameters.items()}
 
 
 def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
-    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls; and where these lower it."""
+    """Return the elements in trenches by law: peak, tabulated resistance, sloped walls; and lowered levels."""
     extension = scene.extensions["SEABED TRENCH"]
     entries = _trench_sets(scene)
     if not (extension.of_element >= 0).any():
@@ -343,7 +343,7 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
     walls, lower = (np.array([getattr(entry, name) == text for entry in entries]) for name, text in _KINDS_OF_TRENCH)
     tabulated = np.array([_has_table(entry) for entry in entries])
     table = np.cumsum(tabulated) - 1.0
-    found = []
+    laws = []
     for law, blocks, name in (
         ("trench peak", ~walls & ~tabulated, "peak"),
         ("trench table", tabulated, "table"),
@@ -359,15 +359,15 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
             name: table[block] if name == "table" else extension.values(block, *path),
             **{ours: extension.values(block, "centreline", theirs) for ours, theirs in _LINE},
         }
-        found.append(LawAssignment(law, rows, parameters))
-    return found
+        laws.append(LawAssignment(law, rows, parameters))
+    return laws
 
 
 _KINDS_OF_TRENCH = (("model", "WALL"), ("level", "LOWERED"))
 
 
 def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
-    """The tables (k, 3) of the blocks that have one, in their order."""
+    """Return the tables (k, 3) of the blocks that have one, in their order."""
     from mudline.model.contact.laws.trench import rounded  # noqa: PLC0415 - only now is it needed
 
     entries = [entry for entry in _trench_sets(scene) if _has_table(entry)]
@@ -375,19 +375,19 @@ def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
 
 
 def resistance_diagram(entry: TrenchSet) -> Floats:
-    """The corners (k, 2) of the resistance over the distance from the centreline."""
+    """Return the corners (k, 2) of the resistance over the distance from the centreline."""
     from mudline.model.contact.laws.trench import diagram  # noqa: PLC0415 - only now is it needed
 
     if entry.peak == "TABLE" and entry.table is not None:
         return entry.table.values
     inner, outer = (0.5 * number(entry.geometry, name) for name in ("bottom_width", "upper_width"))
-    held, given = entry.residual, entry.residual is not None
-    residual = (number(held, "resistance"), number(held, "displacement")) if given else None
+    held, has_residual = entry.residual, entry.residual is not None
+    residual = (number(held, "resistance"), number(held, "displacement")) if has_residual else None
     return diagram(inner, outer, number(entry, "peak"), residual)
 
 
 def _has_table(entry: TrenchSet) -> bool:
-    """Whether its resistance is no plain peak, and none of walls."""
+    """Return True if the resistance of a trench needs a table: neither a plain peak nor sloped walls."""
     rounds = entry.residual is not None or number(entry, "smoothing", 0.0) > 0.0
     return entry.model != "WALL" and (entry.peak == "TABLE" or rounds)
 

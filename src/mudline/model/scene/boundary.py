@@ -1,4 +1,4 @@
-"""Nodes that `*BOUNDARY` holds, and in which degrees of freedom; vessels that move them, and their offsets."""
+"""Nodes that `*BOUNDARY` holds, and their held degrees of freedom; vessels that move nodes, and their offsets."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 TRANSLATIONS = frozenset({1, 2, 3})
 
 
-def conditions(scene: Scene, given: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
-    """Nodes, degrees of freedom and displacement of each line; a line of a vessel without a freedom holds all."""
-    for start, end, step, freedom, value in _ranges(given):
+def conditions(scene: Scene, block_type: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
+    """Yield nodes, degrees of freedom and displacement of each line; a vessel's line without a freedom holds all."""
+    for start, end, step, freedom, value in _ranges(block_type):
         nodes = scene.nodes.between(start, end, step)
         if nodes.size:
             yield nodes, TRANSLATIONS if freedom is None else frozenset({freedom}), value
 
 
-def _ranges(given: BoundaryType) -> Iterator[tuple[int, int, int, int | None, float]]:
-    for entry in given.entries:
+def _ranges(block_type: BoundaryType) -> Iterator[tuple[int, int, int, int | None, float]]:
+    for entry in block_type.entries:
         if hasattr(entry, "generate"):
             values = entry.generate
             at, step = freedom_and_step(values)
@@ -46,7 +46,7 @@ def _ranges(given: BoundaryType) -> Iterator[tuple[int, int, int, int | None, fl
                 yield start, end, max(1, step), freedom, number(values, "fifth", 0.0)
         elif isinstance(entry.node, int) and isinstance(entry.dof, int | float):
             yield entry.node, entry.node, 1, int(entry.dof), number(entry, "value", 0.0)
-    for line in given.unread:
+    for line in block_type.unread:
         words = [read_number(word.strip()) for word in line.text.split(",")]
         whole = [int(word) for word in words if word is not None and abs(word) <= LARGEST_WHOLE]
         if words[0] is not None and whole:
@@ -56,7 +56,7 @@ def _ranges(given: BoundaryType) -> Iterator[tuple[int, int, int, int | None, fl
 def held_nodes(scene: Scene) -> tuple[dict[int, frozenset[int]], dict[int, str]]:
     """Return the degrees of freedom in which `*BOUNDARY` holds nodes, by index, and the vessels that move nodes.
 
-    Those of the decks that are continued count too: a restart keeps what it does not change.
+    Continued decks count too: a restart keeps what it does not change.
     """
     freedoms: dict[int, frozenset[int]] = {}
     vessels: dict[int, str] = {}
@@ -80,7 +80,7 @@ def held_nodes(scene: Scene) -> tuple[dict[int, frozenset[int]], dict[int, str]]
 
 
 def _vessel_of_line(scene: Scene, text: str, current: str, vessels: dict[int, str]) -> str:
-    """Note the vessel of a node that a line names, `node, vessel` or below VESSEL=; returns the vessel that goes on."""
+    """Add the vessel of a node that a line names, `node, vessel` or below VESSEL=; return the current vessel."""
     key, equals, name = text.partition("=")
     if equals and key.strip().upper() == "VESSEL":
         return name.strip()
@@ -96,18 +96,22 @@ def _vessel_of_line(scene: Scene, text: str, current: str, vessels: dict[int, st
 
 def vessel_offset(scene: Scene, vessel: str) -> Floats:
     """Return the offset (3,) of a vessel in the deck's own load case; 0 without one."""
-    found = np.zeros(3)
+    offset = np.zeros(3)
     for _, block in scene.deck.blocks("OFFSET", "LOAD CASE"):
         for each in cast("Offsets", block).offsets:
             if vessel and folded(str(each.vessel)) == folded(vessel):
-                found = np.array([number(each.offset, axis, 0.0) for axis in "xyz"])
-    return found
+                offset = np.array([number(each.offset, axis, 0.0) for axis in "xyz"])
+    return offset
 
 
 class HeldLine(NamedTuple):
-    """A line between two ends: indices of its elements (m,) and nodes (m + 1,), freedoms held and vessel of each end.
+    """Line between two ends.
 
-    number: in the deck, from 1. A vessel without a name is "".
+    number: its number in the deck, from 1.
+    elements: indices of its elements (m,).
+    nodes: indices of its nodes (m + 1,).
+    held: freedoms held at each end.
+    vessels: vessel of each end; "" for a vessel without a name.
     """
 
     number: int

@@ -1,6 +1,6 @@
-"""What a scene hands to the evaluator: laws, seabed, and what is left out and why.
+"""Input of the evaluator from a scene: laws, seabed, and what is left out and why.
 
-Modules of what few decks ask for are imported when a deck does.
+Modules that few decks need are imported on demand.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _REFUSED = "; this cannot be evaluated"
 
 
 def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
-    """The arrays that the evaluator is made from; raises DeckError (RUN001) for what no check covers."""
+    """Return the arrays that the evaluator is made from; raises DeckError (RUN001) for faults that no check covers."""
     if problems := list(_refusals(scene)):
         raise DeckError(scene.deck.diagnose(problems))
     arrays = scene.law_arrays()
@@ -62,7 +62,7 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
 
 
 def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
-    """What no check covers: a problem for each kind, at the first element concerned."""
+    """Yield a problem for each kind of fault that no check covers, at the first element concerned."""
     springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
     unknown = scene.element_nodes.min(axis=1, initial=0) < 0
     yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
@@ -78,7 +78,7 @@ def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[
 
 
 def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
-    """Curves, linear laws, and those of extension keywords: nodal laws, damping, soils, unloading."""
+    """Return curves, linear laws, and laws of extension keywords: nodal laws, damping, soils, unloading."""
     (on_curve,), (linear,) = (np.nonzero(scene.law == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
     laws = [
         LawAssignment("rigid", np.flatnonzero(scene.law == LawKind.RIGID)),
@@ -102,7 +102,7 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
 
 
 def _laws_beside(scene: ResolvedDeck) -> list[LawAssignment]:
-    """Suction, lateral springs, friction, trenches."""
+    """Return suction, lateral springs, friction, trenches."""
     laws = []
     if _given(scene, "suction"):
         stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
@@ -128,7 +128,7 @@ def _laws_beside(scene: ResolvedDeck) -> list[LawAssignment]:
 
 
 def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
-    """The friction of the nodes; None where nothing gives any."""
+    """Return the friction of the nodes; None if nothing gives any."""
     if "SEABED FRICTION" not in scene.extensions and not _given(scene, "friction"):
         return None
     from mudline.model.scene.assignments import node_friction  # noqa: PLC0415 - only now is it needed
@@ -137,20 +137,20 @@ def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
 
 
 def _lateral(scene: ResolvedDeck) -> Indices:
-    """Elements with a lateral spring."""
+    """Return the elements with a lateral spring."""
     return np.flatnonzero((scene.resistance.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
 
 
 def _given(scene: ResolvedDeck, name: str) -> bool:
-    """Whether some block of the seabed gives a value above 0."""
+    """Return True if a block of the seabed gives a value above 0."""
     return any(np.greater(getattr(values, name), 0.0).any() for values in scene.resistance.values)
 
 
 def _seabed(scene: ResolvedDeck) -> Seabed | None:
-    """The shape of the seabed; None for a flat one at elevation 0.
+    """Return the shape of the seabed; None for a flat one at elevation 0.
 
-    Raises DeckError for what no check covers: files of a deck that came from no folder, points that only their
-    triangulation refuses, and a package that is missing.
+    Raises DeckError for faults that no check covers: files of a deck without a folder, points that only their
+        triangulation refuses, and a missing package.
     """
     seabed = scene.seabed
     if seabed.kind is SeabedKind.FLAT:
@@ -167,7 +167,7 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
 
 
 def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
-    """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
+    """Return by stage of the plan the requests that are not evaluated, or not as written; nothing for other stages."""
     reasons: dict[str, str] = {}
     for stage, why in _reasons(scene, laws):
         reasons[stage] = f"{reasons[stage]}; {why}" if stage in reasons else why
@@ -175,7 +175,7 @@ def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
 
 
 def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Stage and reason of each thing that is left out."""
+    """Yield stage and reason of each request that is left out."""
 
     def where_given(name: str) -> Mask:
         return scene.resistance.column(name) > 0.0

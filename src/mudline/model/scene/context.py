@@ -1,4 +1,4 @@
-"""What resolving a deck needs at every step: the evaluated deck, and the list of what went wrong."""
+"""Shared state of resolving a deck: the evaluated deck, and the list of problems."""
 
 from __future__ import annotations
 
@@ -38,15 +38,15 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 MOST_NAMED = 3
-"""Names of which each may be the one that was meant."""
+"""Number of names listed in a message, each of which may be the one that was meant."""
 
 _NUMBERED = {"NODE": "node", "ELEMENT": "element"}
-"""Keywords of what has numbers."""
+"""Keywords whose objects have numbers."""
 
 
 @dataclass(slots=True, eq=False)
 class _Uses:
-    """How often a deck uses things of a kind that it does not show, number and place of the first, what that blocks."""
+    """Uses of objects of a kind that the deck does not show: code, number and place of the first, count, and effect."""
 
     code: Code
     first: int | None
@@ -57,11 +57,11 @@ class _Uses:
 
 @dataclass(repr=False, eq=False)
 class Context:
-    """The evaluated deck, the deck as written, and what was noticed.
+    """Evaluated deck, deck as written, and the problems found while resolving it.
 
-    `unread` holds keywords of which something that defines nodes, elements, sets or curves could not be used;
-    `doubtful` the first and last number of what a GEN= with a fault may have been meant to define. `excused` holds, by
-    the place of a number of a node or an element that could not be read, those that it may be and that nothing defines.
+    unread: keywords with a part that could not be used and defines nodes, elements, sets or curves.
+    doubtful: first and last number that a faulty GEN= may have been meant to define, by keyword.
+    excused: undefined numbers that an unreadable number of a node or an element may be, by its place.
     """
 
     deck: EvaluatedDeck
@@ -77,7 +77,7 @@ class Context:
     _effort: Effort = field(default_factory=Effort)
     _made: dict[Callable[[Context], Any], Any] = field(default_factory=dict)
     _sound: range = range(0)
-    """Sections of which every line could be used: all of its own, in a deck without problems."""
+    """Sections of which every line could be used: all own sections, in a deck without problems."""
 
     __repr__ = short_repr
 
@@ -88,33 +88,33 @@ class Context:
                 self.unread.add(block.keyword)
 
     def once(self, make: Callable[[Context], T]) -> T:
-        """What a function makes of this deck, made once for all that ask."""
+        """Return the result of a function of this deck, computed once for all callers."""
         if make not in self._made:
             self._made[make] = make(self)
         found: T = self._made[make]
         return found
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """What `Deck.blocks` gives for the evaluated deck, found once for all."""
+        """Return the same as `Deck.blocks` for the evaluated deck, computed once for all callers."""
         return self.placed.get((section, keyword), ())
 
     @cached_property
     def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        """The blocks of every section and keyword."""
+        """Blocks of every section and keyword."""
         return placed_blocks(self.deck)
 
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
-        """The rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one holds."""
-        found = self.deck.blocks_with("seabed_type")
-        return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
+        """Rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one is used."""
+        surfaces = self.deck.blocks_with("seabed_type")
+        return sorted(surfaces, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
-        """Note a problem."""
+        """Add a problem."""
         self.note(Problem(code, message, None, severity, where))
 
     def note(self, problem: Problem) -> None:
-        """Note a problem, if there are not very many of its code already."""
+        """Add a problem, unless there are very many of its code already."""
         code = problem.code.code
         count = self._reported[code] = self._reported.get(code, 0) + 1
         if count <= MOST_REPORTED:
@@ -132,10 +132,10 @@ class Context:
         *,
         blocks: Blocks | None = None,
     ) -> None:
-        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end.
+        """Add a name or number that is not defined; nodes and elements out of sight are added together at the end.
 
-        `lacks` is what is missing, None where it is not one thing. A number that one edit of another one gives, which
-        could not be read, is not missing.
+        `lacks` is the missing object, None if it is not a single one. A number is not missing if an unreadable number
+        becomes equal to it by one edit.
         """
         if isinstance(lacks, int) and self._is_excused(keyword, lacks):
             return
@@ -148,7 +148,7 @@ class Context:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
     def report_label(self, code: Code, label: str, where: Where, keyword: str, blocks: Blocks | None = None) -> None:
-        """Note a label of a node or an element, unless lines that are not read may make it."""
+        """Add a label of a node or an element that is not defined, unless unread lines may define it."""
         if self.external_definers or not all_labels_read(self.written):
             return
         thing = _NUMBERED[keyword]
@@ -160,7 +160,7 @@ class Context:
         self.report_missing(code, message, where, "LABEL", blocks=blocks)
 
     def misread(self, keyword: str, where: Where) -> None:
-        """Note the place of a number of a node or an element that could not be read."""
+        """Remember the place of an unreadable number of a node or an element."""
         origin = self.deck.origin if where.section < len(self.deck.own_sections) else None
         span = origin.span(where) if isinstance(origin, TextOrigin) else None
         written = origin.source.unified[slice(*span)] if isinstance(origin, TextOrigin) and span else ""
@@ -170,14 +170,14 @@ class Context:
             self._misread.setdefault(keyword, []).append((where, written))
 
     def _is_excused(self, keyword: str, number: int) -> bool:
-        """Whether a number that is not defined may be one that could not be read."""
-        found = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
-        for where in found:
+        """Return True if an undefined number may be one that could not be read."""
+        places = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
+        for where in places:
             self.excused.setdefault(where, set()).add(number)
-        return bool(found)
+        return bool(places)
 
     def report_out_of_sight(self) -> None:
-        """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
+        """Add, once for each unread keyword, how often the deck uses objects that it may define."""
         for (definer, keyword), use in self._out_of_sight.items():
             thing = _NUMBERED[keyword]
             first = "" if use.first is None else f" (first: {thing} {use.first})"
@@ -189,17 +189,17 @@ class Context:
             self.note(Problem(use.code, message, None, Severity.INFO, where, None, use.blocks))
 
     def _own_block(self, keyword: str) -> Where | None:
-        """The first block of a keyword in the model of the deck itself."""
+        """Return the first block of a keyword in the model of the deck itself."""
         blocks = self.written.alone.every_block()
         return next((where for where, name, block in blocks if (name, block.keyword) == ("MODEL", keyword)), None)
 
     def _definer(self, keyword: str, number: int | None) -> str:
-        """The keyword whose lines are not read and may define a thing with a number, None for any, or ""."""
-        unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
+        """Return the unread keyword whose lines may define an object with a number, None for any, or ""."""
+        unread = (name for name in self.external_definers if not (is_read_definer(name) or makes_labels(name)))
         return next((definer for definer in unread if self._definition_by(definer, keyword, number)), "")
 
     def _definition_by(self, definer: str, keyword: str, number: int | None) -> str:
-        """How a definer may define a thing, in words; "" when it cannot, or has other numbers."""
+        """Return in words how a definer may define an object; "" if it cannot, or has other numbers."""
         words = definition_by(definer, keyword)
         known = words and number is not None and catalogue.facts_of(definer).out_of_sight
         placed = self._on_cables if known else None
@@ -210,7 +210,7 @@ class Context:
         return nodes_on_cables(self.deck)
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, lacks: int | str | None = None) -> Problem:
-        """A name or number that nothing defines: an error, or a warning where something unread could define it."""
+        """Return the problem of an undefined name or number: a warning if something unread could define it."""
         name = "" if lacks is None else str(lacks)
         if source := self.possible_definition(keyword, lacks if isinstance(lacks, int) else None):
             cause = keyword if source == self._misplaced_definition(keyword) else ""
@@ -219,7 +219,7 @@ class Context:
         return Problem(code, message, where=where, lacks=name)
 
     def possible_definition(self, keyword: str, number: int | None = None) -> str:
-        """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
+        """Return in words what could define a missing object of a keyword, or ""; `number` None stands for any."""
         if keyword == "ELEMENT SETS" and (lost := catalogue.in_order(filter(is_read_definer, self.unread))):
             return f"a line of *{lost[0]} that could not be used may define it"
         definitions = (self._definition_by(definer, keyword, number) for definer in self.external_definers)
@@ -237,42 +237,42 @@ class Context:
         return f"{self.misplaced[keyword][0]} may define it" if keyword in self.misplaced else ""
 
     def hint(self, word: str, names: Mapping[str, str]) -> str:
-        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded.
+        """Return ` (did you mean X?)` for the names spelt nearly as `word`, or ""; the keys of `names` are folded.
 
-        Names that are equally near are all among them.
+        If several names are equally close, all of them are named.
         """
         near = equally_near(folded(word), names, self._effort)
         return hint(" or ".join(names[each] for each in near[:MOST_NAMED]), word)
 
     def near(self, word: str, known: Collection[str]) -> str:
-        """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
+        """Return the name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
         return nearest(folded(word), known, self._effort)
 
-    def generator(self, given: ListRow) -> tuple[int, int, int] | None:
-        """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
-        values = [getattr(given, name) for name in type(given).model_fields]
+    def generator(self, row: ListRow) -> tuple[int, int, int] | None:
+        """Return the three values of a GEN=, the last one 1 unless given; None if one of them is not known."""
+        values = [getattr(row, name) for name in type(row).model_fields]
         if values[2] is None:
             values[2] = 1
         usable = all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in values)
         return (values[0], values[1], values[2]) if usable else None
 
     def as_written(self, where: Where) -> object:
-        """A part of the deck before its equations were evaluated."""
-        found: Any = self.written.sections[where.section].blocks[where.block]
+        """Return a part of the deck before its equations were evaluated."""
+        part: Any = self.written.sections[where.section].blocks[where.block]
         for step in where.path:
-            found = found[step] if isinstance(step, int) else getattr(found, step)
-        return cast("object", found)
+            part = part[step] if isinstance(step, int) else getattr(part, step)
+        return cast("object", part)
 
     def is_guessed_label(self, where: Where) -> bool:
-        """Whether the label at this place was guessed from a word without braces, which is reported."""
+        """Return True if the label at this place was guessed from a word without braces, which is reported."""
         return self._position(Problem(SYN016, "", where=where)) in self._guessed_labels
 
     def cannot_place(self, where: Where) -> None:
-        """Note that an element ends at the label at this place, and that no node with that label is known."""
+        """Remember that an element ends at the label at this place, and that no node with that label is known."""
         self._placeless.add(self._position(Problem(SYN016, "", where=where)))
 
     def of_deck(self) -> list[Problem]:
-        """What reading the deck noticed; guessed labels that elements end at are errors."""
+        """Return the problems of reading the deck; guessed labels that elements end at are errors."""
         if not self._placeless:
             return self.deck.problems
         return [
@@ -283,7 +283,7 @@ class Context:
         ]
 
     def _position(self, problem: Problem) -> tuple[int, int]:
-        """Line and column of a problem."""
+        """Return line and column of a problem."""
         place = self.deck.place(problem)
         return place.line, place.column
 
@@ -294,7 +294,7 @@ class Context:
 
     @cached_property
     def restart(self) -> bool:
-        """Whether the deck continues another one that is not known."""
+        """True if the deck continues another one that is not known."""
         return self.deck.incomplete if self.deck.bases else "RESTART" in self.deck.keywords("LOAD CASE")
 
     @cached_property
@@ -303,21 +303,21 @@ class Context:
 
     @cached_property
     def misplaced(self) -> dict[str, tuple[str, Where]]:
-        """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt.
+        """Keywords that are not read at their place: outside any section, in a wrong section, or misspelt.
 
-        Each with the first of its places, and that in words.
+        Each has the first of its places, and that place in words.
         """
         outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
-        found = {name: (f"the *{name} before the first section", Where()) for name in outside}
+        keywords = {name: (f"the *{name} before the first section", Where()) for name in outside}
         places: dict[tuple[str, str], Where] = {}
         for where, section, block in self.deck.every_block():
             if isinstance(block, Opaque):
                 places.setdefault((section, block.keyword), where)
         effort = Effort()
         for (name, keyword), where in places.items():
-            for meant, words in self._meant(name, keyword, effort):
-                found.setdefault(meant, (words, where))
-        return found
+            for likely, words in self._meant(name, keyword, effort):
+                keywords.setdefault(likely, (words, where))
+        return keywords
 
     def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
@@ -334,15 +334,15 @@ class Context:
 
     @cached_property
     def labels(self) -> dict[str, str]:
-        """What may be labels of nodes that lines make, and those of `*LABEL`, by their folded form."""
+        """Possible labels of nodes that lines make, and those of `*LABEL`, by their folded form."""
         return opaque_labels(self.deck) | labels_given(self.written, Names.NODE)
 
 
 def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-    """What `Deck.blocks` gives for every section and keyword."""
-    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+    """Return the same as `Deck.blocks` for every section and keyword."""
+    blocks: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
     own = len(deck.own_sections)
-    for where, section, block in sorted(deck.every_block(), key=lambda one: one[0].section < own):
+    for where, section, block in sorted(deck.every_block(), key=lambda placed: placed[0].section < own):
         if type(block) is not Opaque:  # isinstance of a model takes several times as long
-            found.setdefault((section, block.keyword), []).append((where, block))
-    return found
+            blocks.setdefault((section, block.keyword), []).append((where, block))
+    return blocks

@@ -22,14 +22,14 @@ from mudline.language.syntax.rows import read_number, read_rows
 from mudline.model.scene.numbering import Floats, Ids
 
 SEPARATORS = (",", ";", "\t")
-"""Between the fields of a file that another program wrote."""
+"""Separators of fields in a file that another program wrote."""
 
 _UNUSED = "\0"
-"""Begins the name of a column that nothing asks for."""
+"""Beginning of the name of a column that is not needed."""
 
 
 class CsvTable(NamedTuple):
-    """The columns of a file by name, each a list of texts, and the line of each row; `text` is the whole file."""
+    """Columns of a file by name, each a list of texts, and the line of each row; `text` is the whole file."""
 
     file: str
     columns: dict[str, list[str]]
@@ -38,7 +38,7 @@ class CsvTable(NamedTuple):
     separator: str = ","
 
     def numbers(self, name: str, *, optional: bool = False) -> Floats:
-        """A column as finite numbers; an empty field of an optional column is NaN. Raises DeckError with the line."""
+        """Return a column as finite numbers; an empty field of an optional column is NaN. Raises DeckError."""
         values = np.empty(len(self.lines))
         for row, text in enumerate(self.columns[name]):
             value = np.nan if optional and not text else read_number(text)
@@ -48,19 +48,19 @@ class CsvTable(NamedTuple):
         return values
 
     def whole(self, name: str) -> Ids:
-        """A column as whole numbers; raises DeckError with line and column of one that is none."""
+        """Return a column as whole numbers; raises DeckError with line and column for any other value."""
         values = self.numbers(name)
         if (row := _first_broken(values)) is not None:
             raise self.fault(row, name, _not_whole(name, values[row]))
         return values.astype(np.int64)
 
     def fault(self, row: int, name: str, message: str) -> DeckError:
-        """A fault in a field: its line, and where in the line the field begins."""
+        """Return the error of a field, with its line and column."""
         line = self.lines[row]
         return data_error(self.file, message, line, self._column(line, list(self.columns).index(name)))
 
     def _column(self, line: int, field: int) -> int:
-        """Where a field of a line begins; 1 where quotation marks hide it."""
+        """Return the column at which a field of a line begins; 1 if quotation marks hide it."""
         written = next(islice(io.StringIO(self.text, newline=""), line - 1, None))  # lines as the reader counts them
         parts = written.rstrip("\r\n").split(self.separator)
         if len(parts) != len(self.columns):
@@ -78,19 +78,19 @@ class NumericTable(NamedTuple):
 
 
 def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckError:
-    """A fault of a data file."""
+    """Return the error of a data file."""
     return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, column, line, column)])
 
 
 def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | None = None) -> Ids:
-    """A column as whole numbers; raises DeckError for one that is none or larger than a double counts exactly."""
+    """Return a column as whole numbers; raises DeckError for other values, and for numbers above 2^53."""
     if (row := _first_broken(column)) is not None:
         raise data_error(file, _not_whole(name, column[row]), 1 if lines is None else lines[row])
     return column.astype(np.int64)
 
 
 def _first_broken(column: Floats) -> int | None:
-    """The first row that is not a whole number, or one larger than a double counts exactly."""
+    """Return the first row that is not a whole number, or above 2^53."""
     with np.errstate(invalid="ignore"):
         good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
     return None if good.all() else int(np.argmin(good))
@@ -101,9 +101,9 @@ def _not_whole(name: str, value: float) -> str:
 
 
 def read_csv(path: Path, needed: Sequence[str], known: Sequence[str], *, others: bool = False) -> CsvTable:
-    """A whole file as text columns; rows that are empty are left out. Raises OSError, DeckError.
+    """Return a whole file as text columns; empty rows are left out. Raises OSError, DeckError.
 
-    With `others` the file may have columns of other names, which are read past.
+    With `others` the file may have columns of other names, which are ignored.
     """
     file, text = path.as_posix(), _read_text(path)
     return _texts(file, text, _header(file, text, needed, known if not others else None))
@@ -112,23 +112,23 @@ def read_csv(path: Path, needed: Sequence[str], known: Sequence[str], *, others:
 def read_numeric_csv(
     path: Path, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str] | None = None
 ) -> NumericTable:
-    """A file of numbers, in a fast way where all of them are spelled plainly. Raises OSError, DeckError.
+    """Return a file of numbers, read quickly if all of them have a plain form. Raises OSError, DeckError.
 
     `headings` gives columns the headings that another program wrote, in upper or lower case. Such a file may be
-    separated by semicolons or tabs, and have more columns, which are read past.
+    separated by semicolons or tabs, and have more columns, which are ignored.
     """
     file, text = path.as_posix(), _read_text(path)
     separator, names = (
         _exported(file, text, needed, known, headings) if headings else (",", _header(file, text, needed, known))
     )
-    wanted = [name for name in names if not name.startswith(_UNUSED)]
+    used = [name for name in names if not name.startswith(_UNUSED)]
     start = text.find("\n") + 1
     rows = read_rows(text, Span(start, len(text)), len(names)) if start and separator == "," else None
     if rows is not None and not rows.words and len(rows.lengths) and (rows.lengths == len(names)).all():
-        columns = {name: rows.values[:, names.index(name)].copy() for name in wanted}
+        columns = {name: rows.values[:, names.index(name)].copy() for name in used}
         return NumericTable(file, columns, range(2, len(rows.values) + 2))
     table = _texts(file, text, names, separator)
-    return NumericTable(file, {name: table.numbers(name) for name in wanted}, table.lines)
+    return NumericTable(file, {name: table.numbers(name) for name in used}, table.lines)
 
 
 def _read_text(path: Path) -> str:
@@ -139,9 +139,9 @@ def _read_text(path: Path) -> str:
 
 
 def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | None) -> list[str]:
-    """The names in the first line, in lower case; raises DeckError when one is missing, unknown or there twice.
+    """Return the names in the first line, in lower case; raises DeckError for missing, unknown or repeated names.
 
-    Where `known` is None all names are.
+    If `known` is None, any name may be there.
     """
     row = next(csv_rows(file, text), ([], 1))[0]
     names = [name.strip().lower() for name in row]
@@ -159,27 +159,27 @@ def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | 
 def _exported(
     file: str, text: str, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str]
 ) -> tuple[str, list[str]]:
-    """The separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
-    wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
+    """Return the separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
+    headings_wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
     headers = {
         separator: [field.strip() for field in next(csv_rows(file, text, separator), ([], 1))[0]]
         for separator in SEPARATORS
     }
     best = max(SEPARATORS, key=lambda separator: len(headers[separator]))
-    found = headers[best]
-    given = [field.casefold() for field in found]
-    names = [f"{_UNUSED}{column}" for column in range(len(found))]
-    optional = {name: name for name in known if name not in wanted and name in given}
-    for name, heading in (wanted | optional).items():
+    header = headers[best]
+    names_found = [field.casefold() for field in header]
+    names = [f"{_UNUSED}{column}" for column in range(len(header))]
+    optional = {name: name for name in known if name not in headings_wanted and name in names_found}
+    for name, heading in (headings_wanted | optional).items():
         sought = heading.strip().casefold()
-        if sought not in given:
+        if sought not in names_found:
             what = "" if heading == name else f" for {name}"
-            listed = ", ".join(map(shown, found[:LISTED])) or "nothing"
-            more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
+            listed = ", ".join(map(shown, header[:LISTED])) or "nothing"
+            more = f" and {len(header) - LISTED} more" if len(header) > LISTED else ""
             raise data_error(file, f"the header lacks {shown(heading)}{what}: it has {listed}{more}")
-        if given.count(sought) > 1:
+        if names_found.count(sought) > 1:
             raise data_error(file, f"the header has {shown(heading)} twice")
-        column = given.index(sought)
+        column = names_found.index(sought)
         if not names[column].startswith(_UNUSED):
             raise data_error(file, f"the column {shown(heading)} is taken for {names[column]} and for {name}")
         names[column] = name
@@ -187,7 +187,7 @@ def _exported(
 
 
 def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> CsvTable:
-    """The rows below the header, whose columns have these names."""
+    """Return the rows below the header, whose columns have these names."""
     columns: dict[str, list[str]] = {name: [] for name in names}
     lines: list[int] = []
     rows = csv_rows(file, text, separator)
@@ -204,7 +204,7 @@ def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> 
 
 
 def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[str], int]]:
-    """The rows of a text, each with the number of its last line."""
+    """Yield the rows of a text, each with the number of its last line."""
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
     try:
         for row in reader:
@@ -214,7 +214,7 @@ def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[
 
 
 def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:
-    """An array as float64, one-dimensional; raises DeckError for a number that is not finite."""
+    """Return an array as float64, one-dimensional; raises DeckError for a number that is not finite."""
     values = array.astype(np.float64).ravel()
     if not np.isfinite(values).all():
         raise data_error(
@@ -225,7 +225,7 @@ def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class ExternalElements:
-    """Elements (m): numbers, node numbers (m, 2), external diameters, lengths (NaN where not given), sets by name."""
+    """Elements (m): numbers, node numbers (m, 2), external diameters, lengths (NaN if not given), sets by name."""
 
     file: str
     ids: Ids
@@ -236,9 +236,9 @@ class ExternalElements:
 
 
 def read_external(path: Path) -> ExternalElements:
-    """`element,node1,node2,diameter[,length][,sets]`, sets separated by semicolons; a diameter or length may be empty.
+    """Return elements from `element,node1,node2,diameter[,length][,sets]`, with sets separated by semicolons.
 
-    Raises OSError, or DeckError for a file with faults.
+    A diameter or length may be empty. Raises OSError, or DeckError for a file with faults.
     """
     needed = ("element", "node1", "node2", "diameter")
     table = read_csv(path, needed, (*needed, "length", "sets"))

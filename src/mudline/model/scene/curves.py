@@ -1,6 +1,6 @@
-"""Every curve of a deck, whatever keyword gives it: points over an abscissa, linear between them.
+"""Curves of a deck, whatever keyword gives them: points over an abscissa, linear between them.
 
-Force-embedment curves are resolved here too, as elements follow them.
+Force-embedment curves, which elements follow, are resolved here too.
 """
 
 from __future__ import annotations
@@ -38,11 +38,16 @@ _NOWHERE = np.zeros(0, dtype=np.intp)
 
 
 class SceneCurve(NamedTuple):
-    """A curve of the deck: its name (that of its set for `*EMBEDMENT`), its points as given, where it stands.
+    """Force-embedment curve of the deck.
 
-    `points` (n, 2) leaves out rows that could not be read; `rows` (n,) are their places in the table. `curve` is made
-    of those that fit together, None when they make no curve; `whole` says that these are all. `named` says that the
-    name, or the set, could be read.
+    name: its name, or that of its set for `*EMBEDMENT`.
+    points: points (n, 2) as given, without rows that could not be read.
+    rows: places (n,) of the points in the table.
+    where: place of the curve in the deck.
+    curve: curve of the points that fit together, None if they do not form a curve.
+    whole: all points fit together.
+    embedment: the curve is of `*EMBEDMENT`.
+    named: the name, or the set, could be read.
     """
 
     name: str
@@ -58,22 +63,22 @@ class SceneCurve(NamedTuple):
         return short_repr(self)
 
     def point(self, index: int) -> Where:
-        """Where a point of `points` stands."""
+        """Return the place of a point of `points`."""
         return self.where.inside("points", int(self.rows[index]))
 
     @property
     def usable(self) -> bool:
-        """Whether the curve is what the deck says."""
+        """True if the curve has all points of the deck."""
         return self.curve is not None and self.whole
 
     @property
     def title(self) -> Where:
-        """Where its name stands: the value of CURVE= or SET=."""
+        """Place of its name: the value of CURVE= or SET=."""
         return self.where.inside("set" if self.embedment else "name")
 
 
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
-    """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
+    """Return the curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
         _seabed_curve(context, known_name(entry.name), entry.points, where.inside("curves", index), embedment=False)
         for where, block in context.blocks("SEABED STIFFNESS")
@@ -89,7 +94,7 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
 
 
 def set_name(name: str | None) -> str | None:
-    """The name that a SET= of a seabed law gives: ALL without a SET=, None where it could not be read."""
+    """Return the name that a SET= of a seabed law gives: ALL without a SET=, None if it could not be read."""
     return "ALL" if name is None else known_name(name)
 
 
@@ -97,13 +102,13 @@ def _seabed_curve(context: Context, name: str | None, table: Table, where: Where
     if name is None and not embedment:
         context.unread.add("SEABED STIFFNESS")
     points, rows = _points(table)
-    found = SceneCurve(name or "", points, rows, where, None, len(rows) == len(table), embedment, name is not None)
-    curve, whole = _made(context, found, OF_SEABED, ("ratio", "force"), where)
-    return found._replace(curve=curve, whole=whole)
+    entry = SceneCurve(name or "", points, rows, where, None, len(rows) == len(table), embedment, name is not None)
+    curve, whole = _made(context, entry, OF_SEABED, ("ratio", "force"), where)
+    return entry._replace(curve=curve, whole=whole)
 
 
 def _points(table: Table) -> tuple[Floats, Indices]:
-    """The points (n, 2) of a table, those that have two numbers, and their rows."""
+    """Return the points (n, 2) of a table that have two numbers, and their rows."""
     values = table.values
     full = values.shape[1] == 2 and (table.full or np.minimum.reduce(table.lengths, initial=2) == 2)
     if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
@@ -115,42 +120,43 @@ def _points(table: Table) -> tuple[Floats, Indices]:
 
 def _made(
     context: Context,
-    given: SceneCurve | DeckCurve,
+    deck_curve: SceneCurve | DeckCurve,
     kind: str,
     axes: tuple[str, str],
     title: Where,
     blocks: Blocks | None = None,
 ) -> tuple[ForceCurve | None, bool]:
-    """The curve of the points that fit together, if they make one, and whether these are all.
+    """Return the curve of the points that fit together, if they form one, and True if these are all.
 
-    Reports curves that are none: too few points, two values at one abscissa, sections that cannot be held.
+    Points that do not form a curve are reported: too few points, two values at one abscissa, sections with slopes that
+        a float64 cannot hold.
     """
     from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
 
-    clashing, _ = clashes_and_repeats(given.points)
-    whole, keep = given.whole and not clashing.size, np.arange(len(given.points), dtype=np.intp)
+    clashing, _ = clashes_and_repeats(deck_curve.points)
+    whole, keep = deck_curve.whole and not clashing.size, np.arange(len(deck_curve.points), dtype=np.intp)
     if clashing.size:
         keep = np.setdiff1d(keep, clashing, assume_unique=True)
     for index in clashing[: MOST_REPORTED + 1].tolist():
-        at, value = given.points[index].tolist()
+        at, value = deck_curve.points[index].tolist()
         message = f"a second {axes[1]} at {axes[0]} {at!r} ({value!r}): the slope there would be infinite; remove one"
-        context.note(Problem(CRV003, message, where=given.point(index), blocks=blocks))
+        context.note(Problem(CRV003, message, where=deck_curve.point(index), blocks=blocks))
     try:
-        return ForceCurve(given.points[keep], given.name), whole
+        return ForceCurve(deck_curve.points[keep], deck_curve.name), whole
     except CurveError as error:
         if error.index >= 0:  # the message counts points, which holds only when none is left out
             fault = str(error) if whole else "the slope to this point cannot be held by a float64"
-            place = given.point(int(keep[error.index]))
+            place = deck_curve.point(int(keep[error.index]))
             context.note(Problem(_CODES[error.code], f"{fault}: correct the point", where=place, blocks=blocks))
         elif whole:
-            has = "one distinct point" if len(given.points) else "no point"
-            message = f"{kind} {shown(given.name)} has {has}: it needs at least two"
+            has = "one distinct point" if len(deck_curve.points) else "no point"
+            message = f"{kind} {shown(deck_curve.name)} has {has}: it needs at least two"
             context.note(Problem(CRV001, message, where=title, blocks=blocks))
     return None, whole
 
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
-    """Indices of points at the ratio of an earlier one: those with another force than the first there, and the same."""
+    """Return indices of points at the ratio of an earlier point: those with another force, and exact repeats."""
     if np.count_nonzero(points[1:, 0] > points[:-1, 0]) == max(len(points) - 1, 0):
         return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
@@ -158,16 +164,16 @@ def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     begins: Mask = np.append(True, ratios[1:] != ratios[:-1])
     starts = np.flatnonzero(begins)
     first_force = np.repeat(forces[starts], np.diff(np.append(starts, len(ratios))))
-    other = forces != first_force
-    return np.sort(order[other]), np.sort(order[~other & ~begins])
+    differs = forces != first_force
+    return np.sort(order[differs]), np.sort(order[~differs & ~begins])
 
 
 OF_SEABED = "force-embedment curve"
-"""The kind of curve that elements on the seabed follow."""
+"""Kind of curve that elements on the seabed follow."""
 OF_CURRENT = "current profile"
 _DOWN = ("depth below surface", "L")
 _OF_OPTION = {"DESCEND": _DOWN, "DESCENDING": _DOWN, "XL": ("place over length", "-")}
-"""Abscissa of a current profile and its unit, where OPTION= gives it another than the elevation."""
+"""Abscissa of a current profile and its unit, if OPTION= replaces the elevation."""
 
 
 ENDS = {
@@ -175,16 +181,22 @@ ENDS = {
     "value": "beyond the last it keeps its value (inferred)",
     "none": "no page says what it is beyond them",
 }
-"""What a curve is beyond its points, in words."""
+"""Continuation of a curve beyond its points, in words."""
 
 
 class DeckCurve(NamedTuple):
-    """A curve: its kind in words, its keyword and name, its points (n, 2), abscissa first, and where they stand.
+    """Curve of any keyword.
 
-    `rows` (n,) are the places of the points in their table, without those that could not be read; `whole` says that
-    there are none. `axes` names abscissa and ordinate, `units` are their dimensions, as `L` and `F/L`. `ends` says what
-    the curve is beyond its points, `reach` between which values of the abscissa it is known: a current profile ends at
-    the surface of the sea.
+    kind: its kind in words.
+    keyword, name: its keyword and its name.
+    points: points (n, 2), abscissa first.
+    rows: places (n,) of the points in their table, without those that could not be read.
+    whole: all points could be read.
+    where, title: places of its points and of its name.
+    axes: names of abscissa and ordinate.
+    units: their dimensions, such as `L` and `F/L`.
+    ends: continuation beyond its points.
+    reach: abscissas between which it is known; a current profile ends at the surface of the sea.
     """
 
     kind: str
@@ -204,11 +216,11 @@ class DeckCurve(NamedTuple):
         return short_repr(self)
 
     def point(self, index: int) -> Where:
-        """Where a point of `points` stands."""
+        """Return the place of a point of `points`."""
         return self.where.inside(int(self.rows[index]))
 
     def made(self) -> ForceCurve | None:
-        """The curve as it is evaluated, if its points make one."""
+        """Return the curve as it is evaluated, if its points form one."""
         from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
 
         try:
@@ -218,7 +230,7 @@ class DeckCurve(NamedTuple):
 
 
 def other_curves(deck: Deck) -> Iterator[DeckCurve]:
-    """The curves of a deck but those of its seabed, in the order of the file."""
+    """Yield the curves of a deck except those of its seabed, in the order of the file."""
     for where, _, block in deck.every_block():
         if type(block) is not Opaque and _has_curves(type(block)):
             for curve in _curves(block, block.keyword, where, "", where):
@@ -226,7 +238,7 @@ def other_curves(deck: Deck) -> Iterator[DeckCurve]:
 
 
 def _below_surface(deck: Deck, curve: DeckCurve) -> DeckCurve:
-    """A current profile without what it has above the surface of the sea."""
+    """Return a current profile without its part above the surface of the sea."""
     low, high = curve.reach
     if curve.axes[0] == _DOWN[0]:
         low = max(low, 0.0)
@@ -239,7 +251,7 @@ def _below_surface(deck: Deck, curve: DeckCurve) -> DeckCurve:
 
 @cache
 def _has_curves(part: type[Part]) -> bool:
-    """Whether a part, or a record in it, has a table that is a curve, and no curve of the seabed."""
+    """Return True if a part, or a record in it, has a table that is a curve, and not of the seabed."""
     slots = record_schema(part).slots
     return any(
         (isinstance(slot.about, Rows) and slot.about.curve not in ("", OF_SEABED))
@@ -269,12 +281,12 @@ def _curves(part: Part, keyword: str, where: Where, name: str, title: Where) -> 
 
 @cache
 def _settings(part: type[Part]) -> list[FieldSpec]:
-    """The fields of which the set, or else the first that is given, tells a record from others of its kind."""
+    """Return the fields that distinguish a record from others of its kind: the set, or else the first given one."""
     return [slot for slot in record_schema(part).slots if isinstance(slot.about, Setting)]
 
 
 def _written(slot: FieldSpec, value: object) -> str:
-    """A name, or the setting with a value that is none."""
+    """Return a name, or the setting with its value if that is not a name."""
     if isinstance(value, str):
         return value
     values = value if isinstance(value, list) else [value]
@@ -306,6 +318,6 @@ def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple
 
 
 def check_curves(context: Context) -> None:
-    """Report what is wrong with the curves that are not those of the seabed."""
+    """Report faults of the curves that are not those of the seabed."""
     for curve in other_curves(context.deck):
         _made(context, curve, curve.kind, curve.axes, curve.title, Blocks.NEVER)

@@ -1,7 +1,7 @@
 """Text files of numbers that decks name: operators of vessels, histories of motions and elevations, coefficients.
 
-What is public of them: a line with an upper-case C in column 1 is a comment, commas or blanks part the values, and
-TABs are not allowed. The first line that breaks this, or the form of its file, is the fault.
+Their public rules: a line with an upper-case C in column 1 is a comment, values are separated by commas or spaces, and
+    TABs are not allowed. The fault of a file is the first line that breaks these rules, or the format of the file.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ _UNEVEN = 1e-6
 
 
 class DataLine(NamedTuple):
-    """A line that is no comment, and its number."""
+    """Line that is not a comment, and its number."""
 
     number: int
     text: str
 
     def values(self) -> list[float]:
-        """Its numbers; raises ValueError for what is none."""
+        """Return its numbers; raises ValueError for words that are not numbers."""
         return [number_of(word, self.number) for word in _PARTS.split(self.text.strip(" ,"))]
 
 
 def fault_of(path: Path, contents: Contents, *, layout: str = "") -> str:
-    """The first fault of a file, with its line, or ""; `layout` is MCS or LINE where the deck says so."""
+    """Return the first fault of a file, with its line, or ""; `layout` is MCS or LINE if the deck gives it."""
     try:
         lines = list(_lines(path))
         if contents is Contents.OPERATORS:
@@ -58,14 +58,14 @@ def fault_of(path: Path, contents: Contents, *, layout: str = "") -> str:
 
 
 def has_uneven_times(path: Path) -> bool:
-    """Whether the times of a file without a fault do not follow each other at one interval."""
+    """Return True if the times of a file without a fault do not have a constant interval."""
     times = [row[0] for row in _table(list(_lines(path)), _WIDTH[Contents.ELEVATIONS])]
     steps = [after - before for before, after in pairwise(times)]
     return bool(steps) and max(steps) - min(steps) > _UNEVEN * max(steps)
 
 
 def unequal_frequencies(rows: Sequence[Sequence[float]]) -> str:
-    """What is wrong with the headings and frequencies of operators, a heading and a frequency first in each row."""
+    """Return the fault in the headings and frequencies of operators, the first two values of each row, or ""."""
     by_heading: dict[float, set[float]] = {}
     for heading, frequency in (row[:2] for row in rows):
         if frequency in by_heading.setdefault(heading, set()):
@@ -95,7 +95,7 @@ def _lines(path: Path) -> Iterator[DataLine]:
 
 
 def number_of(word: str, line: int) -> float:
-    """Return the number that a word of a line is; raises ValueError for what is none."""
+    """Return the number that a word of a line is; raises ValueError if it is not a number."""
     value = read_number(word)
     if value is None:
         raise ValueError(f"line {line}: {shown(word)} is not a number")
@@ -124,13 +124,13 @@ def _rising(times: Sequence[float], lines: Sequence[DataLine]) -> None:
 def operators(path: Path, layout: str = "") -> list[list[float]]:
     """Return heading, frequency, then amplitude and phase of heave, surge, sway, yaw, roll and pitch, row by row.
 
-    `layout` is MCS or LINE where the deck says so. Raises OSError, or ValueError for the first fault of the file.
+    `layout` is MCS or LINE if the deck gives it. Raises OSError, or ValueError for the first fault of the file.
     """
     return _operators(list(_lines(path)), layout)
 
 
 def _operators(lines: Sequence[DataLine], layout: str) -> list[list[float]]:
-    """Operators in the layout that the deck names, or that their first line has."""
+    """Return operators in the layout that the deck names, or that their first line has."""
     if not lines:
         raise ValueError("the file has no operators")
     by_heading = bool(_HEADING.fullmatch(lines[0].text))
@@ -147,7 +147,7 @@ def _operators(lines: Sequence[DataLine], layout: str) -> list[list[float]]:
 
 
 def _groups(lines: Sequence[DataLine]) -> list[list[float]]:
-    """Three lines a frequency below each heading: the frequency, six amplitudes, six phases."""
+    """Return operators with three lines a frequency below each heading: frequency, six amplitudes, six phases."""
     widths = (1, _SIX, _SIX)
     angle, group, rows = 0.0, list[list[float]](), list[list[float]]()
     for line in lines:

@@ -1,4 +1,4 @@
-"""What a deck gives: numbers and their ranges, files, legacy surfaces, units, and the names that unread lines make."""
+"""Values of a deck: numbers and their ranges, files, legacy surfaces, units, and names that unread lines make."""
 
 from __future__ import annotations
 
@@ -36,17 +36,17 @@ FORCE_UNIT = {"metric": 1.0, "imperial": POUND}
 DEFAULT_DENSITY = {"metric": 1025.0, "imperial": 1025.0 * FOOT**4 / POUND}
 DEFAULT_GRAVITY = {"metric": 9.81, "imperial": 9.81 / FOOT}
 LARGEST_MOBILISATION = {"metric": 3.048, "imperial": 10.0}
-"""Largest mobilisation length where none is given: 10 ft."""
+"""Largest default mobilisation length: 10 ft."""
 
 
 def number(part: object, name: str, default: float = math.nan) -> float:
-    """A value that is given and is a number, else `default`."""
+    """Return a value if it is given and a number, else `default`."""
     value = getattr(part, name, None)
     return float(value) if isinstance(value, float | int) else default
 
 
 def file_name(written: str) -> str:
-    """A file's name as a deck writes it, without quotes and with `/` between folders."""
+    """Return a file's name as a deck writes it, without quotes and with `/` between folders."""
     name = written.strip()
     if len(name) > 1 and name[0] == name[-1] == '"':
         name = name[1:-1]
@@ -54,10 +54,9 @@ def file_name(written: str) -> str:
 
 
 def find_file(folder: Path | None, written: str) -> Path | None:
-    """The regular file that a deck in `folder` names, or None when it is not there or may not be looked at.
+    """Return the regular file that a deck in `folder` names; None if it is not there or must not be read.
 
-    A name without a folder before it stands for a file beside the deck. A deck that came from no path (`folder` None)
-    finds nothing.
+    A name without a folder refers to a file next to the deck. A deck without a path (`folder` None) finds nothing.
     """
     name = file_name(written)
     if folder is None or not name or "\0" in name:
@@ -71,10 +70,9 @@ def find_file(folder: Path | None, written: str) -> Path | None:
 
 
 def not_found(folder: Path, name: str) -> tuple[str, Severity]:
-    """Why a deck in a folder does not get the file that it names, and how bad that is.
+    """Return the reason why a deck in a folder does not get the file that it names, and its severity.
 
-    An error where the file is refused, a warning where others of its kind are there, which the deck came with; else an
-    info.
+    It is an error if the file is refused, a warning if files with the same suffix are there, and an info otherwise.
     """
     try:
         refused = "\0" not in name and is_refused(folder / name, folder)
@@ -91,11 +89,11 @@ def not_found(folder: Path, name: str) -> tuple[str, Severity]:
 
 
 _MOST_BESIDE = 1000
-"""Files of a folder that are looked at: among more there are others of every kind."""
+"""Number of files of a folder that are looked at; a larger folder is taken to have every kind of file."""
 
 
 def _has_siblings(path: Path) -> bool:
-    """Whether the folder of a file has others with its suffix."""
+    """Return True if the folder of a file has other files with its suffix."""
     try:
         with os.scandir(path.parent) as entries:
             names = [entry.name for entry in islice(entries, _MOST_BESIDE)]
@@ -105,9 +103,9 @@ def _has_siblings(path: Path) -> bool:
 
 
 def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
-    """Every FILE= of a deck itself that names no file: its place, the folder searched, the name as filled.
+    """Yield every FILE= of a deck itself that names no file: its place, the folder searched, the name as filled.
 
-    Nothing for a deck that came from no path, as it is not known where its files could be.
+    Nothing is yielded for a deck without a path, as it is not known where its files could be.
     """
     if deck.folder is None:
         return
@@ -133,40 +131,40 @@ _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 
 def external_definers(deck: Deck) -> list[str]:
-    """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
-    found = [keyword for keyword in deck.keywords() if _makes(keyword)]
-    return sorted(catalogue.in_order(found), key=is_read_definer) if found else []
+    """Return keywords of the model that make nodes, elements or sets out of sight; unread keywords first."""
+    keywords = [keyword for keyword in deck.keywords() if _makes(keyword)]
+    return sorted(catalogue.in_order(keywords), key=is_read_definer) if keywords else []
 
 
 def is_read_definer(keyword: str) -> bool:
-    """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
+    """Return True if a keyword is read, and its lines make objects which the deck does not show."""
     facts = catalogue.facts_of(keyword)
     return bool(facts.makes) and not facts.out_of_sight
 
 
 def nodes_on_cables(deck: Deck) -> list[range] | None:
-    """The numbers of the nodes that lie on cables, in ranges; None where some of them are not known."""
-    found: list[range] = []
+    """Return the numbers of the nodes on cables, in ranges; None if some of them are not known."""
+    ranges: list[range] = []
     for where, block in deck.blocks("NODE,CURVILINEAR"):
         for entry in cast("CurvilinearNodes", block).entries:
             if hasattr(entry, "nodes"):
                 numbers = entry.nodes.column(0).tolist()
-                found += [range(int(number), int(number) + 1) for number in numbers if math.isfinite(number)]
+                ranges += [range(int(number), int(number) + 1) for number in numbers if math.isfinite(number)]
                 readable = all(map(math.isfinite, numbers))
             else:
-                given = entry.generate
-                start, end, step = given.start, given.end, given.increment or 1
+                span = entry.generate
+                start, end, step = span.start, span.end, span.increment or 1
                 readable = False
                 if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step > 0:
                     readable = True
-                    found.append(range(start + step, end, step))
+                    ranges.append(range(start + step, end, step))
             if not readable or deck.lost(where):
                 return None
-    return found
+    return ranges
 
 
 def definition_by(definer: str, keyword: str) -> str:
-    """How a definer may define a thing that is a matter of `keyword`, in words; "" when it cannot."""
+    """Return in words how a definer may define an object of `keyword`; "" if it cannot."""
     if keyword not in _makes(definer):
         return ""
     if is_read_definer(definer):
@@ -176,12 +174,12 @@ def definition_by(definer: str, keyword: str) -> str:
 
 
 def unread_makers(definers: Iterable[str], keyword: str) -> list[str]:
-    """The definers that are not read and may define things that are a matter of `keyword`."""
-    return [one for one in definers if keyword in _makes(one) and not is_read_definer(one)]
+    """Return the definers that are not read and may define objects of `keyword`."""
+    return [definer for definer in definers if keyword in _makes(definer) and not is_read_definer(definer)]
 
 
 def makes_labels(definer: str) -> bool:
-    """Whether a definer gives labels to nodes."""
+    """Return True if a definer gives labels to nodes."""
     kept = catalogue.opaque_keyword("MODEL", definer)
     return kept is not None and kept.labels
 
@@ -193,30 +191,30 @@ def _makes(keyword: str) -> tuple[str, ...]:
 
 
 def opaque_set_names(deck: Deck) -> dict[str, str]:
-    """Names of the element sets that lines make, as first written, by their folded form."""
+    """Return names of the element sets that lines make, as first written, by their folded form."""
     return _first_written(name for block in _model(deck) for name in _sets(block))
 
 
 def opaque_labels(deck: Deck) -> dict[str, str]:
-    """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
+    """Return texts in kept blocks that may be labels of nodes, as first written, by their folded form."""
     return _first_written(text for block in _model(deck) for text in _texts(block))
 
 
 def _first_written(names: Iterable[str]) -> dict[str, str]:
-    found: dict[str, str] = {}
+    first_written: dict[str, str] = {}
     for name in names:
         if text := bare(name):
-            found.setdefault(folded(text), text)
-    return found
+            first_written.setdefault(folded(text), text)
+    return first_written
 
 
 def _model(deck: Deck) -> Iterator[Block | Opaque]:
-    """Every block of `$MODEL`, read or not."""
+    """Return every block of `$MODEL`, read or not."""
     return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
 
 
 def _sets(block: Block | Opaque) -> Iterator[str]:
-    """The element sets that a block of lines names."""
+    """Yield the element sets that a block of lines names."""
     if isinstance(block, Opaque):
         kept = catalogue.opaque_keyword("MODEL", block.keyword)
         if kept and kept.name_settings:
@@ -239,7 +237,7 @@ def _makes_sets(slot: FieldSpec) -> bool:
 
 
 def _given_in_parts(part: Part) -> Iterator[str]:
-    """The same settings of a keyword that is read, as far as it could be read."""
+    """Yield the same settings of a keyword that is read, as far as it could be read."""
     for _, _, value in part.walk(_makes_sets):
         name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
         if isinstance(name, str) and name:
@@ -247,7 +245,7 @@ def _given_in_parts(part: Part) -> Iterator[str]:
 
 
 def _texts(block: Block | Opaque) -> Iterator[str]:
-    """Every value of a block that is neither a number nor an equation."""
+    """Yield every value of a block that is neither a number nor an equation."""
     kept = catalogue.opaque_keyword("MODEL", block.keyword)
     if not isinstance(block, Opaque) or kept is None or not kept.labels:
         return
@@ -258,10 +256,10 @@ def _texts(block: Block | Opaque) -> Iterator[str]:
 
 
 def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
-    """The KEYs of a line with their values, "" for values without one. What `read_line` says, in less time."""
+    """Yield the KEYs of a line with their values, "" for values without one: the same as `read_line`, but faster."""
     if "[" in line or line.count(",") > _MANY:
         groups = read_line(line, Span(0, len(line))).groups
-        yield from ((group.key, [given.text for given in group.fields]) for group in groups)
+        yield from ((group.key, [field.text for field in group.fields]) for group in groups)
         return
     key, values = "", list[str]()
     for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):
@@ -275,5 +273,5 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def data_lines(lines: Iterable[str]) -> list[str]:
-    """The lines that are not comments. One with C and a letter in column 1 is one: no key of interest begins so."""
-    return [line for line in lines if not COMMENT.match(line)]
+    """Return the lines that are not comments; a line with C and a letter in column 1 is a comment."""
+    return [line for line in lines if not COMMENT.match(line)]  # no key of interest begins with C

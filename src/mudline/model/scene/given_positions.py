@@ -1,4 +1,4 @@
-"""What is doubtful about positions of a file before they are evaluated: their order, their nodes, their digits."""
+"""Doubts about positions of a file before they are evaluated: their order, their nodes, their digits."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 GROSS = 1.5, 0.1
-"""Factor between length and distance, and share of the elements that are off by it: nodes in a wrong order."""
+"""Limits of a wrong order of nodes: factor between length and distance, and share of elements beyond it."""
 _SLIGHT = 1.1
-"""Factor beyond which an element is another one than that of the deck: no pipe stretches by a tenth."""
+"""Factor between length and distance beyond which a deck's element does not fit: no pipe stretches by a tenth."""
 _ROUNDED = 0.05, 0.01
-"""Half a unit of the last digit over the mobilisation length: what is warned of, and what the digits needed leave."""
+"""Ratios of half a unit of the last digit to the mobilisation length: that of a warning, and that of enough digits."""
 _MOST = 9
 _ENOUGH, _DIGITS = 10, 0.6
-"""How many different coordinates there must be, and which share needs the last digit, to be called rounded."""
+"""Limits of rounded coordinates: number of different values, and share that needs the last digit."""
 
 
 class PositionDoubt(NamedTuple):
-    """What is doubtful: its code, the message, the elements (indices), the message for the caption of a plot."""
+    """Doubt: its code, the message, the elements (indices), the message for the caption of a plot."""
 
     code: Code
     message: str
@@ -39,7 +39,7 @@ class PositionDoubt(NamedTuple):
 
 
 def off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, Indices]:
-    """Return the elements whose ends at `places` (n, 3) are apart by their length times or over `factor`; and all.
+    """Return the elements whose distance of ends at `places` (n, 3) differs from their length by `factor`; and all.
 
     Springs, and elements whose length or positions are not known, are left out of both.
     """
@@ -55,7 +55,7 @@ def off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, I
 def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
     """Return positions of a file; those without node numbers must fit the elements of the deck.
 
-    Raises DeckError where so many are longer or shorter that the nodes are in another order.
+    Raises DeckError if so many elements are longer or shorter that the nodes must be in another order.
     """
     if positions.numbered:
         return positions
@@ -64,26 +64,26 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
     if len(off) < 1 or len(off) < GROSS[1] * len(known):
         return positions
     first = int(off[0])
-    one, other = scene.node_ids[scene.element_nodes[first]].tolist()
+    first_node, second_node = scene.node_ids[scene.element_nodes[first]].tolist()
     ends = places[scene.element_nodes[first]]
     apart = float(distances(ends[:1], ends[1:])[0])
     message = (
-        f"the positions are not in ascending order of the node numbers: nodes {one} and {other} of element "
-        f"{scene.element_ids[first]} are {shown(apart)} apart, and its length is {shown(float(scene.length[first]))} "
-        f"({len(off)} of {counted(len(known), 'element')} differ by over {GROSS[0]:g} times); sort them, or give their "
-        "numbers in a CSV, or in the array node of an NPZ"
+        f"the positions are not in ascending order of the node numbers: nodes {first_node} and {second_node} of "
+        f"element {scene.element_ids[first]} are {shown(apart)} apart, and its length is "
+        f"{shown(float(scene.length[first]))} ({len(off)} of {counted(len(known), 'element')} differ by over "
+        f"{GROSS[0]:g} times); sort them, or give their numbers in a CSV, or in the array node of an NPZ"
     )
     raise data_error(file, message)
 
 
-def position_doubts(given: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
-    """Return what is doubtful about positions (n, 3) of a file: elements without any, other lengths, few digits."""
-    found = []
+def position_doubts(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+    """Return doubts about positions (n, 3) of a file: elements without positions, other lengths, few digits."""
+    doubts = []
     lost = np.flatnonzero(~present[scene.element_nodes].all(axis=1))
     if lost.size:
         missing = counted(int((~present).sum()), "node")
         message = f"no positions for {missing}: {scene.describe(lost, 'is', 'are')} left out"
-        found.append(PositionDoubt(RUN007, message, lost, ""))
+        doubts.append(PositionDoubt(RUN007, message, lost, ""))
     off, known = off_lengths(scene, places, _SLIGHT)
     if off.size:
         first = int(off[0])
@@ -94,13 +94,13 @@ def position_doubts(given: ContactInput, scene: Scene, present: Mask, places: Fl
             f"the element is long (first: {scene.element_ids[first]}, {apart} instead of "
             f"{shown(float(scene.length[first]))}): check that the positions are of this deck, and their units"
         )
-        found.append(PositionDoubt(RUN006, message, off, "distances differ from lengths"))
-    return [*found, *_few_digits(given, scene, present, places)]
+        doubts.append(PositionDoubt(RUN006, message, off, "distances differ from lengths"))
+    return [*doubts, *_few_digits(contact_input, scene, present, places)]
 
 
-def _few_digits(given: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
-    """Coordinates whose rounding moves nodes by much of what mobilises their friction."""
-    friction = given.assigned.get("friction")
+def _few_digits(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+    """Return a doubt about coordinates whose rounding moves nodes by much of their mobilisation length."""
+    friction = contact_input.assigned.get("friction")
     if friction is None:
         return []
     here = present[friction.rows]
@@ -123,7 +123,7 @@ def _few_digits(given: ContactInput, scene: Scene, present: Mask, places: Floats
 
 
 def _digits(places: Floats) -> int | None:
-    """Decimals to which coordinates (n, 3) were rounded; None for those that were not, or are few or even numbers."""
+    """Return the number of decimals of coordinates (n, 3); None if they are not rounded, or few or even numbers."""
     values = np.unique(np.abs(places[np.isfinite(places)]))
     if len(values) < _ENOUGH:
         return None

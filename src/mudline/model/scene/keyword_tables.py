@@ -1,6 +1,6 @@
-"""Tables in the form of the manual: sheets whose headings are those of a keyword's page, to the lines of a deck.
+"""Tables in the form of the manual: sheets whose headings are those of a keyword's page, as lines of a deck.
 
-The rows become the lines of the keyword and are read as these, so that what a deck cannot hold a sheet cannot either.
+The rows become lines of the keyword and are read as such, so a sheet cannot hold more than a deck can.
 """
 
 from __future__ import annotations
@@ -28,68 +28,72 @@ from mudline.language.syntax.source import Source
 from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.sets import ALL
-from mudline.model.scene.workbook import Cell, Sheet
+from mudline.model.scene.workbook import Cell, WorkbookSheet
 
 _NOT_LETTERS = re.compile(r"[\W_]+")
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
-    """A column that a form has, and the headings by which it is known, without blanks and case."""
+class TableColumn:
+    """Column of a form, and the headings by which it is known, without spaces and case."""
 
     spec: FieldSpec
     headings: frozenset[str]
 
     @classmethod
-    def of(cls, spec: FieldSpec, *headings: str) -> Column:
+    def of(cls, spec: FieldSpec, *headings: str) -> TableColumn:
         """Return the column of a field that is known by some headings."""
         return cls(spec, frozenset(map(plain, headings)) - {""})
 
     @property
     def label(self) -> str:
-        """What the column is called in a message."""
+        """Name of the column in a message."""
         return self.spec.about.heading or self.spec.label.removesuffix("=")
 
 
 @dataclass(frozen=True, eq=False)
 class TableForm:
-    """The rows of a keyword as a table: a column that names their set, curve or thing, if they have one, and values.
+    """Rows of a keyword as a table.
 
-    `opening` is the line that says which of several kinds of rows follow.
+    declared: the keyword.
+    name: column that names their set, curve or object, if they have one.
+    values: columns of their values.
+    opening: the line that selects one of several kinds of rows.
+    curve: declaration of the rows, if they are a curve.
     """
 
     declared: type[Block]
-    name: Column | None
-    values: tuple[Column, ...]
+    name: TableColumn | None
+    values: tuple[TableColumn, ...]
     opening: str
     curve: Rows | None
 
     @property
     def keyword(self) -> str:
-        """The name of the keyword."""
+        """Name of the keyword."""
         return str(self.declared.model_fields["keyword"].default)
 
     @property
     def section(self) -> str:
-        """The section where its lines are written."""
+        """Section in which its lines are written."""
         return self.declared.sections[0]
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[TableColumn, ...]:
         """All columns, that of the name first."""
         return ((self.name,) if self.name else ()) + self.values
 
     @property
-    def required(self) -> list[Column]:
-        """The columns of values that a table must have."""
+    def required(self) -> list[TableColumn]:
+        """Columns of values that a table must have."""
         return [column for column in self.values if column.spec.required]
 
 
 @cache
 def table_forms() -> tuple[TableForm, ...]:
-    """The tables of all keywords."""
+    """Return the tables of all keywords."""
     classes = catalogue.block_classes()
-    records = ((one, record) for one in classes for slot in record_schema(one).slots for record in slot.record.values())
+    records = ((cls, record) for cls in classes for slot in record_schema(cls).slots for record in slot.record.values())
     return tuple(form for declared, record in records for form in _of_record(declared, record))
 
 
@@ -108,57 +112,58 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
         opening = f"{record.sticky.upper()}={spec.json.upper()}" if record.sticky and len(rows) > 1 else ""
         yield TableForm(
             declared,
-            None if name is None else Column.of(name, name.key, f"{name.key} name", name.about.heading),
-            tuple(Column.of(value, value.json, value.label, value.about.heading) for value in values),
+            None if name is None else TableColumn.of(name, name.key, f"{name.key} name", name.about.heading),
+            tuple(TableColumn.of(value, value.json, value.label, value.about.heading) for value in values),
             opening,
             curve=spec.about if isinstance(spec.about, Rows) and spec.about.curve else None,
         )
 
 
 def plain(text: str) -> str:
-    """A heading as headings compare."""
+    """Return a heading in the form in which headings are compared."""
     return _NOT_LETTERS.sub("", text).casefold()
 
 
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(]\s*(?P<unit>[^\[(]*?)\s*[\])])?\s*", re.DOTALL)
 _UNITS = {"metric": ("N", "m", "kg", "s"), "imperial": ("lbf", "ft", "slug", "s")}
-"""What force, length, mass and time are in a unit system."""
+"""Units of force, length, mass and time in a unit system."""
 
 
 class TableDeck(NamedTuple):
-    """The deck of some tables, and the sheets that are not tables of a keyword."""
+    """Deck of some tables, and the sheets that are not tables of a keyword."""
 
     deck: Deck
     left_out: Sequence[str]
 
 
-def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) -> TableDeck:
-    """The deck that some sheets describe, a block for each keyword in the order of its first sheet.
+def read_tables(sheets: Sequence[WorkbookSheet], file: str, units: str | None = None) -> TableDeck:
+    """Return the deck that some sheets describe, with a block for each keyword in the order of its first sheet.
 
-    The first row of a sheet has the headings, in any order and case, maybe with a unit in brackets; the keyword is the
-    one whose page has them. A sheet without a column for the name of its curve is a curve of its own name. A blank name
-    continues the one above; in the first row it stands for all elements, where the keyword allows that. Rows without a
-    value are skipped, and so are sheets with no heading of a keyword. The units are those given, else those in
-    brackets, else metric.
+    * The first row of a sheet has the headings, in any order and case, with or without a unit in brackets. The keyword
+      is the one whose page has them.
+    * A sheet without a column for the name of its curve is a curve with the sheet's name.
+    * A blank name continues the one above. In the first row it stands for all elements, if the keyword allows that.
+    * Rows without a value are skipped, and so are sheets without a heading of a keyword.
+    * The units are those given, else those in brackets, else metric.
 
-    Raises DeckError where something cannot be a line of the keyword; the message names the cell.
+    Raises DeckError if something cannot be a line of the keyword; the message names the cell.
     """
-    made: dict[TableForm, list[_Entry]] = {}
+    entries_by_form: dict[TableForm, list[_NamedRows]] = {}
     left_out: list[str] = []
     systems: dict[str, str] = {}
     for sheet in sheets:
-        found = _head(sheet)
-        if found is None:
+        head = _head(sheet)
+        if head is None:
             left_out.append(sheet.title)
             continue
-        systems |= dict.fromkeys(_systems(sheet, found), sheet.title)
-        _add(made.setdefault(found.form, []), _entries(sheet, found), found.form)
-    if not made:
+        systems |= dict.fromkeys(_systems(sheet, head), sheet.title)
+        _add(entries_by_form.setdefault(head.form, []), _entries(sheet, head), head.form)
+    if not entries_by_form:
         raise data_error(file, "no table of a keyword: expected the headings of its page in the first row")
     if len(systems) > 1:
         what = " and ".join(f"{system} on {listed([sheet])}" for system, sheet in systems.items())
         raise data_error(file, f"the headings have different units: {what}; a deck has one unit system")
-    return TableDeck(_deck(made, file, units or next(iter(systems), "metric")), left_out)
+    return TableDeck(_deck(entries_by_form, file, units or next(iter(systems), "metric")), left_out)
 
 
 # --------------------------------------------------------------------------------------------------- headings
@@ -166,72 +171,72 @@ def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) ->
 
 @dataclass(frozen=True)
 class _Head:
-    """The columns of a sheet by the headings in its first row."""
+    """Columns of a sheet by the headings in its first row."""
 
     form: TableForm
-    places: Mapping[Column, int]
-    units: Mapping[Column, str]
+    places: Mapping[TableColumn, int]
+    units: Mapping[TableColumn, str]
 
 
-def _head(sheet: Sheet) -> _Head | None:
-    """Which keyword a sheet is a table of; None where it is none.
+def _head(sheet: WorkbookSheet) -> _Head | None:
+    """Return the keyword and columns of a sheet; None if it is not a table of a keyword.
 
-    Raises DeckError for most of the headings of a keyword, or for one that it does not have.
+    Raises DeckError if it has most of the headings of a keyword, or a heading that the keyword does not have.
     """
-    given: dict[str, tuple[Cell, str]] = {}
+    cells: dict[str, tuple[Cell, str]] = {}
     for cell in sheet.rows[0] if sheet.rows else ():
         match = _HEADING.fullmatch(str(cell.value))
         name, unit = (match["name"], match["unit"] or "") if match else ("", "")
         word = plain(name)
-        if word in given:
+        if word in cells:
             what = f"a second column {name.strip().lower()}: give each curve a sheet of its own, or name it in a column"
             raise sheet.fault(cell.row, cell.column, what)
-        given[word] = cell, unit
-    forms = [form for form in table_forms() if any(column.headings & given.keys() for column in form.columns)]
+        cells[word] = cell, unit
+    forms = [form for form in table_forms() if any(column.headings & cells.keys() for column in form.columns)]
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
-    fitting = [form for form in titled or forms if all(column.headings & given.keys() for column in form.required)]
-    fitting = [form for form in fitting if form.name is None or form.curve or form.name.headings & given.keys()]
+    fitting = [form for form in titled or forms if all(column.headings & cells.keys() for column in form.required)]
+    fitting = [form for form in fitting if form.name is None or form.curve or form.name.headings & cells.keys()]
     if not fitting:
-        _refuse(sheet, given, titled or forms)
+        _refuse(sheet, cells, titled or forms)
         return None
-    known = {form: sum(bool(column.headings & given.keys()) for column in form.columns) for form in fitting}
+    known = {form: sum(bool(column.headings & cells.keys()) for column in form.columns) for form in fitting}
     best = [form for form in fitting if known[form] == max(known.values())]
     best = [form for form in best if not catalogue.is_superseded(form.keyword)] or best
     if len(best) > 1:
         what = f"the headings are those of {' and '.join(f'*{form.keyword}' for form in best)}"
         cell = sheet.rows[0][0]
         raise sheet.fault(cell.row, cell.column, f"{what}: give the sheet the name of one of them")
-    return _placed(sheet, best[0], given)
+    return _placed(sheet, best[0], cells)
 
 
-def _refuse(sheet: Sheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
+def _refuse(sheet: WorkbookSheet, cells: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
     """Raise DeckError for a sheet that has most of the headings of a keyword, or half of those of a curve."""
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
     newer = [form for form in forms if not catalogue.is_superseded(form.keyword)]
     for form in titled or sorted(newer, key=lambda form: form.declared.subject != "seabed"):
-        there = [column for column in form.required if column.headings & given.keys()]
+        there = [column for column in form.required if column.headings & cells.keys()]
         lacks = [column.spec.label for column in form.required if column not in there]
         if lacks and len(there) >= len(lacks) + (form.curve is None):
-            cell = next(given[heading][0] for heading in there[0].headings if heading in given)
+            cell = next(cells[heading][0] for heading in there[0].headings if heading in cells)
             what = f"a column {there[0].spec.label} and none headed {' or '.join(lacks)}"
             raise sheet.fault(cell.row, cell.column, f"{what}: *{form.keyword} needs both, in the first row")
 
 
-def _placed(sheet: Sheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]) -> _Head:
-    places: dict[Column, int] = {}
-    units: dict[Column, str] = {}
-    for word, (cell, unit) in given.items():
-        column = next((one for one in form.columns if word in one.headings), None)
+def _placed(sheet: WorkbookSheet, form: TableForm, cells: Mapping[str, tuple[Cell, str]]) -> _Head:
+    places: dict[TableColumn, int] = {}
+    units: dict[TableColumn, str] = {}
+    for word, (cell, unit) in cells.items():
+        column = next((known_column for known_column in form.columns if word in known_column.headings), None)
         if column is None or column in places:
-            known = ", ".join(one.label for one in form.columns)
+            known = ", ".join(known_column.label for known_column in form.columns)
             what = f"*{form.keyword} has no column {cut(str(cell.value), 40)!r}: it has {known}; leave others out"
             raise sheet.fault(cell.row, cell.column, what)
         places[column], units[column] = cell.column, unit
     return _Head(form, places, units)
 
 
-def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
-    """The unit systems that the units in the headings tell. Raises DeckError for another unit than that of a system."""
+def _systems(sheet: WorkbookSheet, head: _Head) -> Iterator[str]:
+    """Yield the unit systems of the units in the headings. Raises DeckError for a unit of no system."""
     units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
     for column, unit in head.units.items():
         dimension = column.spec.about.unit
@@ -250,10 +255,10 @@ def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
 
 
 @dataclass
-class _Entry:
-    """Rows that belong together: the name that they have, its cell, and each row with its cells."""
+class _NamedRows:
+    """Rows that belong together: their name, its cell, and each row with its cells."""
 
-    sheet: Sheet
+    sheet: WorkbookSheet
     name: str
     cell: tuple[int, int]
     lines: list[str] = field(default_factory=list)
@@ -261,36 +266,38 @@ class _Entry:
     first: int = 1
 
 
-def _entries(sheet: Sheet, head: _Head) -> list[_Entry]:
-    """The rows of a sheet by what they name, in the order of their first rows."""
+def _entries(sheet: WorkbookSheet, head: _Head) -> list[_NamedRows]:
+    """Return the rows of a sheet by their names, in the order of their first rows."""
     form = head.form
-    found: dict[str, _Entry] = {}
+    entries: dict[str, _NamedRows] = {}
     named = form.name if form.name in head.places else None
     first = min(head.places[column] for column in form.values if column in head.places)
     name = None if named or form.name is None else sheet.title
     if name is not None:
-        found[name.casefold()] = _Entry(sheet, name, (1, first), first=first)
+        entries[name.casefold()] = _NamedRows(sheet, name, (1, first), first=first)
     for cells in sheet.rows[1:]:
-        given = {cell.column: cell for cell in cells}
+        cells_by_column = {cell.column: cell for cell in cells}
         for cell in cells:
             if cell.column not in head.places.values():
                 what = "a value in a column without a heading: give it one, or remove it"
                 raise sheet.fault(cell.row, cell.column, what)
-        if not given:
+        if not cells_by_column:
             continue
         row = cells[0].row
         if named:
-            name = _name(sheet, head.places[named], named, given, row, name)
+            name = _name(sheet, head.places[named], named, cells_by_column, row, name)
         place = row, head.places[named] if named else first
-        entry = found.setdefault((name or "").casefold(), _Entry(sheet, name or "", place, first=first))
-        entry.lines.append(_line(sheet, head, given, row))
+        entry = entries.setdefault((name or "").casefold(), _NamedRows(sheet, name or "", place, first=first))
+        entry.lines.append(_line(sheet, head, cells_by_column, row))
         entry.rows.append(row)
-    return list(found.values())
+    return list(entries.values())
 
 
-def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], row: int, above: str | None) -> str:
-    """The name of a row; a blank one is that above, in the first row that of all elements."""
-    cell = given.get(place)
+def _name(
+    sheet: WorkbookSheet, place: int, column: TableColumn, cells: Mapping[int, Cell], row: int, above: str | None
+) -> str:
+    """Return the name of a row; a blank name is that of the row above, in the first row that of all elements."""
+    cell = cells.get(place)
     if cell is not None:
         return str(_value(sheet, cell, "a name")).strip()
     if above is None and column.spec.required:
@@ -298,12 +305,12 @@ def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], r
     return ALL.upper() if above is None else above
 
 
-def _line(sheet: Sheet, head: _Head, given: Mapping[int, Cell], row: int) -> str:
-    """The fields of a row; empty ones at the end are left out."""
+def _line(sheet: WorkbookSheet, head: _Head, cells: Mapping[int, Cell], row: int) -> str:
+    """Return the fields of a row; empty fields at the end are left out."""
     fields: list[str] = []
     for column in head.form.values:
         place = head.places.get(column, 0)
-        cell = given.get(place)
+        cell = cells.get(place)
         if cell is None:
             if column.spec.required:
                 raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
@@ -315,11 +322,11 @@ def _line(sheet: Sheet, head: _Head, given: Mapping[int, Cell], row: int) -> str
     return ", ".join(fields)
 
 
-def _expected(column: Column) -> str:
+def _expected(column: TableColumn) -> str:
     return "a name" if column.spec.kind is Kind.NAME else "a number"
 
 
-def _field(sheet: Sheet, column: Column, cell: Cell) -> str:
+def _field(sheet: WorkbookSheet, column: TableColumn, cell: Cell) -> str:
     value = _value(sheet, cell, _expected(column))
     if isinstance(value, int | float) and not isinstance(value, bool):
         whole = column.spec.kind in (Kind.WHOLE, Kind.IDENT) and float(value).is_integer()
@@ -336,17 +343,17 @@ def _field(sheet: Sheet, column: Column, cell: Cell) -> str:
     raise sheet.fault(cell.row, cell.column, f"expected a number, found {text}{advice}")
 
 
-def _value(sheet: Sheet, cell: Cell, expected: str) -> object:
+def _value(sheet: WorkbookSheet, cell: Cell, expected: str) -> object:
     if cell.uncalculated:
         what = "a formula that was never calculated: open the workbook in a spreadsheet program and save it"
         raise sheet.fault(cell.row, cell.column, f"expected {expected}, found {what}")
     return cell.value
 
 
-def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
-    """Put the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
+def _add(known: list[_NamedRows], more: Sequence[_NamedRows], form: TableForm) -> None:
+    """Add the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
     for entry in more:
-        same = next((one for one in known if one.name.casefold() == entry.name.casefold() and form.name), None)
+        same = next((each for each in known if each.name.casefold() == entry.name.casefold() and form.name), None)
         if same is not None:
             key = form.name.spec.key.lower() if form.name else ""
             what = f"the {key} {cut(entry.name, 40)!r} is also on the sheet {same.sheet.title}: rename one"
@@ -358,24 +365,24 @@ def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
 
 
 @dataclass
-class _Text:
-    """The lines of a deck, and the cell of each that comes from a table."""
+class _DeckText:
+    """Lines of a deck, and the cell of each line that comes from a table."""
 
     lines: list[str] = field(default_factory=list)
-    places: dict[int, tuple[Sheet, int, int]] = field(default_factory=dict)
+    places: dict[int, tuple[WorkbookSheet, int, int]] = field(default_factory=dict)
 
-    def add(self, line: str, entry: _Entry, place: tuple[int, int]) -> None:
+    def add(self, line: str, entry: _NamedRows, place: tuple[int, int]) -> None:
         if "\n" in line or "\r" in line:
             raise entry.sheet.fault(*place, "a line end in a cell: a name is on one line")
         self.lines.append(f" {line}")
         self.places[len(self.lines)] = entry.sheet, *place
 
 
-def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> Deck:
-    """The deck with the lines of all tables; raises DeckError at the cells of what it cannot hold."""
-    text = _Text()
+def _deck(tables: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: str) -> Deck:
+    """Return the deck with the lines of all tables; raises DeckError at cells that a deck cannot hold."""
+    text = _DeckText()
     section = ""
-    for form, entries in sorted(made.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
+    for form, entries in sorted(tables.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
         if form.section != section:
             section = form.section
             text.lines.append(f"${section}")
@@ -391,13 +398,13 @@ def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> 
         if problem.weight is Severity.ERROR:
             place = text.places.get(deck.place(problem).line, next(iter(text.places.values())))
             raise place[0].fault(*place[1:], problem.message)
-    _check(deck, made)
+    _check(deck, tables)
     return deck
 
 
-def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
-    """Raise DeckError for a name that reads otherwise in a deck, and for points that make no curve."""
-    for form, entries in made.items():
+def _check(deck: Deck, tables: Mapping[TableForm, Sequence[_NamedRows]]) -> None:
+    """Raise DeckError for a name that reads otherwise in a deck, and for points that do not form a curve."""
+    for form, entries in tables.items():
         block = next(block for _, block in deck.blocks(form.keyword, form.section))
         slot = next(slot for slot in record_schema(form.declared).slots if slot.record)
         for entry, record in zip(entries, getattr(block, slot.name), strict=True):
@@ -409,7 +416,7 @@ def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
                 _check_curve(form.curve, table, entry)
 
 
-def _check_curve(curve: Rows, table: Table, entry: _Entry) -> None:
+def _check_curve(curve: Rows, table: Table, entry: _NamedRows) -> None:
     points = np.column_stack([table.column(index) for index in curve.axes])
     if np.isnan(points).any():  # an equation: the deck's own checks see its value
         return

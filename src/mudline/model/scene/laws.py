@@ -1,4 +1,4 @@
-"""What each element follows: its normal law and resistance, of both families, and its blocks of extension keywords."""
+"""Laws of each element: its normal law and resistance, of both families, and its blocks of extension keywords."""
 
 from __future__ import annotations
 
@@ -28,17 +28,22 @@ if TYPE_CHECKING:
 
 
 DIRECTIONS = ("longitudinal", "transverse")
-"""Of friction, as the names of its fields begin."""
+"""Directions of friction, as the names of its fields begin."""
 
 NOTHING = -1
 _UNKNOWN = float("nan")
 
 
 class SetLaw(NamedTuple):
-    """What one place of the deck gives to a set of elements; a set that is not known is open and holds none.
+    """Law that one place of the deck gives to a set of elements; an unknown set is open and holds none.
 
-    `family` is "legacy" or "new"; `curve` an index in the table's curves. `unknown` marks a law that could not be read
-    or found, which is reported.
+    kind: kind of law.
+    set_: the set.
+    where: place of the law.
+    family: "legacy" or "new".
+    stiffness: linear stiffness, NaN for other laws.
+    curve: index in the table's curves.
+    unknown: the law could not be read or found, which is reported.
     """
 
     kind: LawKind
@@ -55,11 +60,15 @@ class SetLaw(NamedTuple):
 
 @dataclass(slots=True, repr=False, eq=False)
 class LawTable:
-    """The set_laws as they were found, legacy ones first, and the one that each element follows (m,), -1 for none.
+    """Laws of sets, legacy ones first, and the law that each element follows.
 
-    `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
-    the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
-    places that say "RIGID" or "ELASTIC", and `gaps` those behind which lines may give more laws.
+    curves: the named curves, then those of `*EMBEDMENT`.
+    set_laws: the laws in the order in which they were found.
+    of_element: index (m,) of the law of each element, -1 for none.
+    covered: the last law (m,) of the new family that holds an element, also one without stiffness.
+    referenced: folded names that a STIFFNESS= gives.
+    types: places that give "RIGID" or "ELASTIC".
+    gaps: places after which lines may give more laws.
     """
 
     curves: list[SceneCurve]
@@ -74,20 +83,20 @@ class LawTable:
 
     @property
     def uncertain(self) -> bool:
-        """Whether some law belongs to elements that the deck does not show: any element may have it."""
+        """True if some law belongs to elements that the deck does not show: any element may have it."""
         return any(set_law.set_.open for set_law in self.set_laws)
 
     def followers(self, curve: int) -> Indices:
-        """Indices of the elements on a curve."""
+        """Return indices of the elements on a curve."""
         on_curve = np.array([*(set_law.curve == curve for set_law in self.set_laws), False])
         return np.flatnonzero(on_curve[self.of_element])
 
 
 def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: list[SceneCurve], count: int) -> LawTable:
-    """The law of each of `count` elements.
+    """Return the law of each of `count` elements.
 
-    Of both families, a curve holds before a number, whichever gives it; of two curves or two numbers, that of the new
-    family.
+    In both families a curve takes precedence over a number. Of two curves or two numbers, that of the new family is
+    used.
     """
     laws = LawTable(curves=[*named, *by_set])
     if any(map(catalogue.is_superseded, context.unread)):
@@ -116,7 +125,7 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
 
 
 def _marked(laws: LawTable, kind: LawKind) -> Mask:
-    """Whether each of the set_laws is of a kind; the last one is that of no set_law, -1."""
+    """Return a mask of the laws of a kind; its last item, for elements without a law (-1), is False."""
     return np.array([*(set_law.kind is kind for set_law in laws.set_laws), False])
 
 
@@ -127,7 +136,7 @@ def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[Set
 
 
 def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
-    """The linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they stand."""
+    """Yield the linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they are given."""
     for where, block in context.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
         place = where.inside("properties")
@@ -140,8 +149,8 @@ def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[S
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
-        found = sets.find(curve.name) if curve.named else None
-        holder = found or _unknown(curve.name)
+        set_ = sets.find(curve.name) if curve.named else None
+        holder = set_ or _unknown(curve.name)
         yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
 
@@ -150,7 +159,7 @@ def _unknown(name: str | None) -> NamedSet:
 
 
 def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, str | None]]:
-    """The `*SEABED PROPERTIES` blocks with their type: a block without TYPE= has that of the block before it."""
+    """Yield the `*SEABED PROPERTIES` blocks with their type: a block without TYPE= has that of the block before it."""
     type_: str | None = None
     for where, block in context.blocks("SEABED PROPERTIES"):
         properties = cast("SeabedProperties", block)
@@ -187,13 +196,13 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
 
 
 def _has_gap(entry: SeabedSet) -> bool:
-    """Whether a line below a SET= could not be used, which may be the SET= of another one."""
+    """Return True if a line below a SET= could not be used; it may be another SET=."""
     values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
     return UNKNOWN in values and None not in values
 
 
 class ResistanceValues(NamedTuple):
-    """The values of one place of the deck, NaN for what it does not give.
+    """Values of one place of the deck, NaN for values that it does not give.
 
     Friction coefficients, mobilisation lengths, largest characteristic lengths and friction stiffnesses are those of
     the longitudinal, then of the transverse direction.
@@ -216,10 +225,11 @@ _NO_VALUES = ResistanceValues()
 
 
 class SeabedResistance(NamedTuple):
-    """The values of elements (m,) or (m, 2), NaN where the deck gives none, in the deck's units.
+    """Resistance of elements, NaN where the deck gives none, in the deck's units.
 
-    `values` and `places` list what the deck gives and where; `of_element` (m,) is the index of each element in them,
-    -1 for elements without any.
+    values: the values that the deck gives.
+    places: their places.
+    of_element: index (m,) of each element in them, -1 for elements without any.
     """
 
     values: Sequence[ResistanceValues]
@@ -231,17 +241,20 @@ class SeabedResistance(NamedTuple):
 
     @property
     def has_mobilisation(self) -> bool:
-        """Whether a mobilisation length above 0 is given."""
+        """True if a mobilisation length above 0 is given."""
         return any(length > 0.0 for entry in self.values for length in entry.mobilisation)
 
     def column(self, name: str) -> Floats:
-        """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
+        """Return a field of `ResistanceValues` for all elements: (m,), or (m, 2) for fields of two directions."""
         table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
         return table[self.of_element]
 
 
 def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
-    """The last block of `*SEABED PROPERTIES` that holds an element, taken whole; else the legacy surface."""
+    """Return the resistance of the last block of `*SEABED PROPERTIES` that holds an element, or of the legacy surface.
+
+    A block is taken as a whole.
+    """
     surfaces = list(_of_surfaces(context))
     values = [entry for _, entry in surfaces]
     places = [where for where, _ in surfaces]
@@ -257,10 +270,10 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
 
 def present(covered: Indices) -> list[int]:
-    """The indices that there are, without -1, in ascending order."""
+    """Return the indices that occur, without -1, in ascending order."""
     one_for_all = len(covered) and covered.strides == (0,)
-    found = covered[:1] if one_for_all else covered
-    return np.bincount(found[found >= 0]).nonzero()[0].tolist()
+    indices = covered[:1] if one_for_all else covered
+    return np.bincount(indices[indices >= 0]).nonzero()[0].tolist()
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:
@@ -300,7 +313,7 @@ def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
 
 
 class Extension(NamedTuple):
-    """The blocks of one keyword in the order of the file; `of_element` (m,) is the one each element follows, or -1."""
+    """Blocks of one keyword in the order of the file; `of_element` (m,) is the block of each element, or -1."""
 
     entries: list[Record]
     places: list[Where]
@@ -311,7 +324,7 @@ class Extension(NamedTuple):
         return short_repr(self)
 
     def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
-        """A number of the block of each index, `default` where the block does not give it, NaN for -1.
+        """Return a number of the block of each index, `default` if the block does not give it, NaN for -1.
 
         `names` lead to it: a field, or a field of a record and a field in it.
         """
@@ -322,11 +335,14 @@ class Extension(NamedTuple):
         return picked((number(part, name, default) for part in parts), at)
 
     def says(self, at: Indices, name: str, word: str) -> Mask:
-        """Return True for each index whose block gives a word in a field; False for -1."""
+        """Return a mask that is True for each index whose block gives a word in a field; False for -1."""
         return marked((getattr(entry, name, None) == word for entry in self.entries), at)
 
     def asking(self, name: str) -> Mask:
-        """Elements (m,) whose block gives a field, a number at least 0; all with a block where it is mandatory."""
+        """Return a mask (m,) of elements whose block gives a field, if a number at least 0.
+
+        If the field is mandatory, every element with a block counts.
+        """
         flags = []
         for entry in self.entries:
             value = getattr(entry, name, None)
@@ -336,19 +352,19 @@ class Extension(NamedTuple):
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
-    """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
-    given = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
-    found = {}
-    for keyword in catalogue.in_order(given):
-        made = Extension([], [], [], np.zeros(0, dtype=np.intp))
+    """Return the extensions that the deck gives, by keyword in the order of the catalogue."""
+    keywords = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
+    extensions = {}
+    for keyword in catalogue.in_order(keywords):
+        extension = Extension([], [], [], np.zeros(0, dtype=np.intp))
         for where, block in context.blocks(keyword):
             for listed, named in set_slots(type(cast("Block", block))):
                 for index, entry in enumerate(getattr(block, listed.name)):
                     name = known_name(getattr(entry, named.name))
                     if name is None:
                         context.unread.add(keyword)
-                    made.entries.append(entry)
-                    made.places.append(where.inside(listed.json, index))
-                    made.sets.append(None if name is None else sets.find(name))
-        found[keyword] = made._replace(of_element=later_wins(made.sets, count))
-    return found
+                    extension.entries.append(entry)
+                    extension.places.append(where.inside(listed.json, index))
+                    extension.sets.append(None if name is None else sets.find(name))
+        extensions[keyword] = extension._replace(of_element=later_wins(extension.sets, count))
+    return extensions

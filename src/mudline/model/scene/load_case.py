@@ -30,9 +30,13 @@ if TYPE_CHECKING:
 
 
 class TopMotion(NamedTuple):
-    """Motion of the upper end of a line: amplitudes as complex numbers of one time, in the deck's units.
+    """Motion of the upper end of a line: amplitudes as complex numbers with one time origin, in the deck's units.
 
-    surge: away from the lower end. source: in words; line: of the deck, 0 for none.
+    heave: upward.
+    surge: away from the lower end.
+    period: period of the motion.
+    source: origin of the motion in words.
+    line: line of the deck, 0 for none.
     """
 
     heave: complex
@@ -43,7 +47,7 @@ class TopMotion(NamedTuple):
 
 
 class _Wave(NamedTuple):
-    """Amplitude of the wave that moves a vessel, period and direction; `height` names the height for people."""
+    """Wave that moves a vessel: its amplitude, period and direction; `height` is the symbol of its height."""
 
     amplitude: float
     period: float
@@ -53,9 +57,9 @@ class _Wave(NamedTuple):
 
 
 _DEFAULT_HEAVE, _DEFAULT_PERIOD = 1.0, 10.0
-"""Metres and seconds, where a deck has no waves."""
+"""Default heave and period in metres and seconds, if a deck has no waves."""
 _PEAK_OVER_MEAN = 1.29
-"""Peak period over mean zero up-crossing period of a Jonswap sea with a peakedness of 3.3."""
+"""Ratio of peak period to mean zero up-crossing period of a Jonswap sea with a peakedness of 3.3."""
 _HALF_TURN, _WHOLE_TURN = 180.0, 360.0
 
 
@@ -64,7 +68,7 @@ def top_motion(
 ) -> TopMotion:
     """Return the motion of the top of a line that a vessel moves.
 
-    `direction` (2,) is that of the line from its lower end; `heave` and `period` replace what the deck gives.
+    `direction` (2,) is that of the line from its lower end; `heave` and `period` replace those of the deck.
     """
     wave = next(_waves(scene), None)
     found = _moved(scene, wave, vessel, direction) if wave is not None else None
@@ -79,7 +83,7 @@ def top_motion(
 
 
 def _waves(scene: ResolvedDeck) -> Iterator[_Wave]:
-    """The waves of the deck that are read: a Stokes wave, the highest of regular waves, the sea."""
+    """Yield the waves of the deck that are read: a Stokes wave, the highest of regular waves, the sea."""
     for where, block in scene.deck.blocks("WAVE-STOKES", "LOAD CASE"):
         stokes = cast("StokesWave", block)
         airy, period = number(stokes, "airy_amplitude", 0.0), number(stokes, "period")
@@ -121,7 +125,7 @@ def _usable(wave: _Wave) -> Iterator[_Wave]:
 
 
 def _significant_height(phillips: float, peakedness: float, period: float, gravity: float) -> float:
-    """Hs of a Jonswap spectrum (Hasselmann and others 1973) with a Phillips constant."""
+    """Return Hs of a Jonswap spectrum (Hasselmann and others 1973) with a Phillips constant."""
     ratio = np.linspace(0.3, 8.0, 4000)
     width = np.where(ratio <= 1.0, 0.07, 0.09)
     with np.errstate(all="ignore"):  # of values out of range, which a check reports
@@ -132,7 +136,7 @@ def _significant_height(phillips: float, peakedness: float, period: float, gravi
 
 
 def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> TopMotion:
-    """The motion by the operators of a vessel; without them a heave of half of the amplitude."""
+    """Return the motion by the operators of a vessel; without operators a heave of half of the amplitude."""
     line, height = line_of(scene, wave.where), 2.0 * wave.amplitude
     for rows, heading, source in _operators_of(scene, vessel):
         six = _responses(rows, wave.direction - heading, wave.period)
@@ -146,7 +150,7 @@ def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> 
 
 
 def _operators_of(scene: ResolvedDeck, vessel: str) -> Iterator[tuple[list[list[float]], float, str]]:
-    """Operators of a vessel, its heading, and where they stand; files that cannot be read are passed over."""
+    """Yield operators of a vessel, its heading, and their source; files that cannot be read are passed over."""
     heading, files = 0.0, list[_OperatorFile]()
     placed = chain.from_iterable(map(scene.deck.blocks, catalogue.definers(Names.VESSEL)))
     for where, each in ((where, each) for where, block in placed for each in block.vessels):
@@ -167,7 +171,7 @@ def _operators_of(scene: ResolvedDeck, vessel: str) -> Iterator[tuple[list[list[
 
 
 class _OperatorFile(NamedTuple):
-    """A file of operators as the deck names it."""
+    """File of operators as the deck names it."""
 
     where: Where
     name: str | None
@@ -175,14 +179,14 @@ class _OperatorFile(NamedTuple):
     layout: str | None
 
     def path(self, scene: ResolvedDeck) -> Path | None:
-        """The file, if it is there and in the program's own form."""
+        """Return the file, if it is there and in the program's own form."""
         if not self.name or (self.form or "MCS").upper() != "MCS":
             return None
         return find_file(scene.deck.folder_of(self.where), self.name)
 
 
 def _written(entry: VesselRao) -> list[list[float]]:
-    """The operators that stand in the deck itself, as `operators` returns those of a file."""
+    """Return the operators in the deck itself, in the form in which `operators` returns those of a file."""
     if entry.lines is not None:
         found: list[list[float]] = np.column_stack([entry.lines.column(at) for at in range(14)]).tolist()
         return found
@@ -199,10 +203,11 @@ def _pairs(amplitudes: object, phases: object) -> Iterator[float]:
 
 
 def _responses(rows: list[list[float]], heading: float, period: float) -> list[complex] | None:
-    """Heave, surge and sway of a wave of amplitude 1 from a heading; None where the operators do not reach so far.
+    """Return heave, surge and sway in a wave of amplitude 1 from a heading; None outside the operators' frequencies.
 
-    Between headings and frequencies they are linear. Where all headings lie on one side, the other side mirrors it.
-    Frequencies are radians per second; where only cycles per second reach the wave, they are those.
+    * Between headings and frequencies they are linear.
+    * If all headings lie on one side, they are mirrored to the other side.
+    * Frequencies are radians per second, or cycles per second if only these reach the wave.
     """
     values = np.array(rows)
     phasors = values[:, 2:8:2] * np.exp(-1j * np.radians(values[:, 3:9:2]))
@@ -230,7 +235,7 @@ def _responses(rows: list[list[float]], heading: float, period: float) -> list[c
 
 
 def in_words(value: complex, unit: str) -> str:
-    """Return an amplitude with its unit, and the degrees by which it lags where it does."""
+    """Return an amplitude with its unit, and the degrees by which it lags, if it does."""
     lag = -math.degrees(cmath.phase(value)) if value else 0.0
     return f"{abs(value):.3g}{unit}" + (f" at {lag:.0f} deg" if abs(lag) >= 1.0 else "")
 

@@ -1,4 +1,4 @@
-"""Nodes and elements: tables and generators to numbers, coordinates, node indices and lengths."""
+"""Nodes and elements: tables and generators as numbers, coordinates, node indices and lengths."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.table import LARGEST_WHOLE, Table
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import (
-    Batch,
+    DefinitionBatch,
     Definitions,
     Floats,
     Ids,
@@ -32,11 +32,11 @@ if TYPE_CHECKING:
 class _NodeLine(NamedTuple):
     """Nodes between two others, not yet placed."""
 
-    batch: Batch
+    batch: DefinitionBatch
     ends: tuple[int, int]
 
     def place(self, first: Floats, last: Floats) -> None:
-        """Evenly spaced, exactly so where the spacing is a whole number."""
+        """Place the nodes at even distances, exactly if the spacing is a whole number."""
         count = len(self.batch.ids)
         for block in blocks_of(count):
             steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
@@ -45,7 +45,7 @@ class _NodeLine(NamedTuple):
 
 
 def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
-    """The nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
+    """Return the nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
 
     Nodes that only `external` elements name have no coordinates.
     """
@@ -65,7 +65,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
         known = gathered.resolve(3)
         extra = np.unique(external.nodes)
         extra = extra[known.indices(extra) < 0]
-        gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
+        gathered.add(DefinitionBatch(extra, np.full((len(extra), 3), np.nan), Where()))
     nodes = gathered.resolve(3)
     repeats = nodes.repeats
     if placeless and repeats.size:  # where a line of nodes ends is not known, nor which numbers it has
@@ -82,29 +82,29 @@ def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: 
 
 
 def _coordinates(table: Table) -> Floats:
-    """The coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
+    """Return the coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
     if not (table.full and table.values.shape[1] == 3):
         return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
-    found = np.zeros((len(table), 3))
-    found[:, :2] = table.values[:, 1:]
-    return found
+    coordinates = np.zeros((len(table), 3))
+    coordinates[:, :2] = table.values[:, 1:]
+    return coordinates
 
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
-    """Add the rows of a table that have a number; returns the others."""
+    """Add the rows of a table that have a number; return the other rows."""
     ids, known = whole_numbers(numbers)
     if np.count_nonzero(known) == len(known):
-        gathered.add(Batch(ids, values, where, table))
+        gathered.add(DefinitionBatch(ids, values, where, table))
         return []
     rows = np.flatnonzero(known)
-    gathered.add(Batch(ids[rows], values[rows], where, table, rows))
+    gathered.add(DefinitionBatch(ids[rows], values[rows], where, table, rows))
     unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
     return unknown
 
 
-def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
+def _node_line(context: Context, gathered: Definitions, range_: NodeRange, where: Where) -> _NodeLine | None:
     place = where.inside("generate")
-    numbers = context.generator(given)
+    numbers = context.generator(range_)
     if numbers is None:
         context.unread.add("NODE")
         return None
@@ -121,15 +121,15 @@ def _node_line(context: Context, gathered: Definitions, given: NodeRange, where:
         context.doubtful.setdefault("NODE", []).append((min(start, end), max(start, end)))
         return None
     ids = np.arange(start + step, end, step, dtype=np.int64)
-    return _NodeLine(Batch(ids, np.full((count, 3), np.nan), place), (start, end))
+    return _NodeLine(DefinitionBatch(ids, np.full((count, 3), np.nan), place), (start, end))
 
 
-def _most(made: str) -> str:
-    return f"the GEN= lines of a deck must not make more than {MOST_GENERATED} {made}, overlaps counted"
+def _most(objects: str) -> str:
+    return f"the GEN= lines of a deck must not make more than {MOST_GENERATED} {objects}, overlaps counted"
 
 
 def _between(gathered: Definitions, line: _NodeLine) -> bool:
-    """Place the nodes of a line, if its ends are defined by now."""
+    """Place the nodes of a line if its ends are defined by now; return True if they are."""
     first, last = (gathered.find(number) for number in line.ends)
     if first is None or last is None:
         return False
@@ -138,7 +138,7 @@ def _between(gathered: Definitions, line: _NodeLine) -> bool:
 
 
 def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
-    """Place a line whose ends were not defined before it, if they stand behind it; whether they do."""
+    """Place a line whose ends are defined only after it; return True if they are."""
     where = line.batch.where
     if _between(gathered, line):
         first, last = line.ends
@@ -155,7 +155,7 @@ def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
     return False
 
 
-class ElementTable(NamedTuple):
+class MeshElements(NamedTuple):
     """Elements with the indices of their nodes (m, 2), -1 for a node that is not known, and their lengths (m,)."""
 
     numbered: Numbered
@@ -166,8 +166,8 @@ class ElementTable(NamedTuple):
         return short_repr(self)
 
 
-def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
-    """The elements of the model, then those of a file, which replace them."""
+def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> MeshElements:
+    """Return the elements of the model, then those of a file, which replace them."""
     gathered = Definitions()
     for where, block in context.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
@@ -178,7 +178,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
                 _add_pattern(context, gathered, entry.generate, place)
     own = sum(len(batch.ids) for batch in gathered.batches)
     if external is not None:
-        gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
+        gathered.add(DefinitionBatch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.resolve(2)
     if elements.repeats.size:
         report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
@@ -187,7 +187,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     if external is not None:
         at = elements.indices(external.ids)
         length[at] = np.where(np.isnan(external.length), length[at], external.length)
-    return ElementTable(elements, indices, length)
+    return MeshElements(elements, indices, length)
 
 
 def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
@@ -199,7 +199,7 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
-    """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
+    """Report labels of nodes in a deck without unread blocks: only such blocks make labelled nodes."""
     labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
     if not labels or context.external_definers:
         return
@@ -211,9 +211,9 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
             context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)
 
 
-def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
+def _add_pattern(context: Context, gathered: Definitions, pattern: ElementPattern, where: Where) -> None:
     place = where.inside("generate")
-    numbers = context.generator(given)
+    numbers = context.generator(pattern)
     if numbers is None:
         context.unread.add("ELEMENT")
         return
@@ -232,7 +232,7 @@ def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern,
         context.report_missing(REF005, message, place.inside(0), "ELEMENT", master)
         ends = np.full(2, np.nan)
     steps = np.arange(1, count, dtype=np.int64) * step
-    gathered.add(Batch(master + steps, ends + steps[:, np.newaxis], place))
+    gathered.add(DefinitionBatch(master + steps, ends + steps[:, np.newaxis], place))
 
 
 def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) -> str:
@@ -249,19 +249,19 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
 
 
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
-    """Node indices; each end that names an undefined node is reported, a generator's once."""
+    """Return node indices; each end at an undefined node is reported, a generator's once."""
     indices = np.empty(elements.values.shape, dtype=np.intp)
-    found: list[Indices] = []
+    missing_ends: list[Indices] = []
     for block in blocks_of(len(elements)):
-        given, numbers = _node_numbers(elements.values[block])
-        indices[block] = np.where(given, nodes.indices(numbers), -1)
-        lacks = given & (indices[block] < 0)
+        numbered, numbers = _node_numbers(elements.values[block])
+        indices[block] = np.where(numbered, nodes.indices(numbers), -1)
+        lacks = numbered & (indices[block] < 0)
         if np.count_nonzero(lacks):
-            found.append(np.argwhere(lacks))
-            found[-1][:, 0] += block.start
-    if not found:
+            missing_ends.append(np.argwhere(lacks))
+            missing_ends[-1][:, 0] += block.start
+    if not missing_ends:
         return indices
-    missing = np.concatenate(found)
+    missing = np.concatenate(missing_ends)
     batches = elements.batches_of(elements.rows[missing[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
     _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(missing))), return_index=True)
@@ -276,13 +276,13 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
 
 
 def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
-    """Where values are numbers of nodes, and these; 0 elsewhere."""
-    given = np.abs(values) <= 2 * LARGEST_WHOLE
-    return given, np.where(given, values, 0).astype(np.int64)
+    """Return a mask of values that are numbers of nodes, and the numbers, 0 elsewhere."""
+    usable = np.abs(values) <= 2 * LARGEST_WHOLE
+    return usable, np.where(usable, values, 0).astype(np.int64)
 
 
 def _lengths(ends: Indices, coordinates: Floats) -> Floats:
-    """Distances between the nodes, NaN where one is not known."""
+    """Return distances between the nodes, NaN if one is not known."""
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
         if np.minimum.reduce(ends[block], axis=None) >= 0:
@@ -299,16 +299,16 @@ _SMALLEST_SQUARE, _LARGEST_SQUARE = 1e-280, 1e280
 
 
 def distances(points: Floats, others: Floats) -> Floats:
-    """Return the distances (m,) between points (m, 3); infinite only where a float64 cannot hold them."""
+    """Return the distances (m,) between points (m, 3); infinite only if a float64 cannot hold them."""
     with np.errstate(all="ignore"):
         span = np.subtract(others, points)
         square = np.add.reduce(span**2, axis=1)
-        found: Floats = np.sqrt(square)
+        lengths: Floats = np.sqrt(square)
         if np.count_nonzero(odd := (square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE)):
             largest = np.abs(span[odd]).max(axis=1, initial=0.0)
             scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
-            found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
-    return found
+            lengths[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
+    return lengths
 
 
 def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:

@@ -1,4 +1,4 @@
-"""From a deck to a scene: its arrays, what is wrong with it, and its evaluator."""
+"""Scene of a deck: its arrays, its faults, and its evaluator."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 @dataclass(repr=False)
 class Scene(ResolvedDeck):
-    """A resolved deck with what is wrong with it, and its evaluator: what the packages use of `mudline.Scene`."""
+    """Resolved deck with its faults and its evaluator: the part of `mudline.Scene` that the packages use."""
 
     def __repr__(self) -> str:
         counts = [
@@ -56,47 +56,47 @@ class Scene(ResolvedDeck):
 
     @cached_property
     def findings(self) -> list[Problem]:
-        """All that is wrong with the deck, as far as evaluating it goes."""
+        """All faults of the deck that concern its evaluation."""
         return [*self.context.of_deck(), *self.problems]
 
     @cached_property
     def problems(self) -> list[Problem]:
-        """What resolving the deck noticed, and what the rules that block find."""
+        """Problems from resolving the deck and from the rules that block."""
         found = findings(_rules(), self)
         return [*self.noticed, *chain.from_iterable(found)]
 
     def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:
-        """The findings that keep the scene from being evaluated; `tension` is that of `contact`."""
+        """Return the findings that keep the scene from being evaluated; `tension` is that of `contact`."""
         blocks = (Blocks.ALWAYS, Blocks.WITH_TENSION) if tension == "keep" else (Blocks.ALWAYS,)
         return [problem for problem in self.findings if problem.blocking in blocks]
 
     def errors(self) -> list[Problem]:
-        """What is wrong with the deck itself, so that the scene cannot be used.
+        """Return the faults of the deck itself, so that the scene cannot be used.
 
-        A warning may keep the scene from being evaluated too: what it lacks may stand where it is not read.
+        A warning may keep the scene from being evaluated too: a missing definition may be in an unread line.
         """
         return [problem for problem in self.blocking("cut") if problem.weight is Severity.ERROR]
 
     def require_evaluable(self, tension: Literal["keep", "cut"] = "keep") -> Scene:
-        """The scene itself; raises DeckError for the findings that keep it from being evaluated."""
+        """Return the scene itself; raises DeckError for the findings that keep it from being evaluated."""
         if problems := self.blocking(tension):
             raise DeckError(self.deck.diagnose(problems))
         return self
 
     def require(self) -> Scene:
-        """The scene itself; raises DeckError for errors on which a result depends."""
+        """Return the scene itself; raises DeckError for errors on which a result depends."""
         if errors := self.errors():
             raise DeckError(self.deck.diagnose(errors))
         return self
 
     def contact(self, tension: Literal["keep", "cut"] = "keep", *, backend: Backend = "auto") -> ContactModel:
-        """The evaluator of this scene, as `mudline.Scene.contact` says."""
+        """Return the evaluator of this scene, as `mudline.Scene.contact` does."""
         from mudline.model.contact.model import ContactModel  # noqa: PLC0415 - as below
 
         return ContactModel(self.contact_input(tension), backend=backend)
 
     def contact_input(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
-        """The arrays that the evaluator is made from; raises DeckError as `contact` does."""
+        """Return the arrays that the evaluator is made from; raises DeckError as `contact` does."""
         from mudline.model.scene.contact_input import contact_input  # noqa: PLC0415 - checking a deck does without it
 
         self.require_evaluable(tension)
@@ -105,20 +105,20 @@ class Scene(ResolvedDeck):
 
 @cache
 def _rules() -> tuple[Rule, ...]:
-    """The rules that find what blocks evaluation."""
+    """Return the rules that find causes that block evaluation."""
     modules_of("mudline.model.scene.rules")
-    return tuple(one for one in RULES.values() if one.blocks)
+    return tuple(rule for rule in RULES.values() if rule.blocks)
 
 
 def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
-    """The scene of a deck, as far as it can be resolved; what went wrong is in its `problems`.
+    """Return the scene of a deck, as far as it can be resolved; its faults are in `problems`.
 
     `external` adds elements that the deck does not show, or replaces its own. The models of the decks that it continues
-    belong to the scene, if they are found beside it; what lies in them is among the problems too.
+    belong to the scene, if they are found next to it; their faults are in `problems` too.
     """
-    whole, found = continued(deck)
+    whole, problems_of_restart = continued(deck)
     ready, problems = evaluated(whole)
-    context = Context(ready, whole, [*found, *problems])
+    context = Context(ready, whole, [*problems_of_restart, *problems])
     if external is not None:
         context.external_definers = []
     nodes = read_nodes(context, external)

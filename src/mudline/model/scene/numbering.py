@@ -1,4 +1,4 @@
-"""Numbered things of a deck, nodes or elements: later definitions win, numbers lead to indices, indices to lines."""
+"""Numbered objects of a deck, nodes or elements: later definitions win, numbers lead to indices, indices to lines."""
 
 from __future__ import annotations
 
@@ -31,26 +31,26 @@ _Run = tuple[Indices, Ids]
 
 
 def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
-    """`table[indices]`, not to be written to; of one index for all, as `later_wins` gives it, in the memory of one."""
+    """Return `table[indices]`, which must not be written to; one index for all, as from `later_wins`, stays compact."""
     if len(indices) and indices.strides == (0,):
         return np.broadcast_to(table[indices[0]], indices.shape)
     return table[indices]
 
 
 def blocks_of(count: int) -> Iterator[slice]:
-    """Slices of at most some thousand rows: what is computed on the way is no larger than they are."""
+    """Return slices of at most some thousand rows, which limit the size of temporary arrays."""
     return (slice(start, min(start + _AT_ONCE, count)) for start in range(0, count, _AT_ONCE))
 
 
 def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
-    """A column of a table as whole numbers, and where it holds one; what could not be read is 0."""
+    """Return a column of a table as whole numbers, and a mask of rows with one; other rows are 0."""
     known = np.abs(column) <= LARGEST_WHOLE
     known &= column == np.floor(column)
     return np.where(known, column, 0.0).astype(np.int64), known
 
 
-class Batch(NamedTuple):
-    """Definitions that stand together: rows of a table, or all of one generator (`table` "").
+class DefinitionBatch(NamedTuple):
+    """Definitions that were given together: rows of a table, or all of one generator (`table` "").
 
     `rows` are their places in the table; None stands for all of them in order.
     """
@@ -65,7 +65,7 @@ class Batch(NamedTuple):
         return short_repr(self)
 
     def place(self, index: int) -> Where:
-        """Where a definition of the batch stands."""
+        """Return the place of a definition of the batch."""
         if not self.table:
             return self.where
         row = index if self.rows is None else int(self.rows[index])
@@ -76,7 +76,7 @@ class Batch(NamedTuple):
 class Definitions:
     """Definitions in the order of the file, numbered through as rows."""
 
-    batches: list[Batch] = field(default_factory=list)
+    batches: list[DefinitionBatch] = field(default_factory=list)
     generated: int = 0
     _starts: list[int] = field(default_factory=lambda: [0])
     _indexed: int = 0
@@ -86,14 +86,14 @@ class Definitions:
 
     __repr__ = short_repr
 
-    def add(self, batch: Batch) -> None:
-        """Take in a batch."""
+    def add(self, batch: DefinitionBatch) -> None:
+        """Add a batch."""
         self.batches.append(batch)
         self._starts.append(self._starts[-1] + len(batch.ids))
         self.generated += 0 if batch.table else len(batch.ids)
 
     def find(self, number: int) -> Floats | None:
-        """The values of the definition of a number that holds so far."""
+        """Return the values of the current definition of a number."""
         self._index()
         row = self._recent.get(number)
         if row is None and len(self._ids):
@@ -106,7 +106,7 @@ class Definitions:
         return values
 
     def _index(self) -> None:
-        """Take in the batches added since: into a dictionary, and when that grows, into a sorted table of all."""
+        """Index the batches added since: in a dictionary, and when that grows, in a sorted table of all."""
         first, self._indexed = self._indexed, len(self.batches)
         pending = self._starts[-1] - self._starts[first] + len(self._recent)
         if pending <= max(_FEW, len(self._ids)):
@@ -122,7 +122,7 @@ class Definitions:
         self._recent = {}
 
     def resolve(self, width: int) -> Numbered:
-        """The definitions that hold, in the order in which their numbers first appear, and those given twice.
+        """Return the valid definitions, in the order in which their numbers first appear, and those given twice.
 
         `width` is the number of values of a definition.
         """
@@ -153,10 +153,15 @@ class Definitions:
 
 @dataclass(slots=True, repr=False, eq=False)
 class Numbered:
-    """Numbers and values of the definitions that hold.
+    """Numbers and values of the valid definitions; indices of definitions count all rows of the file.
 
-    `firsts` and `rows` say which definition of a number is the first and which one holds, `repeats` which ones come
-    after another of their number; all count the rows of all definitions of the file.
+    ids: the numbers.
+    values: their values.
+    firsts: first definition of each number.
+    rows: valid definition of each number.
+    repeats: definitions after another one of their number.
+    starts: first row of each batch.
+    batches: the batches of definitions.
     """
 
     ids: Ids
@@ -165,7 +170,7 @@ class Numbered:
     rows: Indices
     repeats: Indices
     starts: Indices
-    batches: list[Batch]
+    batches: list[DefinitionBatch]
     _runs: list[_Run] | None = None
 
     __repr__ = short_repr
@@ -174,37 +179,37 @@ class Numbered:
         return len(self.ids)
 
     def where(self, index: int) -> Where:
-        """Where the definition that holds for an index stands."""
+        """Return the place of the valid definition of an index."""
         return self.where_row(int(self.rows[index]))
 
     def where_row(self, row: int) -> Where:
-        """Where a definition stands."""
+        """Return the place of a definition."""
         batch = int(self.batches_of(row))
         return self.batches[batch].place(row - int(self.starts[batch]))
 
     def batches_of(self, rows: Indices | int) -> Indices:
-        """The batches that definitions belong to."""
+        """Return the batches that definitions belong to."""
         return self.starts.searchsorted(rows, side="right") - 1
 
     def indices(self, ids: Ids) -> Indices:
-        """Indices of numbers, -1 for those not defined."""
-        found = np.full(ids.shape, -1, dtype=np.intp)
+        """Return indices of numbers, -1 for those not defined."""
+        indices = np.full(ids.shape, -1, dtype=np.intp)
         for order, ordered in self._ascending():
             at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)
-            np.copyto(found, order[at], where=ordered[at] == ids)
-        return found
+            np.copyto(indices, order[at], where=ordered[at] == ids)
+        return indices
 
     def between(self, start: int, end: int, step: int) -> Indices:
-        """Indices of the numbers start, start + step, ... up to end, in ascending order."""
+        """Return indices of the numbers start, start + step, ... up to end, in ascending order."""
         parts = []
         for order, ordered in self._ascending():
             within = slice(ordered.searchsorted(start), ordered.searchsorted(end, side="right"))
             parts.append(order[within] if step == 1 else order[within][(ordered[within] - start) % step == 0])
-        found = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
-        return found if _is_ascending(found) else np.sort(found)
+        indices = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
+        return indices if _is_ascending(indices) else np.sort(indices)
 
     def _ascending(self) -> list[_Run]:
-        """The numbers in ascending order: as they stand if they make few runs, which takes no memory, else sorted."""
+        """Return the numbers in ascending order: as they are if they form few runs, which takes no memory."""
         if self._runs is None:
             begins = np.flatnonzero(self.ids[1:] <= self.ids[:-1]) + 1
             if len(begins) < _FEW_RUNS:
@@ -227,25 +232,25 @@ def _all_different(ids: Ids) -> bool:
 
 
 def picked(values: Iterable[float], index: Indices) -> Floats:
-    """The value of each index; NaN for -1."""
+    """Return the value of each index; NaN for -1."""
     return np.array([*values, np.nan], dtype=np.float64)[index]
 
 
 def marked(flags: Iterable[bool], index: Indices) -> Mask:
-    """The flag of each index; False for -1."""
+    """Return the flag of each index; False for -1."""
     return np.array([*flags, False], dtype=np.bool_)[index]
 
 
 def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:
-    """For each node the last block, by the order of the file, that one of its elements follows; -1 for none."""
-    found = np.full(nodes, -1, dtype=np.intp)
+    """Return for each node the last block, by the order of the file, that one of its elements follows; -1 for none."""
+    last = np.full(nodes, -1, dtype=np.intp)
     for end in element_nodes.T:
-        np.maximum.at(found, end, of_element)
-    return found
+        np.maximum.at(last, end, of_element)
+    return last
 
 
 def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
-    """The sum of the values (m,) of each node's elements."""
+    """Return the sum of the values (m,) of each node's elements."""
     total = np.zeros(nodes)
     for end in element_nodes.T:
         np.add.at(total, end, values)
@@ -253,7 +258,7 @@ def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
 
 
 def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
-    """The nodes of which an element is marked."""
-    found = np.zeros(nodes, dtype=np.bool_)
-    found[element_nodes[elements].ravel()] = True
-    return found
+    """Return a mask of the nodes with a marked element."""
+    marked_nodes = np.zeros(nodes, dtype=np.bool_)
+    marked_nodes[element_nodes[elements].ravel()] = True
+    return marked_nodes

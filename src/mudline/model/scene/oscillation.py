@@ -1,9 +1,8 @@
-"""The contacts of a scene as a time step sees them: stiffness and mass of each kind, with its deck line.
+"""Contacts of a scene as a time step sees them: stiffness and mass of each kind, with its deck line.
 
-The stiffness is a fact of the laws (`mudline.model.contact.stiffest`), the largest that they can reach. The mass is the
-one that a node carries: of half of each of its elements, without contents or added water. Elements give a node half of
-their stiffness each, laws of nodes their own. The rules about time steps and the study's rows of friction share these
-numbers.
+The stiffness is the largest that the laws can reach (`mudline.model.contact.stiffest`). The mass is that of a node:
+half of each of its elements, without contents or added water. Elements give a node half of their stiffness each, laws
+of nodes their own. The rules about time steps and the study's rows of friction share these numbers.
 """
 
 from __future__ import annotations
@@ -26,14 +25,14 @@ if TYPE_CHECKING:
     from mudline.model.contact.stiffest import Stiffest
 
 _RISES = np.linspace(0.02, 1.0, 50)
-"""Pull-out velocities over v_r at which the mobilisation of suction is looked at."""
+"""Ratios of pull-out velocity to v_r at which the mobilisation of suction is evaluated."""
 _NEARLY = 0.999
 SOFTENING = "softening"
-"""Kind of what falls as it moves on."""
+"""Kind of a resistance that decreases with displacement."""
 
 
 class Oscillation(NamedTuple):
-    """One kind of contact, at its node that swings fastest.
+    """Kind of contact, at its node with the highest frequency.
 
     kind: "normal", "nodal", "unloading", "friction", "softening", "lateral", "suction spring" or "suction
         mobilisation".
@@ -57,9 +56,10 @@ class Oscillation(NamedTuple):
 
 
 class Oscillations(NamedTuple):
-    """What oscillates, the fastest first; contacts without a stiffness or a mass that is known are left out.
+    """Contacts that oscillate, the fastest first; contacts without a known stiffness or mass are left out.
 
-    softening: what falls as it moves on: its `omega` is the rate at which a motion grows.
+    found: contacts with a stiffness.
+    softening: contacts whose resistance decreases; their `omega` is the rate at which a motion grows.
     """
 
     found: list[Oscillation]
@@ -67,31 +67,31 @@ class Oscillations(NamedTuple):
 
 
 def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
-    """The contacts of a scene whose evaluator has the input `given`."""
+    """Return the contacts of a scene whose evaluator has the input `given`."""
     from mudline.model.contact import ContactModel  # noqa: PLC0415 - loaded when it is needed
 
     every = [*_of_elements(scene, given, ContactModel(given).stiffest(), _Carried(scene))]
-    springs = [one for one in every if one.kind != SOFTENING]
-    softening = [one for one in every if one.kind == SOFTENING]
-    return Oscillations(sorted(springs, key=lambda one: -one.omega), softening)
+    springs = [contact for contact in every if contact.kind != SOFTENING]
+    softening = [contact for contact in every if contact.kind == SOFTENING]
+    return Oscillations(sorted(springs, key=lambda contact: -contact.omega), softening)
 
 
 def line_of(scene: ResolvedDeck, where: Where | None) -> int:
-    """Line of a place in the file that it stands in; 0 for none."""
+    """Return the line of a place in its file; 0 for none."""
     return 0 if where is None else scene.deck.place(Problem(RUN001, "", where=where)).line
 
 
-def softening_needs(scene: ResolvedDeck, one: Oscillation) -> str:
-    """What a structure and time steps need where a resistance falls: " = stiffness; steps"."""
+def softening_needs(scene: ResolvedDeck, contact: Oscillation) -> str:
+    """Return the requirements of a softening resistance on structure and time steps: " = stiffness; steps"."""
     from mudline.model.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - loaded when it is needed
 
     unit, time = unit_names(scene.units).behind("stiffness"), f" {time_unit(scene.units)}".rstrip()
-    place, step = f"node {scene.node_ids[one.node]}", rounded_down(ADVISED_OMEGA_DT / one.omega)
-    return f" = {one.stiffness:.6g}{unit} ({place}); in time, the fall needs steps of {step:.3g}{time} or less"
+    place, step = f"node {scene.node_ids[contact.node]}", rounded_down(ADVISED_OMEGA_DT / contact.omega)
+    return f" = {contact.stiffness:.6g}{unit} ({place}); in time, the fall needs steps of {step:.3g}{time} or less"
 
 
 class _Carried:
-    """Length (n,) and mass per unit length (n,) of the nodes, and what they have of values of their elements."""
+    """Length (n,) and mass per unit length (n,) of the nodes, and their shares in values of their elements."""
 
     def __init__(self, scene: ResolvedDeck) -> None:
         self.ends, self.nodes = scene.element_nodes, len(scene.node_ids)
@@ -102,14 +102,14 @@ class _Carried:
             self.mass = self.spread(scene.mass_per_length)
 
     def spread(self, values: Floats) -> Floats:
-        """Values per unit length of elements (m,) as those of their nodes (n,)."""
-        found = np.zeros(self.nodes)
+        """Return values per unit length of elements (m,) as those of their nodes (n,)."""
+        of_nodes = np.zeros(self.nodes)
         for end, share in zip(self.ends.T, self._shares, strict=True):
-            np.add.at(found, end, share * values)
-        return found
+            np.add.at(of_nodes, end, share * values)
+        return of_nodes
 
     def leading(self, values: Floats) -> Mask:
-        """Which elements (m,) give the most to each of their two nodes (m, 2)."""
+        """Return a mask (m, 2) of the elements that give the most to each of their two nodes."""
         parts = np.column_stack([share * values for share in self._shares])
         largest = np.zeros(self.nodes)
         np.maximum.at(largest, self.ends, parts)
@@ -117,7 +117,7 @@ class _Carried:
 
 
 def _of_elements(scene: ResolvedDeck, given: ContactInput, facts: Stiffest, carried: _Carried) -> Iterator[Oscillation]:
-    """Every kind of contact whose frequency is known."""
+    """Yield every kind of contact whose frequency is known."""
     from mudline.model.contact.laws import is_normal  # noqa: PLC0415 - loaded when it is needed
 
     by_law = {law.law: law for law in facts.laws}
@@ -156,7 +156,7 @@ def _of_elements(scene: ResolvedDeck, given: ContactInput, facts: Stiffest, carr
 
 
 def _groups(having: Mask, *keys: Indices) -> list[Indices]:
-    """Indices of the elements that have something, in groups of the same keys, in the order of the keys."""
+    """Return indices of the masked elements, in groups of the same keys, in the order of the keys."""
     rows = np.flatnonzero(having)
     if not rows.size:
         return []
@@ -169,9 +169,9 @@ def _groups(having: Mask, *keys: Indices) -> list[Indices]:
 def _of_group(
     kind: str, name: str, group: Indices, values: Floats, carried: _Carried, where: Where | None
 ) -> Iterator[Oscillation]:
-    """The node of some elements with the largest stiffness over its mass, if both are known.
+    """Yield the node of some elements with the largest stiffness over its mass, if both are known.
 
-    `values` is the stiffness (m,) of all elements of this kind. A node between two laws belongs to the one that gives
+    `values` is the stiffness (m,) of all elements of this kind. A node between two laws belongs to the law that gives
     it more.
     """
     stiffness = np.where(np.isnan(values), 0.0, values)
@@ -187,25 +187,25 @@ def _of_group(
         yield from _known(Oscillation(kind, name, node, float(of_nodes[node]), float(carried.mass[node]), where))
 
 
-def _known(one: Oscillation) -> Iterator[Oscillation]:
-    """A contact, if it swings."""
-    if one.mass > 0.0 and math.isfinite(one.mass) and math.isfinite(one.stiffness) and one.omega > 0.0:
-        yield one
+def _known(contact: Oscillation) -> Iterator[Oscillation]:
+    """Yield a contact, if it oscillates."""
+    if contact.mass > 0.0 and math.isfinite(contact.mass) and math.isfinite(contact.stiffness) and contact.omega > 0.0:
+        yield contact
 
 
 def _of_nodes(scene: ResolvedDeck, stiffness: Floats, carried: _Carried) -> Iterator[Oscillation]:
-    """Nodes with a stiffness of their own: of each stiffness the fastest node."""
+    """Yield nodes with nodal stiffness: for each stiffness the fastest node."""
     contact = scene.extensions["SEABED CONTACT"]
     blocks = at_nodes(np.where(scene.nodal, contact.of_element, -1), carried.ends, carried.nodes)
     for value in np.unique(stiffness[stiffness > 0.0]).tolist():
         nodes = np.flatnonzero(stiffness == value)
-        for found in _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried):
-            place = contact.places[int(blocks[found.node])].inside("nodal_stiffness")
-            yield found._replace(name=f"{found.name} at node {scene.node_ids[found.node]}", where=place)
+        for spring in _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried):
+            place = contact.places[int(blocks[spring.node])].inside("nodal_stiffness")
+            yield spring._replace(name=f"{spring.name} at node {scene.node_ids[spring.node]}", where=place)
 
 
 def _of_node(kind: str, name: str, nodes: Indices, stiffness: Floats, carried: _Carried) -> Iterator[Oscillation]:
-    """The node of some with the largest stiffness, force per length, over the mass that it carries, if it is known."""
+    """Yield the node with the largest stiffness, force per length, over the mass that it carries, if it is known."""
     with np.errstate(all="ignore"):
         per_length = stiffness / carried.length
         weight = per_length[nodes] / carried.mass[nodes]
@@ -217,7 +217,7 @@ def _of_node(kind: str, name: str, nodes: Indices, stiffness: Floats, carried: _
 def _of_springs(
     scene: ResolvedDeck, kind: str, field: str, stiffness: Floats, carried: _Carried
 ) -> Iterator[Oscillation]:
-    """Nodes (n,) with a spring of friction, by the place that gives it: `field` of its block, or FRICTION=."""
+    """Yield nodes (n,) with a friction spring, by the place that gives it: `field` of its block, or FRICTION=."""
     own = scene.extensions.get("SEABED FRICTION")
     ends, nodes = carried.ends, carried.nodes
     of_keyword = np.full(nodes, -1) if own is None else at_nodes(own.of_element, ends, nodes)
@@ -232,11 +232,11 @@ def _of_springs(
             place = scene.resistance.places[index].inside("friction")
             on = np.flatnonzero(scene.resistance.of_element == index)[0]
             name = f"friction on {_set_of_resistance(scene, int(on))}"
-        yield from (one._replace(where=place) for one in _of_node(kind, name, group, stiffness, carried))
+        yield from (contact._replace(where=place) for contact in _of_node(kind, name, group, stiffness, carried))
 
 
 def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation]:
-    """Suction that is mobilised, at the velocity up to v_r that makes it stiffest, by the place that gives it."""
+    """Yield mobilised suction, at the velocity up to v_r with the largest stiffness, by the place that gives it."""
     from mudline.model.contact.laws.suction import SuctionLaw, suction_rates  # noqa: PLC0415 - only now is it needed
 
     own = scene.extensions["SEABED SUCTION"]
@@ -257,9 +257,9 @@ def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> 
             continue  # its stiffness, or its damping, has no largest value
         place = own.places[index].inside("cohesion" if getattr(own.entries[index], "force", None) is None else "force")
         tried = [
-            (one, share * slow)
+            (contact, share * slow)
             for share, values in zip(_RISES.tolist(), stiffness, strict=True)
-            for one in _of_group("suction mobilisation", name, group, values, carried, place)
+            for contact in _of_group("suction mobilisation", name, group, values, carried, place)
         ]
         if tried:
             at_largest, speed = max(tried, key=lambda each: each[0].omega)
@@ -269,13 +269,13 @@ def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> 
 
 
 def _set_of_resistance(scene: ResolvedDeck, element: int) -> str:
-    """Name of the set through which an element has its resistance; ALL for a surface."""
+    """Return the name of the set through which an element has its resistance; ALL for a surface."""
     index = int(scene.laws.covered[element])
     return scene.laws.set_laws[index].set_.name if index >= 0 else "ALL"
 
 
 def _place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
-    """Where the stiffness of an element stands: the end of the steepest segment of its curve."""
+    """Return the place of an element's stiffness: the end of the steepest segment of its curve."""
     for _, field, extension, elements in reversed(scene.replaced):
         if elements[element]:
             return extension.places[int(extension.of_element[element])].inside(field)

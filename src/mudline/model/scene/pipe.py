@@ -1,4 +1,4 @@
-"""Pipe of a deck as its own weight and the water see it: weight, mass, contents, added mass, drag and stiffness."""
+"""Pipe of a deck: weight, mass, contents, added mass, drag and stiffness."""
 
 from __future__ import annotations
 
@@ -18,18 +18,21 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
 
 _DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
-"""Coefficients of an element without any in the deck, and those that a line may leave out."""
+"""Coefficients of an element without any in the deck, and defaults of fields that a line may omit."""
 
 
 class Pipe(NamedTuple):
     """Elements (m,) of a deck, per unit length and in its units; NaN where a value is not known.
 
     weight: submerged weight with contents.
-    mass: of the pipe alone. contents: mass of what flows in it in the last load case. added_mass: Ca rho pi D^2 / 4.
-    drag: Cd rho D / 2, the force of water across at a velocity of 1.
-    drag_coefficient, added_mass_coefficient: Cd and Ca. has_coefficients: False where these are assumed.
-    bending, axial: EI and EA, of curves their slope at 0; 0 for sections that do not bend.
-    axial_drag_coefficient, axial_added_mass: those along, 0 where none is given.
+    mass: mass of the pipe alone.
+    contents: mass of the contents in the last load case.
+    added_mass: Ca rho pi D^2 / 4.
+    drag: Cd rho D / 2, the transverse force of water at a velocity of 1.
+    drag_coefficient, added_mass_coefficient: Cd and Ca.
+    has_coefficients: False where these are assumed.
+    bending, axial: EI and EA, for curves their slope at 0; 0 for sections without bending stiffness.
+    axial_drag_coefficient, axial_added_mass: values along the pipe, 0 if not given.
     """
 
     weight: Floats
@@ -51,7 +54,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     table, around = scene.section_table, scene.surroundings
     filled = contents(scene)
     inside = filled[-1].mass if filled else np.zeros(len(scene.element_ids))
-    added, drag, given, with_buoyancy, along = _coefficients(scene)
+    added, drag, from_deck, with_buoyancy, along = _coefficients(scene)
     entries = [section.entry.section for section in table.sections]
     outer = picked((number(each, "do", number(each, "dd")) for each in entries), table.of_element)
     drag_diameter = picked((number(each, "dd", number(each, "do")) for each in entries), table.of_element)
@@ -69,7 +72,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
             drag=0.5 * drag * around.density * drag_diameter,
             drag_coefficient=drag,
             added_mass_coefficient=added,
-            has_coefficients=given,
+            has_coefficients=from_deck,
             bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
             axial=picked((each.axial for each in of_sections), table.of_element),
             axial_drag_coefficient=along[:, 0],
@@ -78,13 +81,13 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
 
 
 def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floats]:
-    """Ca and Cd (m,), which elements have them from the deck, and which take the buoyancy diameter for inertia.
+    """Return Ca (m,), Cd (m,), two masks (m,), and Cd and Ca along the pipe (m, 2).
 
-    Last Cd and Ca along (m, 2).
+    The masks are the elements with coefficients in the deck, and those whose inertia uses the buoyancy diameter.
     """
     count = len(scene.element_ids)
     added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
-    given, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+    from_deck, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     along = np.zeros((count, 2))
     for _, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
         hydrodynamic = cast("HydrodynamicSets", block)
@@ -98,5 +101,5 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floa
             added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
             drag[rows] = number(row, "normal_drag", _DRAG)
             along[rows] = [number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass")]
-            given[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
-    return added, drag, given, with_buoyancy, along
+            from_deck[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
+    return added, drag, from_deck, with_buoyancy, along

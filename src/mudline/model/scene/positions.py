@@ -49,10 +49,10 @@ _ARRAYS = frozenset({"positions", "node", "time", "velocities"})
 
 
 class StepFile(StepReader):
-    """The steps of an NPY file, an array (steps, nodes, 3) in C order, read when they are asked for.
+    """Steps of an NPY file, an array (steps, nodes, 3) in C order, read on demand.
 
-    They are read and not mapped: a file that becomes shorter while it is mapped ends the program. `order` (nodes,) says
-    which node of the file is each of the deck.
+    They are read and not mapped: a file that becomes shorter while it is mapped ends the program. `order` (nodes,)
+        gives the node of the file for each node of the deck.
     """
 
     def __init__(
@@ -69,30 +69,30 @@ class StepFile(StepReader):
     def __len__(self) -> int:
         return self.shape[0]
 
-    def __getitem__(self, wanted: slice | int) -> Reals:
-        """Some steps (steps, nodes, 3), or one (nodes, 3). Raises OSError, DeckError."""
-        if not isinstance(wanted, slice):
-            return cast("Reals", self[wanted : wanted + 1][0])
-        first, last, _ = wanted.indices(len(self))
-        found = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
-        left = found.reshape(-1).view(np.uint8).data
-        self._stream.seek(self._offset + first * found[:1].nbytes)
+    def __getitem__(self, steps: slice | int) -> Reals:
+        """Return some steps (steps, nodes, 3), or one (nodes, 3). Raises OSError, DeckError."""
+        if not isinstance(steps, slice):
+            return cast("Reals", self[steps : steps + 1][0])
+        first, last, _ = steps.indices(len(self))
+        values = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
+        left = values.reshape(-1).view(np.uint8).data
+        self._stream.seek(self._offset + first * values[:1].nbytes)
         while left:
             count = self._stream.readinto(left)
             if not count:
                 message = "the file has become shorter while it was read: wait until it is written, and try again"
                 raise data_error(self._file, message)
             left = left[count:]
-        return found if self._order is None else found[:, self._order]
+        return values if self._order is None else values[:, self._order]
 
 
 def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
-    """Positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
+    """Return positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
 
     `headings` are those of a CSV whose columns have other names, by the name in `COLUMNS`; the values stay as they are.
 
-    Raises OSError, or DeckError for a file with faults: nodes that the deck lacks, numbers that are none, steps with
-    different nodes.
+    Raises OSError, or DeckError for a file with faults: undefined nodes, values that are not numbers, steps with
+        different nodes.
     """
     file, suffix = path.as_posix(), path.suffix.lower()
     if suffix == ".npy":
@@ -107,9 +107,9 @@ def positions_of(
     nodes: Numbered,
     headings: Mapping[str, str] | None = None,
 ) -> Positions:
-    """Positions in a pandas frame or an xarray data set, or array, of which `read_positions` says what a file holds.
+    """Return positions in a pandas frame or an xarray data set or array, with the contents that `read_positions` gives.
 
-    A frame has the columns of a CSV, also in its index; a data set has the arrays of an NPZ, a data array is its
+    A frame has the columns of a CSV, also in its index. A data set has the arrays of an NPZ. A data array is its
     `positions`, with the dimensions `time`, `node` and one for the axes.
 
     Raises DeckError as `read_positions` does.
@@ -132,7 +132,7 @@ def positions_of(
 
 
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
-    """Rows of some nodes among rows of all."""
+    """Return rows of some nodes as rows of all nodes, NaN for the others."""
     spread = np.full((len(values), count, 3), np.nan)
     spread[:, where] = values
     return spread
@@ -158,9 +158,9 @@ def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
 
 
 def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> None:
-    """Every step must hold every node of the file once."""
-    given, index = np.unique(ids, return_inverse=True)
-    cells = step * len(given) + index
+    """Raise DeckError unless every step has every node of the file once."""
+    nodes, index = np.unique(ids, return_inverse=True)
+    cells = step * len(nodes) + index
     order = np.argsort(cells, kind="stable")
     ordered = cells[order]
     repeats = np.flatnonzero(ordered[1:] == ordered[:-1])
@@ -168,10 +168,10 @@ def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> No
         row = int(order[repeats[0] + 1])
         message = f"node {ids[row]} is given twice{_at(times, int(step[row]))}"
         raise data_error(table.file, message, table.lines[row])
-    if len(cells) < len(times) * len(given):
+    if len(cells) < len(times) * len(nodes):
         gaps = np.flatnonzero(ordered != np.arange(len(ordered)))
-        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
-        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, at_step)}")
+        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(nodes))
+        raise data_error(table.file, f"node {nodes[lacking]} is missing{_at(times, at_step)}")
 
 
 def _at(times: Floats, step: int) -> str:
@@ -188,28 +188,28 @@ def _scatter(
 
 
 def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
-    """Nodes that the deck lacks."""
+    """Return the error of nodes that the deck lacks."""
     numbers = np.unique(ids).tolist()
     noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
     return data_error(file, f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck", line)
 
 
 def _from_npy(path: Path, nodes: Numbered) -> Positions:
-    """One array; of a series few steps are in memory. Raises OSError, or DeckError for anything else."""
+    """Return one array; of a series few steps are in memory. Raises OSError, or DeckError for any other content."""
     file = path.as_posix()
     try:
         with _from_old_python():
             mapped = np.lib.format.open_memmap(path, mode="r")  # reads the header only
             in_steps = mapped.ndim == 3 and mapped.dtype.kind == "f" and mapped.flags.c_contiguous
-            given = mapped if in_steps else np.load(path, allow_pickle=False)
+            array = mapped if in_steps else np.load(path, allow_pickle=False)
     except _UNREADABLE as error:
         raise data_error(file, f"not an NPY array: {error}") from error
-    found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes, ordered=in_steps)
-    return replace(found, values=StepFile(path, mapped, _ranks(nodes))) if in_steps else found
+    positions = _from_arrays(file, {"positions": _real(file, "positions", array)}, nodes, ordered=in_steps)
+    return replace(positions, values=StepFile(path, mapped, _ranks(nodes))) if in_steps else positions
 
 
 def _load_npz(path: Path) -> dict[str, Reals]:
-    """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
+    """Return an archive with `positions` and optional `node`, `time` and `velocities`. Raises OSError, DeckError."""
     file = path.as_posix()
     with path.open("rb") as stream:
         try:
@@ -229,13 +229,13 @@ def _load_npz(path: Path) -> dict[str, Reals]:
 
 
 _DEFLATED = 1032
-"""A byte of a compressed file gives at most so many."""
+"""Largest number of bytes that a byte of a compressed file can give."""
 
 
 def _member(archive: zipfile.ZipFile, name: str, most: int) -> NDArray[np.generic]:
-    """An array; raises ValueError for one that promises more than there is, before memory is taken for it.
+    """Return an array; raises ValueError before memory is taken if it claims more bytes than there are.
 
-    `most` is what a file of this size can hold: what it says of its members need not be true.
+    `most` is the number of bytes that a file of this size can hold: its own statements about its members may be false.
     """
     held = min(archive.getinfo(f"{name}.npy").file_size, most)
     with archive.open(f"{name}.npy") as stream:
@@ -252,21 +252,21 @@ _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.r
 
 @contextmanager
 def _from_old_python() -> Iterator[None]:
-    """Without the warning of numpy that Python 2 spelled the header, which the file's reader cannot help."""
+    """Suppress the warning of numpy about a header written by Python 2, which a reader of the file cannot change."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         yield
 
 
 def _ranks(nodes: Numbered) -> Indices | None:
-    """The place of each node among their ascending numbers; None where they are in that order."""
+    """Return the place of each node among the ascending numbers; None if they are in ascending order."""
     if not (nodes.ids[1:] <= nodes.ids[:-1]).any():
         return None
     return np.sort(nodes.ids).searchsorted(nodes.ids)
 
 
 def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordered: bool = False) -> Positions:
-    """Arrays (steps, nodes, 3) or (nodes, 3) in ascending order of the node numbers, or in that of the array `node`.
+    """Return arrays (steps, nodes, 3) or (nodes, 3) in ascending order of the node numbers, or of the array `node`.
 
     With `ordered` they are left as they are.
     """
@@ -275,19 +275,19 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
         if arrays["node"].ndim != 1:
             raise _wrong_shape(file, "node", arrays["node"], "one axis")
         ids = whole_numbers(file, "node", finite(file, "node", arrays["node"]))
-    given = arrays["positions"]
+    positions = arrays["positions"]
     expected = len(nodes) if ids is None else len(ids)
-    values = given[np.newaxis] if given.ndim == 2 else given
+    values = positions[np.newaxis] if positions.ndim == 2 else positions
     if values.ndim != 3 or values.shape[1:] != (expected, 3):
-        raise _wrong_shape(file, "positions", given, f"(steps, {expected}, 3) or ({expected}, 3)")
+        raise _wrong_shape(file, "positions", positions, f"(steps, {expected}, 3) or ({expected}, 3)")
     if not len(values):
         raise data_error(file, "positions holds no time step")
     velocities = arrays.get("velocities")
     if velocities is not None:
-        if velocities.shape != given.shape:
-            raise _wrong_shape(file, "velocities", velocities, str(given.shape))
+        if velocities.shape != positions.shape:
+            raise _wrong_shape(file, "velocities", velocities, str(positions.shape))
         velocities = velocities.reshape(values.shape)
-    counted = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
+    counted = None if positions.ndim == 2 else np.arange(len(values), dtype=np.float64)
     time = _times(file, arrays["time"], len(values)) if "time" in arrays else counted
     present = np.full(len(nodes), ids is None)
     if ids is not None:
@@ -304,15 +304,15 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
     return Positions(values, present, time, velocities, "time" in arrays, ids is not None)
 
 
-def _times(file: str, given: Reals, steps: int) -> Floats:
-    """The time of each step; that of one state may stand alone."""
-    if given.shape != (steps,) and not (given.shape == () and steps == 1):
-        raise _wrong_shape(file, "time", given, f"({steps},)")
-    return finite(file, "time", given)
+def _times(file: str, times: Reals, steps: int) -> Floats:
+    """Return the time of each step; a single state may have a scalar."""
+    if times.shape != (steps,) and not (times.shape == () and steps == 1):
+        raise _wrong_shape(file, "time", times, f"({steps},)")
+    return finite(file, "time", times)
 
 
-def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:
-    return data_error(file, f"{name} has the shape {found.shape}, expected {expected}")
+def _wrong_shape(file: str, name: str, array: Reals, expected: str) -> DeckError:
+    return data_error(file, f"{name} has the shape {array.shape}, expected {expected}")
 
 
 def _real(file: str, name: str, array: NDArray[np.generic]) -> Reals:

@@ -1,4 +1,4 @@
-"""Names, labels and numbers that fields give, against those that the deck defines."""
+"""Checks of names, labels and numbers in fields against those that the deck defines."""
 
 from __future__ import annotations
 
@@ -46,88 +46,88 @@ CURVES = frozenset(
         *(Names.DAMPER, Names.DRAG_LIFT, Names.PIP_STIFFNESS, Names.S_N_CURVE),
     }
 )
-"""Kinds of curves but those of a seabed."""
+"""Kinds of curves except those of a seabed."""
 THINGS = frozenset(
     {
         *(Names.VESSEL, Names.BODY, Names.AUXILIARY, Names.CABLE, Names.LINE, Names.SECTION_GROUP),
         *(Names.VECTOR, Names.AXIS, Names.GUIDE),
     }
 )
-"""Kinds of things that have names and are no curves."""
+"""Kinds of named objects that are not curves."""
 
 
 @dataclass(eq=False)
 class NamesOfKind:
-    """The names of a kind: those that fields use, and those that they define, by their folded form."""
+    """Names of a kind: those that fields use, and those that they define, by their folded form."""
 
     used: list[NamedPlace] = field(default_factory=list)
     defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
 
     @property
     def known(self) -> dict[str, str]:
-        """The names that are defined, as first written, by their folded form."""
+        """Defined names, as first written, by their folded form."""
         return {key: given[0].name for key, given in self.defined.items()}
 
 
 def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
-    """The names of some kinds that the fields of a deck give."""
+    """Return the names of some kinds that the fields of a deck give."""
     return {kind: names for kind, names in context.once(every_name).items() if kind in kinds}
 
 
 def every_name(context: Context) -> dict[Names, NamesOfKind]:
-    """The names of all kinds that the fields of a deck give; ask `Context.once` for them."""
-    found: dict[Names, NamesOfKind] = defaultdict(NamesOfKind)
-    for one in context.deck.names():
-        names = found[one.kind]
-        if one.role == "names":
-            names.used.append(one)
+    """Return the names of all kinds that the fields of a deck give; call it by `Context.once`."""
+    names_by_kind: dict[Names, NamesOfKind] = defaultdict(NamesOfKind)
+    for place in context.deck.names():
+        names = names_by_kind[place.kind]
+        if place.role == "names":
+            names.used.append(place)
         else:
-            names.defined.setdefault(name_key(one.name), []).append(one)
-    return found
+            names.defined.setdefault(name_key(place.name), []).append(place)
+    return names_by_kind
 
 
 def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
-    """Names that nothing defines; where that is not certain, because not all was read, a warning."""
+    """Yield names that are not defined; a warning if that is not certain, because not all was read."""
     for kind, names in names_of(context, kinds).items():
         if not names.used or not (definers := catalogue.definers(kind)) or not context.deck.keywords():
             continue
         known = names.known
         doubt = _doubt(context, definers)
         advice = f"define it in {' or '.join(f'*{keyword}' for keyword in definers)}, or correct the name"
-        for given in names.used:
-            if name_key(given.name) in known or not given.name:
+        for use in names.used:
+            if name_key(use.name) in known or not use.name:
                 continue
             thing = kind.value.removeprefix("a ").removeprefix("an ")
-            message = f"{thing} {shown(given.name)} is not defined{context.hint(given.name, known)}: {advice}"
+            message = f"{thing} {shown(use.name)} is not defined{context.hint(use.name, known)}: {advice}"
             severity = Severity.WARNING if doubt else None
-            yield Problem(code, message + doubt, None, severity, given.where, blocks=Blocks.NEVER, lacks=given.name)
+            yield Problem(code, message + doubt, None, severity, use.where, blocks=Blocks.NEVER, lacks=use.name)
 
 
 def _doubt(context: Context, definers: Collection[str]) -> str:
-    """What may define a thing besides the lines that were read, in words; "" where nothing may."""
+    """Return in words the unread line that may define an object; "" if there is none."""
     for where, _, block in context.deck.every_block():
         unsure = block.keyword in definers and (isinstance(block, Opaque) or not is_read(block))
         if unsure or (block.keyword in definers and context.deck.lost(where)):
             return f"; a line of *{block.keyword} that was not read may define it"
     words = (context.possible_definition(keyword) for keyword in definers)
-    return next((f"; {one}" for one in words if one), "")
+    return next((f"; {definition}" for definition in words if definition), "")
 
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
-    """Names that are defined a second time."""
+    """Yield names that are defined a second time."""
     for kind, names in names_of(context, kinds).items():
         thing = kind.value.removeprefix("a ").removeprefix("an ")
-        for given in names.defined.values():
-            for later in given[1:]:
+        for definitions in names.defined.values():
+            for later in definitions[1:]:
                 message = f"{thing} {shown(later.name)} is already defined: choose another name, or keep one of them"
                 yield Problem(code, message, where=later.where)
 
 
 def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
-    """Names that nothing uses: an info where the keywords that would use them are not read, or not in the deck."""
+    """Yield names that are not used: an info if the keywords that would use them are not read, or not in the deck."""
     raw = ""
     for kind, names in names_of(context, kinds).items():
-        used = {name_key(one.name) for one in names.used}
+        used = {name_key(use.name) for use in names.used}
         users = catalogue.users(kind)
         for key, (first, *_) in names.defined.items():
             if key in used:
@@ -142,7 +142,7 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
 
 
 def _not_read(deck: Deck) -> str:
-    """The lines that are not read, which may use names; a line end where there are none."""
+    """Return the unread lines, which may use names; a line end if there are none."""
     lines = (raw_lines(block) for _, _, block in deck.every_block())
     return "\n".join(folded(line) for own in lines for line in own) or "\n"
 
@@ -151,12 +151,12 @@ _FREEDOMS = 6
 
 
 def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
-    """Every name of a set or a curve; those of soil springs on demand.
+    """Report undefined names of sets, and remember names of curves; names in soil springs only with `with_soil`.
 
-    Postprocessing has sets of its own beside those of the model.
+    Postprocessing may have its own sets in addition to those of the model.
     """
     own: dict[str, str] | None = None
-    for name, where in ((one.name, one.where) for one in context.once(every_name)[Names.SET].used):
+    for name, where in ((use.name, use.where) for use in context.once(every_name)[Names.SET].used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
@@ -165,14 +165,14 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
             if name_key(name) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(one.name) for one in context.once(every_name)[Names.CURVE].used)
+    laws.referenced.update(folded(use.name) for use in context.once(every_name)[Names.CURVE].used)
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
 
 
 def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
-    """The sets that other sections than the model define, by their folded names."""
+    """Return the sets that sections other than the model define, by their folded names."""
     sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
     names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
     return {name_key(name): bare(name) for name in names}
@@ -189,12 +189,12 @@ def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
 
 
 def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
-    """The names of some kinds that the fields of a deck use, with their places."""
-    return ((one.where, one.name) for one in deck.names() if one.role == "names" and one.kind in kinds)
+    """Return the names of some kinds that the fields of a deck use, with their places."""
+    return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
 
 
 def check_soil(context: Context, nodes: Numbered) -> None:
-    """Every NODE= of soil springs against the nodes of the deck."""
+    """Report every NODE= of soil springs that the deck does not define."""
     named = [
         (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
         for where, block in context.deck.blocks_with("soil_springs")
@@ -205,7 +205,7 @@ def check_soil(context: Context, nodes: Numbered) -> None:
 
 
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
-    """Every node and element that a keyword names, but those that are looked at where nodes and sets are made."""
+    """Report undefined nodes and elements that keywords refer to, except where nodes and sets are made."""
     for where, _, block in context.deck.every_block():
         if type(block) is Opaque or not _names_idents(type(block)):
             continue
@@ -216,18 +216,18 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
 
 @cache
 def _names_idents(block: type[Block]) -> bool:
-    made = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
-    return not made and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
+    elsewhere = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
+    return not elsewhere and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
 
 
 def check_chains(context: Context) -> None:
-    """Every GEN= of `*DRAG CHAIN` repeats the chain of a node that has one before it."""
+    """Report every GEN= of `*DRAG CHAIN` that repeats the chain of a node without one before it."""
     known: set[object] = set()
     for where, block in context.blocks("DRAG CHAIN"):
         for index, chain in enumerate(cast("DragChains", block).chains):
-            given = getattr(chain, "generate", None)
-            master = getattr(chain, "node", None) if given is None else given.master
-            if given is None:
+            generate = getattr(chain, "generate", None)
+            master = getattr(chain, "node", None) if generate is None else generate.master
+            if generate is None:
                 known.add(master)
             elif isinstance(master, int) and master not in known and "DRAG CHAIN" not in context.unread:
                 message = f"GEN= repeats the chain of a node: node {master} has none before this line; define it above"
@@ -235,11 +235,11 @@ def check_chains(context: Context) -> None:
 
 
 KEYWORD = "BOUNDARY"
-"""Has a check of its own: its ranges may lack some nodes."""
+"""Keyword with its own check: some nodes of its ranges may be undefined."""
 
 
 def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report the numbers of elements that the deck lacks, and in a deck with `*LABEL` the labels."""
+    """Report undefined numbers of elements, and in a deck with `*LABEL` undefined labels."""
     for ident, where in named if "LABEL" in context.deck.keywords() else ():
         if isinstance(ident, Label):
             context.report_label(REF005, ident, where, "ELEMENT", blocks=Blocks.NEVER)
@@ -254,7 +254,7 @@ def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[
 
 
 def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report the nodes, numbers or labels, that the deck lacks; anything else could not be read and is skipped."""
+    """Report undefined nodes, numbers or labels; any other value could not be read and is skipped."""
     if not named:
         return
     numbers: list[int] = []
@@ -275,12 +275,12 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
 
 
 def shows_nodes(context: Context, nodes: Numbered) -> bool:
-    """Whether the deck shows nodes at all: one without any has its model somewhere else."""
+    """Return True if the deck shows nodes: a deck without any has its model somewhere else."""
     return len(nodes) > 0 or "NODE" in context.deck.keywords()
 
 
 def check_boundaries(context: Context, nodes: Numbered) -> None:
-    """Every line of `*BOUNDARY` against the nodes of the deck and the six degrees of freedom."""
+    """Report undefined nodes of `*BOUNDARY`, and degrees of freedom other than 1 to 6."""
     named: list[tuple[object, Where]] = []
     for where, block in context.blocks("BOUNDARY", "LOAD CASE"):
         types = cast("Boundary", block).types
@@ -303,7 +303,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
 
 
 def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
-    """The nodes of a GEN=, without building them, and their degree of freedom."""
+    """Report undefined nodes of a GEN=, without building them, and its degree of freedom."""
     values = cast("FixedValues | None", entry.generate)
     if values is None:
         return
@@ -322,23 +322,23 @@ def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Wh
         why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
         context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
         return
-    found = len(nodes.between(start, end, step)) if len(nodes) else 0
-    wanted = (end - start) // step + 1
-    if found < wanted and shows_nodes(context, nodes) and not context.possible_definition("NODE"):
-        message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
-        context.report(REF006, message, where, Severity.WARNING if found else None)
+    existing = len(nodes.between(start, end, step)) if len(nodes) else 0
+    expected = (end - start) // step + 1
+    if existing < expected and shows_nodes(context, nodes) and not context.possible_definition("NODE"):
+        message = f"{written}: {expected - existing} of these {expected} are not defined; correct it, or define them"
+        context.report(REF006, message, where, Severity.WARNING if existing else None)
 
 
-def _check_freedom(context: Context, given: object, where: Where) -> None:
-    if _is_no_freedom(given):
+def _check_freedom(context: Context, freedom: object, where: Where) -> None:
+    if _is_no_freedom(freedom):
         expected = "expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
-        context.report(SYN005, f"{given} is not a degree of freedom: {expected}", where)
+        context.report(SYN005, f"{freedom} is not a degree of freedom: {expected}", where)
 
 
 def freedom_and_step(values: FixedValues) -> tuple[int, object]:
-    """Which value of a GEN= is the degree of freedom, counted from 0, and the increment.
+    """Return the index of the degree of freedom in a GEN=, counted from 0, and the increment.
 
-    Of four values the third is taken for it only where the fourth cannot be one.
+    With four values the third is the degree of freedom only if the fourth cannot be.
     """
     third, fourth = values.third, values.fourth
     if values.fifth is None and (
@@ -349,13 +349,13 @@ def freedom_and_step(values: FixedValues) -> tuple[int, object]:
 
 
 def _is_no_freedom(freedom: object) -> bool:
-    """Whether a value is not a degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
+    """Return True if a value is not a degree of freedom; an unreadable value may be one. Equations give 6.0 for 6."""
     known = isinstance(freedom, int | float) and not math.isnan(freedom)
     return known and freedom not in range(1, _FREEDOMS + 1)
 
 
 def check_lines(context: Context) -> None:
-    """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
+    """Report names of lines and groups in `*LINE PATH SECTIONS`, and labels of elements and sets: warnings at most."""
     blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
     groups = {name_key(group.name): group.name for block in blocks for group in block.groups if group.name}
     for where, block in context.blocks("LINE PATH SECTIONS"):
@@ -383,7 +383,7 @@ def check_lines(context: Context) -> None:
 
 
 def check_label(context: Context, code: Code, label: str, where: Where) -> None:
-    """Report a label that no line names but that is spelt nearly as one that a line does, as a warning.
+    """Report a label as a warning if it is spelt nearly as a label in an unread line.
 
     Other labels are not reported: lines are not read, and may make labels in ways that are not known.
     """
@@ -399,7 +399,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
 
 
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:
-    """A name, given by a KEY for a thing that a keyword defines; `known` has the names by their folded form."""
+    """Report an undefined name, given by a KEY for an object of a keyword; `known` has the names by folded form."""
     key, thing, keyword = what
     if name_key(name) in known:
         return

@@ -1,4 +1,4 @@
-"""Elements that represent those which a deck does not show: in each set that a law names, and in every two of them."""
+"""Representatives of elements that a deck does not show: in each set that a law names, and in every two of them."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _FIRST = 2**40
 
 
 def representatives(*scenes: Scene) -> tuple[ExternalElements, dict[int, str]]:
-    """Elements of two diameters in no set, each set that a law names, and two of them.
+    """Return elements of two diameters in no set, in each set that a law names, and in two of them.
 
-    The last block that holds an element wins. That is an order of the blocks; it is the same in two decks when it is
-    the same for every two blocks that follow each other: of many sets, no other two are needed. Each element has two
-    nodes of its own; the second result is what it is called, by its number.
+    The last block that holds an element wins, which makes an order of the blocks. It is the same in two decks if it is
+    the same for every two consecutive blocks; with many sets no other pairs are needed. Each element has two nodes of
+    its own. The second result is its description, by its number.
     """
     sets = _sets(scenes)
     pairs = combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets)
@@ -48,12 +48,12 @@ def representatives(*scenes: Scene) -> tuple[ExternalElements, dict[int, str]]:
 
 
 def shows_elements(scene: Scene) -> bool:
-    """Whether a deck shows all elements that its laws are for: some, and none come from `*LINES` or another deck."""
+    """Return True if a deck shows all elements that its laws are for: none come from `*LINES` or another deck."""
     return bool(len(scene.element_ids)) and not scene.set_table.everything.open
 
 
 def _sets(scenes: Iterable[Scene]) -> list[str]:
-    """The sets that laws name, each once, in the order of the last block that names it."""
+    """Return the sets that laws name, each once, in the order of the last block that names it."""
     last: dict[str, str] = {}
     for scene in scenes:
         for law in scene.laws.set_laws:

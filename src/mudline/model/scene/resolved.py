@@ -1,4 +1,4 @@
-"""A resolved deck: nodes, elements, sets, curves and laws as arrays, and by name."""
+"""Resolved deck: nodes, elements, sets, curves and laws as arrays, and by name."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
-from mudline.model.scene.mesh import ElementTable
+from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
@@ -46,14 +46,14 @@ Value = TypeVar("Value")
 
 
 class ByName(Mapping[str, Value]):
-    """A mapping whose names are found without case, and without blanks around them.
+    """Mapping whose names are case-insensitive and ignore surrounding spaces.
 
-    Iteration gives the names as the deck first writes them. A name that is not there raises UnknownNameError, a
-    KeyError that says which there are.
+    Iteration gives the names as the deck first writes them. An unknown name raises UnknownNameError, a KeyError that
+    lists the known names.
     """
 
     def __init__(self, kind: str, entries: Iterable[tuple[str, Value]], key: Callable[[str], str] = folded) -> None:
-        """Hold `entries`, pairs of name and value; of two with one `key` the later holds. `kind` is one of them."""
+        """Hold `entries`, pairs of name and value; of two with one `key` the later is kept. `kind` names them."""
         self._kind = kind
         self._key = key
         self._entries = {key(name): (name, value) for name, value in entries}
@@ -79,7 +79,7 @@ class ByName(Mapping[str, Value]):
         return cut(f"<{counted(len(self), self._kind)}: {listed(list(self))}", LETTERS) + ">"
 
     def _repr_html_(self) -> str:
-        """The names, and how much each has, for notebooks."""
+        """Return names and values as a table, for notebooks."""
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
         texts = (
@@ -89,7 +89,7 @@ class ByName(Mapping[str, Value]):
         return html_page(f"{self._kind}s".capitalize(), f"{len(self)}", html_table(("name", "is"), rows, len(self)))
 
     def _ipython_key_completions_(self) -> list[str]:
-        """The names, for the completion of `["` in notebooks."""
+        """Return the names, for the completion of `["` in notebooks."""
         return list(self)
 
     def _find(self, name: object) -> tuple[str, Value] | None:
@@ -112,7 +112,7 @@ class Replaced(NamedTuple):
 
 
 class LawArrays(NamedTuple):
-    """The normal law of elements (m,): `LawKind`, index in `curves` or -1, linear stiffness or NaN."""
+    """Normal law of elements (m,): `LawKind`, index in `curves` or -1, linear stiffness or NaN."""
 
     law: NDArray[np.int8]
     curve_index: Indices
@@ -133,16 +133,16 @@ class ResolvedDeck:
         table: definitions of the elements.
         set_table: sets as indices.
         section_table: cross-sections of the elements.
-        laws: what gives each element its normal law.
+        laws: the normal law of each element and its origin.
         resistance: friction, lateral stiffness and suction of each element.
-        extensions: what the extension keywords say of each element, by keyword.
+        extensions: the extension blocks of each element, by keyword.
         seabed: shape of the seabed.
-        noticed: what went wrong while the deck was resolved.
+        noticed: problems found while the deck was resolved.
     """
 
     deck: EvaluatedDeck
     nodes: Numbered
-    table: ElementTable
+    table: MeshElements
     set_table: Sets
     section_table: SectionTable
     laws: LawTable
@@ -153,31 +153,31 @@ class ResolvedDeck:
 
     @cached_property
     def context(self) -> Context:
-        """What was noticed on the way, and what could not be read."""
+        """State of resolving: problems, and parts that could not be read."""
         return self.set_table.context
 
     @property
     def may_have_more_laws(self) -> bool:
-        """Whether a line that could not be used may give elements a law of the seabed."""
+        """True if a line that could not be used may give elements a law of the seabed."""
         return any(map(catalogue.gives_laws, self.context.unread))
 
     @property
     def lacks(self) -> bool:
-        """Whether the deck uses something that it does not define, or gives a curve two forces at one ratio."""
-        curves = {folded(one.name) for one in self.laws.curves if not one.embedment}
-        clashing = any(one.curve is not None and not one.whole for one in self.laws.curves)
-        missing = any(one.lacks for one in self.noticed) or not self.laws.referenced <= curves
+        """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
+        curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
+        clashing = any(each.curve is not None and not each.whole for each in self.laws.curves)
+        missing = any(each.lacks for each in self.noticed) or not self.laws.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
 
     @property
     def source(self) -> str:
-        """The deck: the file that it was made from, or its own."""
+        """Deck: the file that it was made from, or its own."""
         return str(self.deck.source or self.deck.file)
 
     @property
     def units(self) -> str:
-        """The unit system: "metric", "imperial" or "user"."""
+        """Unit system: "metric", "imperial" or "user"."""
         return self.deck.units
 
     @cached_property
@@ -207,12 +207,12 @@ class ResolvedDeck:
 
     @cached_property
     def diameter(self) -> Floats:
-        """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
+        """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN if there is none."""
         return self.section_table.diameter
 
     @cached_property
     def surroundings(self) -> Surroundings:
-        """What the last `*OCEAN` says of the water, and gravity."""
+        """Water of the last `*OCEAN`, and gravity."""
         return read_surroundings(self.deck)
 
     @cached_property
@@ -224,7 +224,7 @@ class ResolvedDeck:
     def submerged_weight(self) -> Floats:
         """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
 
-        Where the seabed lies above the water that `*OCEAN` gives, as at a landfall, it is the weight in air.
+        If the seabed lies above the water of `*OCEAN`, as at a landfall, it is the weight in air.
         """
         around, land = self.surroundings, None
         if self.seabed.kind is not SeabedKind.FLAT:
@@ -239,9 +239,9 @@ class ResolvedDeck:
 
     @cached_property
     def curves(self) -> ByName[ForceCurve]:
-        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
+        """Force-embedment curves by name, found without case; a curve of `*EMBEDMENT` has the name of its set.
 
-        Of two curves of one name the later one holds, a named one before that of a set.
+        Of two curves with the same name the later one is kept; a named curve takes precedence over that of a set.
         """
         held: dict[str, SceneCurve] = {}
         for entry in self.laws.curves:
@@ -253,7 +253,7 @@ class ResolvedDeck:
     def refusal(
         self, message: str, where: Where | None = None, *, element: int | None = None, node: int | None = None
     ) -> DeckError:
-        """Return why the deck cannot be evaluated (RUN001), with the line of a place, an element or a node."""
+        """Return the error of a deck that cannot be evaluated (RUN001), with the line of the place or object."""
         if element is not None:
             where = self.table.numbered.where(int(np.flatnonzero(self.element_ids == element)[0]))
         elif node is not None:
@@ -261,86 +261,86 @@ class ResolvedDeck:
         return DeckError(self.deck.diagnose([Problem(RUN001, message, where=where)]))
 
     def set_law(self, element: int) -> SetLaw | None:
-        """What gives the element of an index its law."""
+        """Return the law of the set through which the element of an index has its law."""
         index = int(self.laws.of_element[element])
         return self.laws.set_laws[index] if index >= 0 else None
 
     @cached_property
     def replaced(self) -> list[Replaced]:
-        """What extension keywords give in place of what elements had, the last one for good."""
-        found: list[Replaced] = []
+        """Laws of extension keywords that replace other laws of elements; the last one takes effect."""
+        replaced_laws: list[Replaced] = []
         if not self.extensions:
-            return found
+            return replaced_laws
         soft = self.laws_given != LawKind.RIGID
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law
             if law:
                 asked = extension.asking(field) & soft
-                found.append(Replaced(LawKind[law.upper()], field, extension, asked))
-        return found
+                replaced_laws.append(Replaced(LawKind[law.upper()], field, extension, asked))
+        return replaced_laws
 
     @property
     def replacing(self) -> Indices:
-        """The block of its keyword that replaced the law of each element (m,), -1 for those that have their own."""
-        found = np.full(len(self.element_ids), -1)
+        """Block of its keyword that replaced the law of each element (m,), -1 for those that keep their own."""
+        blocks = np.full(len(self.element_ids), -1)
         for _, _, extension, elements in self.replaced:
-            found = np.where(elements, extension.of_element, found)
-        return found
+            blocks = np.where(elements, extension.of_element, blocks)
+        return blocks
 
     @cached_property
     def nodal(self) -> Mask:
-        """Elements (m,) whose law is a stiffness of their nodes: `*SEABED CONTACT` replaces what they had."""
-        found: Mask = self.law == LawKind.NODAL
-        return found
+        """Elements (m,) with nodal stiffness: `*SEABED CONTACT` replaces their law."""
+        nodal: Mask = self.law == LawKind.NODAL
+        return nodal
 
     @cached_property
     def laws_given(self) -> NDArray[np.int8]:
-        """`LawKind` of what each element is granted, whatever replaces it."""
+        """`LawKind` (m,) of the law of each element's set, before any replacement."""
         kinds = np.array([*(set_law.kind.value for set_law in self.laws.set_laws), LawKind.NONE.value], dtype=np.int8)
         return kinds[self.laws.of_element]
 
     @cached_property
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
-        found = self.laws_given
+        kinds = self.laws_given
         for kind, _, _, elements in self.replaced:
-            found = np.where(elements, np.int8(kind), found)
-        return found
+            kinds = np.where(elements, np.int8(kind), kinds)
+        return kinds
 
     @cached_property
     def law_names(self) -> list[str]:
-        """`curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none` for each element."""
+        """Law of each element: `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""
         names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "none"]
-        found = [names[position] for position in self.laws.of_element.tolist()]
+        names_of_elements = [names[position] for position in self.laws.of_element.tolist()]
         for kind, _, _, elements in self.replaced:
             for element in np.flatnonzero(elements).tolist():
-                found[element] = kind.name.lower()
-        return found
+                names_of_elements[element] = kind.name.lower()
+        return names_of_elements
 
     @cached_property
     def law_sets(self) -> list[str | None]:
         """Name of the set through which each element got its law; None without a law."""
         names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
-        found = [[*names, None][index] for index in self.laws.of_element.tolist()]
+        sets_of_elements = [[*names, None][index] for index in self.laws.of_element.tolist()]
         for _, _, extension, elements in self.replaced:
             for element in np.flatnonzero(elements).tolist():
                 holder = extension.sets[int(extension.of_element[element])]
-                found[element] = None if holder is None else holder.name
-        return found
+                sets_of_elements[element] = None if holder is None else holder.name
+        return sets_of_elements
 
     def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
-        """Elements of a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
+        """Return elements for a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
         ids = self.element_ids[elements]
         return f"element {ids[0]} {one}" if ids.size == 1 else f"{ids.size} elements (first: {ids[0]}) {many}"
 
     def law_name(self, set_law: SetLaw) -> str:
-        """Name of the law that a set_law gives."""
+        """Return the name of the law that a set_law gives."""
         if set_law.kind is LawKind.CURVE and set_law.curve >= 0:
             return f"curve:{self.laws.curves[set_law.curve].name}"
         return set_law.kind.name.lower()
 
     def law_arrays(self) -> LawArrays:
-        """The law of every element as arrays, whatever else is known of it."""
+        """Return the law of every element as arrays, even if other values of it are unknown."""
         linear = np.array([*(set_law.stiffness for set_law in self.laws.set_laws), np.nan])[self.laws.of_element]
         replaced = self.law != self.laws_given
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]

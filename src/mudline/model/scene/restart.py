@@ -1,4 +1,4 @@
-"""`*RESTART`: the decks that a deck continues, found beside it and read once for all decks that continue them."""
+"""Decks that a deck continues by `*RESTART`, found next to it and read once for all decks that continue them."""
 
 from __future__ import annotations
 
@@ -30,11 +30,13 @@ if TYPE_CHECKING:
 _ADVICE = "correct the name, or put the deck there"
 
 
-class _Chain(NamedTuple):
-    """The decks before a deck, the nearest first; `fault` says why the first of all was not reached, and "" if it was.
+class _Bases(NamedTuple):
+    """Decks before a deck, the nearest first.
 
-    `is_own` says that the fault is that of the deck itself: it is about its own LAST=, or leads back to it, and
-    `is_refused` that the first of all lies outside of the project, and may not be read.
+    bases: the decks.
+    fault: reason why the first of all was not reached, "" if it was.
+    is_own: the fault is that of the deck itself: of its own LAST=, or of a cycle back to it.
+    is_refused: the first of all lies outside of the project, and must not be read.
     """
 
     bases: list[Base]
@@ -44,9 +46,9 @@ class _Chain(NamedTuple):
 
 
 def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
-    """The deck with the models of the decks that it continues, as far as they are found, and what went wrong.
+    """Return the deck with the models of the decks that it continues, as far as they are found, and problems.
 
-    A deck that came from no path is given back as it is: no file is looked for. Of several LAST= the last one holds.
+    A deck without a path is returned as it is: no file is looked for. Of several LAST= the last one is used.
     """
     names = list(_names(deck))
     if deck.folder is None or not names:
@@ -79,20 +81,20 @@ def _reported(fault: str, refused: bool, where: Where) -> Problem:  # noqa: FBT0
 
 
 def _shown(problem: Problem, base: Base, folder: Path) -> BaseProblem:
-    """A problem of a deck that is continued, without a text of one outside of the project."""
+    """Return a problem of a continued deck, without text from files outside of the project."""
     path = Path(base.deck.folder or folder, Path(base.deck.file).name)
     shown_ = replace(problem, message=without_text(problem.message, path, folder), repair=None)
     return BaseProblem(**{each.name: getattr(shown_, each.name) for each in fields(Problem)}, deck=base.deck)
 
 
 def decks_before(deck: Deck) -> list[Path]:
-    """The files of the decks that a deck continues, the nearest first, as far as they are found."""
+    """Return the files of the decks that a deck continues, the nearest first, as far as they are found."""
     bases = (base.deck for base in _follow(deck).bases)
     return [base.folder / Path(base.file).name for base in bases if base.folder is not None]
 
 
 def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
-    """Every LAST=, with the values of parameters put in."""
+    """Yield every LAST=, with the values of parameters put in."""
     blocks = [(where, cast("Restart", block)) for where, block in deck.blocks("RESTART", "LOAD CASE")]
     parameters = Parameters(deck) if any("%" in (block.last or "") for _, block in blocks) else None
     for where, block in blocks:
@@ -101,8 +103,8 @@ def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
             yield where.inside("last"), name
 
 
-def _follow(deck: Deck) -> _Chain:
-    """The decks before a deck, one behind the other."""
+def _follow(deck: Deck) -> _Bases:
+    """Return the decks before a deck, each followed by the deck that it continues."""
     bases: list[Base] = []
     seen = {_identity(Path(deck.folder, Path(deck.file).name))} if deck.folder is not None else set()
     trail = [Path(deck.file).name]
@@ -110,30 +112,30 @@ def _follow(deck: Deck) -> _Chain:
     while "RESTART" in current.keywords("LOAD CASE"):
         name = next((name for _, name in reversed(list(_names(current)))), None)
         if name is None:
-            return _Chain(bases, f"the *RESTART of {trail[-1]} could not be read")
+            return _Bases(bases, f"the *RESTART of {trail[-1]} could not be read")
         path = find_deck(current, name)
         if path is None:
             why, refused = _missing(current, name)
-            return _Chain(bases, why, is_own=not bases, is_refused=refused)
+            return _Bases(bases, why, is_own=not bases, is_refused=refused)
         if _identity(path) in seen:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
-            return _Chain(bases, message, is_own=path.name == trail[0])
+            return _Bases(bases, message, is_own=path.name == trail[0])
         if len(bases) == MOST_CONTINUED:
-            return _Chain(bases, f"more than {MOST_CONTINUED} decks continue each other")
+            return _Bases(bases, f"more than {MOST_CONTINUED} decks continue each other")
         base = read_base(path)
         if isinstance(base, str):
             why = without_text(base, path, deck.folder or path.parent)
-            return _Chain(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
+            return _Bases(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
         current = base.deck
-    return _Chain(bases)
+    return _Bases(bases)
 
 
 def _missing(deck: Deck, name: str) -> tuple[str, bool]:
-    """Why the deck that LAST= names is not there, and whether that is because it is refused."""
+    """Return the reason why the deck that LAST= names is not there, and True if it is refused."""
     names = candidate_names(deck, name)
     folder = deck.folder or Path()
     why, severity = not_found(folder, names[0])
@@ -144,7 +146,7 @@ def _missing(deck: Deck, name: str) -> tuple[str, bool]:
 
 
 def _identity(path: Path) -> Path:
-    """A path by which a file is known whatever it is called; never fails."""
+    """Return a path that identifies a file whatever its name; never fails."""
     try:
         return path.resolve()
     except (OSError, RuntimeError, ValueError):  # a loop of links, a name that no file has
@@ -152,7 +154,7 @@ def _identity(path: Path) -> Path:
 
 
 def read_base(path: Path) -> Base | str:
-    """The deck of a file in any form, its model evaluated, or why it cannot be continued."""
+    """Return the deck of a file in any form, its model evaluated, or the reason why it cannot be continued."""
     try:
         stat = path.stat()
         if stat.st_size > LARGEST_FILE:
@@ -166,7 +168,7 @@ def read_base(path: Path) -> Base | str:
 
 @lru_cache(maxsize=8)
 def _read_base(path: Path, _version: tuple[int, ...]) -> Base | str:
-    """The same for a version of the file: many decks continue the same ones."""
+    """Return the same for a version of the file: many decks continue the same decks."""
     edited = unsaved(path)
     try:
         content = edited and edited.content()
@@ -181,14 +183,14 @@ def _read_base(path: Path, _version: tuple[int, ...]) -> Base | str:
 
 
 def candidate_names(deck: Deck, written: str) -> list[str]:
-    """The names that a LAST= may stand for: as written, then with the deck's own suffix, then with the others."""
+    """Return the possible names of a LAST=: as written, then with the deck's own suffix, then with other suffixes."""
     name = file_name(written)
     own = PurePath(deck.file).suffix
     return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *SUFFIXES))]))
 
 
 def find_deck(deck: Deck, written: str) -> Path | None:
-    """The file that a LAST= of a deck names; of names that differ in case only, the first in sorted order."""
+    """Return the file that a LAST= of a deck names; of names that differ in case only, the first in sorted order."""
     names = candidate_names(deck, written)
     exact = (find_file(deck.folder, name) for name in names)
     return next((path for path in exact if path is not None), None) or _in_other_case(deck.folder, names)
@@ -203,13 +205,13 @@ def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
     except (OSError, ValueError):
         return None
     known = (listed.get(PurePath(name).name.casefold()) for name in names)
-    found = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
-    return next((path for path in found if path is not None), None)
+    files = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
+    return next((path for path in files if path is not None), None)
 
 
 @lru_cache(maxsize=4)
 def _listed(folder: str, _changed: int) -> dict[str, str]:
-    """The files of a folder by their names without case; listed once for all decks until the folder changes."""
+    """Return the files of a folder by their names without case; cached until the folder changes."""
     with os.scandir(folder) as entries:
         names = sorted(islice((each.name for each in entries), MOST_NEIGHBOURS), reverse=True)
     return {name.casefold(): name for name in names}

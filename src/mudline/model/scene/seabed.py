@@ -1,7 +1,7 @@
-"""The shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points.
+"""Shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points.
 
-Here is also the evaluator's shape of it, how much of each element lies where it rises above the water, and where the
-survey of it ends.
+It also has the evaluator's seabed, the share of each element where the seabed rises above the water, and the end of the
+survey.
 """
 
 from __future__ import annotations
@@ -39,12 +39,16 @@ if TYPE_CHECKING:
 _NO_POINTS = np.zeros((0, 2))
 COMPILED = ".fcsbd"
 _SAMPLES, _PLANE = 65, 1e-6
-"""Places below a line at which a seabed is looked at, and how far off one plane they may be, of its length."""
+"""Sampling of a seabed below a line.
+
+_SAMPLES: number of places.
+_PLANE: distance from one plane, over the line's length, up to which the seabed is plane.
+"""
 _PARTS = re.compile(r"[\s,]+")
 
 
 class SeabedKind(Enum):
-    """How the seabed is given."""
+    """Form in which the seabed is given."""
 
     FLAT = "flat"
     SLOPING = "sloping"
@@ -54,7 +58,7 @@ class SeabedKind(Enum):
 
 
 class SeabedPlane(NamedTuple):
-    """A plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
+    """Plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
 
     name: str
     point: tuple[float, float, float]
@@ -65,11 +69,17 @@ class SeabedPlane(NamedTuple):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class SeabedShape:
-    """The seabed, angles in degrees, lengths in the deck's units.
+    """Seabed, angles in degrees, lengths in the deck's units.
 
-    `points` (k, 2) are Y and elevation of a profile, (k, 3) elevation, Y and Z of a surface, in the order of the deck.
-    `missing` says why they are not known, "" when they are. `unreadable` has the places of all files of points that
-    could not be read, those of other profiles too, with what is wrong.
+    kind: form in which it is given.
+    slope, direction: of a slope or profile.
+    interpolation: between points.
+    points: (k, 2) Y and elevation of a profile, (k, 3) elevation, Y and Z of a surface, in the order of the deck.
+    planes: planes of the seabed.
+    file: file of the points.
+    missing: reason why the points are not known, "" if they are.
+    where: place in the deck.
+    unreadable: places and faults of all files of points that could not be read, even of unused profiles.
     """
 
     kind: SeabedKind = SeabedKind.FLAT
@@ -86,7 +96,7 @@ class SeabedShape:
     __repr__ = short_repr
 
     def same(self, other: SeabedShape) -> bool:
-        """Whether both are the same seabed, number by number; files of unknown points must be the same file."""
+        """Return True if both are the same seabed, number by number; files of unknown points must be the same file."""
         return (
             (self.kind, self.slope, self.direction, self.interpolation, self.planes, self.missing)
             == (other.kind, other.slope, other.direction, other.interpolation, other.planes, other.missing)
@@ -99,17 +109,17 @@ _FLAT = SeabedShape()
 
 
 def read_seabed(context: Context) -> SeabedShape:
-    """The seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
-    found = _FLAT
+    """Return the seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else the surface's."""
+    shape = _FLAT
     unreadable: list[tuple[Where, str]] = []
     for where, surface in context.surfaces:
-        found = _surface(surface, where, found)
+        shape = _surface(surface, where, shape)
     for where, block in context.blocks("SEABED PROFILE"):
-        found = _profile(context, cast("SeabedProfile", block), where, unreadable)
+        shape = _profile(context, cast("SeabedProfile", block), where, unreadable)
     blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.blocks("SEABED PLANES")]
     if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
-        found = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
-    return replace(found, unreadable=tuple(unreadable)) if unreadable else found
+        shape = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
+    return replace(shape, unreadable=tuple(unreadable)) if unreadable else shape
 
 
 def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
@@ -143,7 +153,7 @@ def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: l
 
 
 def _read_points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str, str]:
-    """The points of a file, why they are not known, and the fault of a file that is there, or is a compiled one."""
+    """Return the points of a file, the reason why they are not known, and the fault of an existing or compiled file."""
     folder = context.deck.folder_of(where)
     path = find_file(folder, name)
     try:
@@ -166,10 +176,10 @@ def _plane(plane: Plane) -> SeabedPlane:
 
 
 def read_profile(path: Path, columns: int) -> Floats:
-    """The points (k, columns) in the order of the file; lines with C in column 1 are comments, blank ones count not.
+    """Return the points (k, columns) of a file, in its order, without blank lines and comments (C in column 1).
 
-    `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ValueError for
-    a compiled file and for the first line that is not a point.
+    `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ValueError for a
+    compiled file and for the first line that is not a point.
     """
     if path.suffix.lower() == COMPILED:
         raise ValueError(
@@ -181,25 +191,25 @@ def read_profile(path: Path, columns: int) -> Floats:
 
 
 def parse_profile(data: bytes, name: str, columns: int) -> Floats:
-    """As `read_profile`, of a file's content."""
+    """Return the points of a file's content, as `read_profile` does."""
     source = Source.from_bytes(data, name)
     if not source.readable:
         raise ValueError(source.problems[0].message)
-    wanted = "Y, elevation" if columns == 2 else "X, Y, Z"
+    expected = "Y, elevation" if columns == 2 else "X, Y, Z"
     rows: list[list[float]] = []
     for at, line in enumerate(source.unified.split("\n"), 1):
         if line.strip() and not line.startswith("C"):
             words = _PARTS.split(line.strip(" \t\r\n,"))
             if len(words) != columns:
-                raise ValueError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
+                raise ValueError(f"line {at}: expected {columns} numbers (`{expected}`), found {len(words)}")
             rows.append([number_of(word, at) for word in words])
     if len(rows) < 2:
-        raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
+        raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{expected}`")
     return np.array(rows, dtype=np.float64)
 
 
 def made_seabed(seabed: SeabedShape) -> Seabed:
-    """The evaluator's shape of a seabed that is not flat; raises ValueError for numbers that make none."""
+    """Return the evaluator's seabed for one that is not flat; raises ValueError if its numbers form no seabed."""
     from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed  # noqa: PLC0415 - only now is it needed
 
     if seabed.kind is SeabedKind.SLOPING:
@@ -220,7 +230,7 @@ def made_seabed(seabed: SeabedShape) -> Seabed:
 
 
 class SeabedLine(NamedTuple):
-    """The seabed below a line: its height at the first end, its slope along the line, and the normal's upward part."""
+    """Seabed below a line: its height at the first end, its slope along the line, and the normal's upward part."""
 
     height: float
     slope: float
@@ -249,7 +259,7 @@ def plane_below(seabed: SeabedShape, start: Floats, direction: Floats, distance:
 
 
 def on_land(seabed: SeabedShape, level: float, places: Floats, ends: Indices) -> Floats | None:
-    """Share (m,) of each element that lies where the seabed is above the `level` of the water; None where it never is.
+    """Return the share (m,) of each element over ground above the `level` of the water; None if there is none.
 
     Between the nodes of an element, `ends` (m, 2) of `places` (n, 3), the seabed is taken as straight.
     """
@@ -267,7 +277,7 @@ def on_land(seabed: SeabedShape, level: float, places: Floats, ends: Indices) ->
 
 
 def _may_rise_above(seabed: SeabedShape, level: float) -> bool:
-    """Whether some of the seabed may be dry; not where its points are not known."""
+    """Return True if some of the seabed may be dry; False if its points are not known."""
     if seabed.missing or not level < np.inf or (seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None):
         return False
     column = {SeabedKind.PROFILE: 1, SeabedKind.SURFACE: 0}.get(seabed.kind)
@@ -275,15 +285,15 @@ def _may_rise_above(seabed: SeabedShape, level: float) -> bool:
 
 
 REACH = 100.0
-"""Diameters above the level of the seabed beyond its end: a part of the line that hangs higher touches no seabed."""
+"""Height in diameters above the seabed's level beyond its end; higher parts of the line touch no seabed."""
 
 
 class Survey(ABC):
-    """The part of the seabed that is known.
+    """Known part of the seabed.
 
     Attributes:
-        end: what lies beyond it, as the words behind "node 3 lies".
-        consequence: what the evaluator takes there.
+        end: its end in words, as they follow "node 3 lies".
+        consequence: assumption of the evaluator beyond it.
     """
 
     end: str
@@ -291,15 +301,15 @@ class Survey(ABC):
 
     @abstractmethod
     def heights(self, places: Floats) -> Floats:
-        """Heights (n,) of `places` (n, 3) beyond the end above the level there, -inf at least; NaN within it."""
+        """Return heights (n,) of `places` (n, 3) beyond the end above the level there, -inf at least; NaN within it."""
 
     def left(self, places: Floats, diameter: float) -> Mask:
-        """Which of `places` (n, 3) lie beyond the end, and so low that the seabed matters there."""
+        """Return a mask (n,) of `places` (n, 3) beyond the end that are low enough for the seabed to matter."""
         with np.errstate(over="ignore", invalid="ignore"):
             return np.asarray(self.heights(places) <= REACH * diameter)
 
 
-class _Profile(Survey):
+class _ProfileSurvey(Survey):
     def __init__(self, seabed: SeabedShape) -> None:
         points = seabed.points[np.argsort(seabed.points[:, 0], kind="stable")]
         (self._first, self._start), (self._last, self._stop) = points[0].tolist(), points[-1].tolist()
@@ -317,7 +327,7 @@ class _Profile(Survey):
         return np.asarray(x - levels)
 
 
-class _Surface(Survey):
+class _SurfaceSurvey(Survey):
     def __init__(self, seabed: SeabedShape) -> None:
         from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - only now is it needed
 
@@ -335,7 +345,7 @@ class _Surface(Survey):
         return np.where(np.isnan(self._hull.elevation(y, z)), x - self._top, np.nan)
 
 
-class _Planes(Survey):
+class _PlanesSurvey(Survey):
     def __init__(self, seabed: SeabedShape) -> None:
         self._seabed, self._shape = made_seabed(seabed), seabed
         self.end = "outside of the bounds of all planes of the seabed"
@@ -350,18 +360,18 @@ class _Planes(Survey):
 
 
 def survey_of(seabed: SeabedShape) -> Survey | None:
-    """Return where a seabed ends; None for one without an end, or whose points are not known or make no seabed."""
-    surveys: dict[SeabedKind, type[_Profile | _Surface | _Planes]] = {
-        SeabedKind.PROFILE: _Profile,
-        SeabedKind.SURFACE: _Surface,
-        SeabedKind.PLANES: _Planes,
+    """Return the known part of a seabed; None if it has no end, or its points are unknown or form no seabed."""
+    surveys: dict[SeabedKind, type[_ProfileSurvey | _SurfaceSurvey | _PlanesSurvey]] = {
+        SeabedKind.PROFILE: _ProfileSurvey,
+        SeabedKind.SURFACE: _SurfaceSurvey,
+        SeabedKind.PLANES: _PlanesSurvey,
     }
     kind = surveys.get(seabed.kind)
-    if kind is None or seabed.missing or (kind is not _Planes and len(seabed.points) < 2):
+    if kind is None or seabed.missing or (kind is not _PlanesSurvey and len(seabed.points) < 2):
         return None
-    if kind is _Surface and find_spec("scipy") is None:
+    if kind is _SurfaceSurvey and find_spec("scipy") is None:
         return None
     try:
         return kind(seabed)
-    except ValueError:  # other findings say what is wrong with it
+    except ValueError:  # other findings report its fault
         return None

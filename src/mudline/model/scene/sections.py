@@ -1,4 +1,4 @@
-"""Sections: which `*GEOMETRIC SETS` entry an element has; its external diameter, mass and submerged weight."""
+"""Sections: the `*GEOMETRIC SETS` entry of each element; its external diameter, mass and submerged weight."""
 
 from __future__ import annotations
 
@@ -28,9 +28,14 @@ _FORMATS = ("flexible", "rigid", "mooring", "truss")
 
 
 class Section(NamedTuple):
-    """An entry of `*GEOMETRIC SETS`. `diameter` is NaN where there is none, or none that can be used.
+    """Entry of `*GEOMETRIC SETS`.
 
-    `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which is reported.
+    name: name of its set.
+    diameter: external diameter, NaN if there is none, or none that can be used.
+    source: "Do" or "Dd".
+    where: place of the entry.
+    faulty: the diameter could not be read or is out of range, which is reported.
+    entry: the entry itself.
     """
 
     name: str
@@ -45,11 +50,13 @@ class Section(NamedTuple):
 
 
 class SectionTable(NamedTuple):
-    """Sections in the order of the file; `of_element` (m,) is the one that each element has, -1 for none.
+    """Sections in the order of the file, and the section of each element.
 
-    `diameter` (m,) is the external diameter, NaN where there is none; `faulty` (m,) marks elements whose section could
-    not be read: nothing more is said about them. `open` says that a section belongs to a set whose elements the deck
-    does not show, or could not be read, so that any element may have it.
+    sections: the sections.
+    of_element: index (m,) of each element's section, -1 for none.
+    diameter: external diameter (m,), NaN if there is none.
+    faulty: elements (m,) whose section could not be read: nothing more is reported about them.
+    open: a section's set has elements that the deck does not show, or could not be read, so any element may have it.
     """
 
     sections: tuple[Section, ...]
@@ -65,7 +72,7 @@ class SectionTable(NamedTuple):
 def read_sections(
     context: Context, sets: Sets, elements: Numbered, external: ExternalElements | None = None
 ) -> SectionTable:
-    """The sections, and the one of each element: the later entry wins, a diameter from a file over all."""
+    """Return the sections, and that of each element: the later entry wins, a diameter from a file over all."""
     sections: list[Section] = []
     holders: list[NamedSet | None] = []
     elsewhere = False
@@ -98,12 +105,12 @@ def _section(entry: GeometricSet, where: Where) -> Section:
 
 
 def format_of(entry: GeometricSet) -> str:
-    """The format of the property line, "" without one."""
+    """Return the format of the property line, "" without one."""
     return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
 
 
 class Surroundings(NamedTuple):
-    """Density of the water, gravity, and the depth, which is the height of the water's level, in the deck's units.
+    """Density of the water, gravity, and depth, which is also the height of the water's surface, in the deck's units.
 
     NaN where they are not known.
     """
@@ -114,7 +121,7 @@ class Surroundings(NamedTuple):
 
 
 def read_surroundings(deck: Deck) -> Surroundings:
-    """Those of the last `*OCEAN`, whose defaults are known in metric and imperial units; NaN without one."""
+    """Return the surroundings of the last `*OCEAN`, with defaults in metric and imperial units; NaN without one."""
     oceans = [block for _, block in deck.blocks("OCEAN")]
     if not oceans:
         return Surroundings(math.nan, math.nan, math.nan)
@@ -126,15 +133,15 @@ def read_surroundings(deck: Deck) -> Surroundings:
 
 
 def mass_per_length(table: SectionTable) -> Floats:
-    """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+    """Return mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
     mass = picked((_mass(section.entry) for section in table.sections), table.of_element)
     return np.where(mass > 0.0, mass, np.nan)
 
 
 def submerged_weight(table: SectionTable, around: Surroundings, on_land: Floats | None) -> Floats:
-    """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
+    """Return weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
 
-    The share `on_land` (m,) of an element has no buoyancy; None stands for none. Contents do not count. Elements whose
+    The share `on_land` (m,) of an element has no buoyancy; None stands for 0. Contents do not count. Elements whose
     diameter comes from a file of elements have the weight of their section, if they have one.
     """
     entries = [section.entry for section in table.sections]
@@ -147,18 +154,18 @@ def submerged_weight(table: SectionTable, around: Surroundings, on_land: Floats 
 
 
 def weights(entry: GeometricSet, around: Surroundings) -> tuple[float, float]:
-    """Weight in air and less buoyancy of a section per length, in the deck's units; NaN where it is not known."""
+    """Return weight in air and submerged weight of a section per length, in the deck's units; NaN if not known."""
     in_air = _mass(entry) * around.gravity
     return in_air, in_air - around.density * _displaced(entry) * around.gravity
 
 
 def _mass(entry: GeometricSet) -> float:
-    """Mass per length of a section, NaN where it is not known."""
+    """Return mass per length of a section, NaN if it is not known."""
     return number(entry.section, "mass") if entry.rigid is None else _wall(entry.rigid)
 
 
 def _displaced(entry: GeometricSet) -> float:
-    """Area of the water that a section displaces, NaN where it is not known."""
+    """Return the area of the water that a section displaces, NaN if it is not known."""
     buoyancy = number(entry.section, "db")
     if math.isnan(buoyancy) and entry.flexible is None:
         buoyancy = number(entry.section, "do")
@@ -182,7 +189,7 @@ class Stiffnesses(NamedTuple):
 
 
 def stiffnesses(deck: Deck, section: Section) -> Stiffnesses:
-    """Return the stiffness of a section; of curves the slope at 0."""
+    """Return the stiffness of a section; for curves it is the slope at 0."""
     row = section.entry.section
     if format_of(section.entry) != "rigid":
         return Stiffnesses(
@@ -200,11 +207,11 @@ def stiffnesses(deck: Deck, section: Section) -> Stiffnesses:
 
 STIFFNESS_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
 BENDING_CURVES = "MOMENT-CURVATURE"
-"""Keyword of the curves of bending; those of the other stiffnesses by the setting that names them."""
+"""Keyword of bending curves; STIFFNESS_CURVES has those of other stiffnesses by the setting that names them."""
 
 
 def _modulus(deck: Deck, section: Section, given: float, *curves: str) -> float:
-    """A stiffness: the number, else the slope at 0 of the curve that stands for it; NaN without both."""
+    """Return a stiffness: the number, else the slope at 0 of the curve that replaces it; NaN without both."""
     if not math.isnan(given):
         return given
     names = [name for setting in curves if (name := getattr(section.entry, setting, None))]

@@ -1,4 +1,4 @@
-"""Element sets: lists, ranges and subsets to indices of elements; names compare without case."""
+"""Element sets: lists, ranges and subsets as indices of elements; names are compared without case."""
 
 from __future__ import annotations
 
@@ -31,15 +31,18 @@ if TYPE_CHECKING:
 
 ALL = "all"
 LONGEST_NAME = 256
-"""Characters of a name of a set that the language allows."""
+"""Number of characters that the language allows in the name of a set."""
 _NOTHING = np.zeros(0, dtype=np.intp)
 
 
 @dataclass(slots=True, repr=False, eq=False)
 class NamedSet:
-    """A set: its name as first written, the indices of its elements in ascending order, where it is defined.
+    """Set of elements.
 
-    `open` says that it has, or may have, elements that the deck does not show.
+    name: its name as first written.
+    elements: indices of its elements in ascending order.
+    where: place of its definition.
+    open: the set has, or may have, elements that the deck does not show.
     """
 
     name: str
@@ -62,33 +65,33 @@ class Sets:
 
     @property
     def everything(self) -> NamedSet:
-        """The predefined set ALL."""
+        """Predefined set ALL."""
         return self.named[ALL]
 
     def find(self, name: str) -> NamedSet | None:
-        """The set that a SET= names; None when there is no such set, which `check` reports."""
+        """Return the set that a SET= names; None if there is no such set, which `check` reports."""
         return self.named.get(name_key(name))
 
     def check(self, name: str, where: Where) -> None:
-        """Report a name at a place that is the name of no set."""
+        """Report a name at a place if no set has it."""
         if self.find(name) is None:
-            hint = self.context.hint(name, {key: found.name for key, found in self.named.items()})
+            hint = self.context.hint(name, {key: set_.name for key, set_ in self.named.items()})
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
 
 
 def read_sets(context: Context, elements: Numbered, external: ExternalElements | None = None) -> Sets:
-    """Every set of the model; a file of elements adds to them, or defines more."""
-    sets = _Reader(context, elements).read()
+    """Return every set of the model; a file of elements adds to them, or defines more."""
+    sets = _SetReader(context, elements).read()
     for name, ids in (external.sets if external else {}).items():
         known = sets.named.setdefault(folded(name), NamedSet(name, _NOTHING, None))
         known.elements = np.union1d(known.elements, elements.indices(ids))
     return sets
 
 
-class _Reader:
-    """Collects the definitions of each name, then expands them, subsets first."""
+class _SetReader:
+    """Reader of sets: it collects the definitions of each name, then expands them, subsets first."""
 
     def __init__(self, context: Context, elements: Numbered) -> None:
         self.context = context
@@ -112,7 +115,7 @@ class _Reader:
         return self.sets
 
     def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
-        """Note the sets of a block by their names."""
+        """Collect the sets of a block by their names."""
         for index, entry in enumerate(entries):
             where = Where(block.section, block.block, ("sets", index))
             name = known_name(entry.name)
@@ -127,7 +130,7 @@ class _Reader:
             self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
-        """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
+        """Expand a set after its subsets, with an explicit stack, as chains may be long."""
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
@@ -143,7 +146,7 @@ class _Reader:
                 self._await(current, waiting, unfinished)
 
     def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
-        """Put the subsets that are to be expanded before a set on the stack; those that cannot be are reported."""
+        """Put the subsets to expand before a set on the stack; report those that cannot be expanded."""
         named = self.sets.named
         for entry, where in self.definitions[key]:
             for index, member in enumerate(entry.members):
@@ -152,13 +155,13 @@ class _Reader:
                 name = known_name(cast("SetSubset", member).subset)
                 if name is None:
                     continue
-                other = name_key(name)
-                if other in unfinished:
+                subset = name_key(name)
+                if subset in unfinished:
                     message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
                     self.context.report(REF008, message, where.inside("members", index, "subset"))
-                elif other in self.definitions:
-                    waiting.append(other)
-                elif other not in named:
+                elif subset in self.definitions:
+                    waiting.append(subset)
+                elif subset not in named:
                     hint = self.context.hint(name, self._names)
                     message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                     place = where.inside("members", index, "subset")
@@ -166,11 +169,11 @@ class _Reader:
 
     @cached_property
     def _names(self) -> dict[str, str]:
-        """Every name of a set, by its casefolded form."""
+        """Names of all sets, by their casefolded form."""
         return self.context.opaque_set_names | {key: found[0][0].name for key, found in self.definitions.items()}
 
     def _settle(self, key: str) -> None:
-        """The union of all members of all definitions of a name."""
+        """Store the union of all members of all definitions of a name."""
         definitions = self.definitions[key]
         first, place = definitions[0]
         parts: list[Indices] = []
@@ -181,25 +184,25 @@ class _Reader:
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
-                    found, whole = self._subset(cast("SetSubset", member).subset)
+                    elements, whole = self._subset(cast("SetSubset", member).subset)
                 elif member.rule == "set_list":
-                    found, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    elements, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:
-                    given = cast("SetGenerate", member).generate
-                    found, whole = self._range(given, where.inside("members", index))
-                parts.append(found)
+                    range_ = cast("SetGenerate", member).generate
+                    elements, whole = self._range(range_, where.inside("members", index))
+                parts.append(elements)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
-        if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
+        if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
-    def _subset(self, given: str) -> tuple[Indices, bool]:
-        name = known_name(given)
-        found = None if name is None else self.sets.named.get(name_key(name))
-        return (_NOTHING, False) if found is None else (found.elements, not found.open)
+    def _subset(self, subset: str) -> tuple[Indices, bool]:
+        name = known_name(subset)
+        set_ = None if name is None else self.sets.named.get(name_key(name))
+        return (_NOTHING, False) if set_ is None else (set_.elements, not set_.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
-        """Indices of the elements of a list in ascending order, and whether these are all."""
+        """Return indices of the elements of a list in ascending order, and True if these are all."""
         numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
         known = indices >= 0
@@ -215,7 +218,7 @@ class _Reader:
         return _ascending(indices[known]), False
 
     def _missing(self, numbers: Ids, places: list[Where]) -> None:
-        """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
+        """Report elements of a list that are not defined; if they may be defined out of sight, only once for a list."""
         if len(numbers) > 1 and (self.context.external_definers or self.context.restart):
             message = f"{len(numbers)} elements of this list (first: {numbers[0]}) are not defined"
             self.context.report_missing(REF005, message, places[0], "ELEMENT")
@@ -224,10 +227,10 @@ class _Reader:
             message = f"element {number} is not defined: define it in *ELEMENT"
             self.context.report_missing(REF005, message, place, "ELEMENT", number)
 
-    def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
-        """Elements of a range, without building it: it may be as long as a typing error makes it."""
+    def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
+        """Return the elements of a range, without building it: a typing error may make it very long."""
         place = where.inside("generate")
-        numbers = self.context.generator(given)
+        numbers = self.context.generator(range_)
         if numbers is None:
             return _NOTHING, False
         start, end, step = numbers
@@ -235,40 +238,40 @@ class _Reader:
             why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
             self.context.report(REF010, f"GEN={start}, {end}, {step} holds nothing: {why}", place, Severity.ERROR)
             return _NOTHING, False
-        found = self.elements.between(start, end, step)
-        wanted = (end - start) // step + 1
-        lacking = wanted - len(found)
+        elements = self.elements.between(start, end, step)
+        count = (end - start) // step + 1
+        lacking = count - len(elements)
         if lacking and not self.context.possible_definition("ELEMENT"):
             first = self._first_lacking(start, end, step)
             if lacking == 1:
                 message = f"GEN={start}, {end}, {step}: element {first} is not defined: correct it, or define that"
             else:
-                lacks = f"{lacking} of its {wanted} elements are not defined (first: {first})"
+                lacks = f"{lacking} of its {count} elements are not defined (first: {first})"
                 message = f"GEN={start}, {end}, {step}: {lacks}: correct it, or define them"
-            severity = Severity.WARNING if len(found) else None
+            severity = Severity.WARNING if len(elements) else None
             self.context.note(Problem(REF005, message, None, severity, place, lacks=str(first)))
-        return found, not lacking
+        return elements, not lacking
 
     def _first_lacking(self, start: int, end: int, step: int) -> int:
-        """The first number of a range that no element has."""
+        """Return the first number of a range that no element has."""
         numbers = _distinct(self.elements.ids[self.elements.between(start, end, step)])
         gaps = np.flatnonzero(numbers != start + step * np.arange(len(numbers)))
         return start + step * int(gaps[0] if len(gaps) else len(numbers))
 
 
 def _ascending(indices: Indices) -> Indices:
-    """Indices in ascending order, each once."""
+    """Return indices in ascending order, each once."""
     return _distinct(indices) if np.count_nonzero(indices[1:] <= indices[:-1]) else indices
 
 
 def _distinct(indices: Indices) -> Indices:
-    """The same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
+    """Return the same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
     ordered = np.sort(indices)
     return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])] if len(ordered) else ordered
 
 
 def _union(parts: list[Indices]) -> Indices:
-    """Indices in ascending order, each once, of parts that are so. Sets of the same elements share an array."""
+    """Return the union of ascending, distinct parts, also ascending and distinct. Equal sets share an array."""
     if len(parts) == 1:
         return parts[0]
     largest = max(parts, key=len, default=_NOTHING)
@@ -282,9 +285,9 @@ def _union(parts: list[Indices]) -> Indices:
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
-    """For each of `count` elements the index of the last holder that has it, -1 where none has; not to be written to.
+    """Return for each of `count` elements the index of the last holder that has it, or -1; not to be written to.
 
-    A set that holds several things counts with the last of them only: sets named very often cost no more for it.
+    A set that holds several objects counts only with the last of them, so repeated sets take no extra time.
     """
     last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
     order = sorted(last.values())

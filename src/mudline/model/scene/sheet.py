@@ -1,4 +1,4 @@
-"""The sheet of a deck: a row for each run of elements with the same section, water, seabed and contents."""
+"""Sheet of a deck: a row for each run of elements with the same section, water, seabed and contents."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ Value = str | int | float | None
 
 
 class SheetColumn(NamedTuple):
-    """A column: its key, its heading for people, and the dimension of its values as that of a field, "" for none."""
+    """Column: its key, its heading for people, and the dimension of its values as that of a field, "" for none."""
 
     key: str
     heading: str
     dimension: str = ""
 
     def unit(self, units: str) -> str:
-        """The unit in a deck's units; "" in the user's own, and where there is none."""
+        """Return the unit in a deck's units; "" for user units, and if there is none."""
         return unit_text(self.dimension, units) if self.dimension and units != "user" else ""
 
 
 class Sheet(NamedTuple):
-    """Columns, a value for each in every row (None where the deck gives none), and what is left out of the weights."""
+    """Columns, a value for each in every row (None if the deck gives none), and parts left out of the weights."""
 
     columns: Sequence[SheetColumn]
     rows: Sequence[dict[str, Value]]
@@ -73,14 +73,14 @@ RUN = (
     SheetColumn("last_element", "last\nelement"),
     SheetColumn("elements", "elements"),
 )
-"""Columns of each run: the elements at its ends, and how many there are."""
+"""Columns of each run: the elements at its ends, and their number."""
 
 
 def sheet_of(scene: ResolvedDeck) -> Sheet:
     """Return the sheet of a deck, in its units, in the order of its elements.
 
-    A run ends where a value changes, and where an element is not joined to the one before. Of load cases in which the
-    contents are others than in the last one there are two more columns each.
+    A run ends where a value changes, and where an element is not joined to the one before. Each load case whose
+    contents differ from the last one adds two columns.
     """
     table = scene.section_table
     with np.errstate(all="ignore"):  # values of a deck may overflow, which is no value
@@ -108,14 +108,14 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
 
 
 def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]:
-    """The values (m,) of all elements by column, and the columns of other load cases."""
+    """Return the values (m,) of all elements by column, and the columns of other load cases."""
     table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
     entries = [section.entry.section for section in table.sections]
     inner = picked((number(each, "di") or np.nan for each in entries), table.of_element)
     own = [stiffnesses(scene.deck, section) for section in table.sections]
     friction = _friction(scene)
     last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
-    found = {
+    values_by_column = {
         "outer_diameter": scene.diameter,
         "inner_diameter": inner,
         "diameter_over_wall": 2.0 * scene.diameter / (scene.diameter - inner),
@@ -133,28 +133,28 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
         "lateral_friction": friction[:, 1],
     }
     others = []
-    for one in filled[:-1]:
-        if (one.density != last).any():
-            case = f"load case {one.number}"
-            dense = SheetColumn(f"contents_load_case_{one.number}", f"contents,\n{case}", "M/L3")
-            heavy = SheetColumn(f"weight_load_case_{one.number}", f"weight,\n{case}", "F/L")
+    for case_contents in filled[:-1]:
+        if (case_contents.density != last).any():
+            case = f"load case {case_contents.number}"
+            dense = SheetColumn(f"contents_load_case_{case_contents.number}", f"contents,\n{case}", "M/L3")
+            heavy = SheetColumn(f"weight_load_case_{case_contents.number}", f"weight,\n{case}", "F/L")
             others += [dense, heavy]
-            found[dense.key] = one.density
-            found[heavy.key] = scene.submerged_weight + one.mass * scene.surroundings.gravity
-    return found, others
+            values_by_column[dense.key] = case_contents.density
+            values_by_column[heavy.key] = scene.submerged_weight + case_contents.mass * scene.surroundings.gravity
+    return values_by_column, others
 
 
 def _friction(scene: ResolvedDeck) -> Floats:
-    """Coefficients along and across (m, 2): those of `*SEABED FRICTION`, else of the seabed's properties."""
-    found = scene.resistance.column("friction")
+    """Return axial and lateral coefficients (m, 2): those of `*SEABED FRICTION`, else of the seabed's properties."""
+    coefficients = scene.resistance.column("friction")
     if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
         own = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
-        found = np.where((extension.of_element >= 0)[:, None], np.column_stack(own), found)
-    return found
+        coefficients = np.where((extension.of_element >= 0)[:, None], np.column_stack(own), coefficients)
+    return coefficients
 
 
 def _runs(scene: ResolvedDeck, values: Floats) -> list[tuple[int, int]]:
-    """First elements and ends of the runs of rows (m, k) that are the same and follow each other along a line."""
+    """Return first elements and ends of the runs of equal rows (m, k) that are consecutive along a line."""
     if not len(values):
         return []
     same = (values[1:] == values[:-1]) | (np.isnan(values[1:]) & np.isnan(values[:-1]))

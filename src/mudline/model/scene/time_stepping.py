@@ -13,9 +13,11 @@ if TYPE_CHECKING:
 
 
 class Scheme(NamedTuple):
-    """A time integration scheme: M [(1 - am) a1 + am a0] + (1 - af) R1 + af R0 = 0 with Newmark's gamma and beta.
+    """Time integration scheme: M [(1 - am) a1 + am a0] + (1 - af) R1 + af R0 = 0 with Newmark's gamma and beta.
 
-    name: "generalised-alpha" or "hilber-hughes". rho, alpha: the parameter of each, None for the other.
+    name: "generalised-alpha" or "hilber-hughes".
+    alpha_m, alpha_f: am and af.
+    rho, alpha: the parameter of each scheme, None for the other scheme.
     """
 
     name: str
@@ -55,17 +57,17 @@ _DEFAULT_RHO, _DEFAULT_HUGHES = 0.4, -0.25
 
 
 def scheme_of(scene: ResolvedDeck) -> tuple[Scheme, int]:
-    """Return the scheme of the last `*TIME STEPPING`, the program's default without one, and its line, 0 for none."""
-    found, line = generalised_alpha(_DEFAULT_RHO), 0
+    """Return the scheme of the last `*TIME STEPPING`, or the program's default, and its line, 0 for none."""
+    scheme, line = generalised_alpha(_DEFAULT_RHO), 0
     for where, block in scene.deck.blocks("TIME STEPPING", "LOAD CASE"):
-        given, line = cast("TimeStepping", block), line_of(scene, where)
-        if given.type_ == "HILBER-HUGHES":
-            found = hilber_hughes(max(number(given.hilber_hughes, "coefficient", _DEFAULT_HUGHES), -1.0 / 3.0))
-        elif given.alphas is not None:
+        stepping, line = cast("TimeStepping", block), line_of(scene, where)
+        if stepping.type_ == "HILBER-HUGHES":
+            scheme = hilber_hughes(max(number(stepping.hilber_hughes, "coefficient", _DEFAULT_HUGHES), -1.0 / 3.0))
+        elif stepping.alphas is not None:
             default = generalised_alpha(_DEFAULT_RHO)
-            alpha_m = number(given.alphas, "alpha_m", default.alpha_m)
-            alpha_f = number(given.alphas, "alpha_f", default.alpha_f)
-            found = Scheme("generalised-alpha", alpha_m, alpha_f)
+            alpha_m = number(stepping.alphas, "alpha_m", default.alpha_m)
+            alpha_f = number(stepping.alphas, "alpha_f", default.alpha_f)
+            scheme = Scheme("generalised-alpha", alpha_m, alpha_f)
         else:
-            found = generalised_alpha(number(given, "infinity", _DEFAULT_RHO))
-    return found, line
+            scheme = generalised_alpha(number(stepping, "infinity", _DEFAULT_RHO))
+    return scheme, line

@@ -1,4 +1,4 @@
-"""What is looked at in lines that are not read: equations, and settings whose name says what their value must be."""
+"""Checks in lines that are not read: equations, and settings whose name shows what their value must be."""
 
 from __future__ import annotations
 
@@ -40,24 +40,24 @@ from mudline.model.scene.sets import Sets
 
 _EQUATION = re.compile(r"=\[[^\[\]\r\n]*\]")
 _LONGEST = 4000
-"""Characters of a line that is looked at: a longer one is data of another kind."""
+"""Number of characters of a line that is checked: a longer one is data of another kind."""
 _DEFINING = ("MODEL", "LOAD CASE")
 _OF_RESULTS = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 _WORTH = re.compile(r"[={]|[0-9OolI]\.[0-9OolI]")
-"""What a line has that is looked at."""
+"""Pattern of a line that is checked."""
 _FREE = ("NAME", Names.FILE.name)
 """Settings whose value may be any text."""
 _UNREAD = "; the line is not read"
 _THINGS = ("GEN", *(kind.name for kind in (Names.SET, Names.ELEMENT, Names.NODE, Names.VESSEL)))
-"""Settings that begin a line about a thing which has a curve."""
+"""Settings that begin a line about an object which has a curve."""
 
 Line = tuple[Where, str]
 
 
 def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> None:
-    """Look at every line of a deck itself that is not read, but for titles and other text for people.
+    """Check every line of a deck itself that is not read, except titles and other text for people.
 
-    `nodes` are those of the deck, None where others are.
+    `nodes` are those of the deck, None if other nodes are used.
     """
     looking: _Looking | None = None
     for where, keyword, line in unread_lines(context):
@@ -73,18 +73,18 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
 
 
 def is_of_vessels(deck: Deck, where: Where) -> bool:
-    """Whether the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
+    """Return True if the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
     block = deck.sections[where.section].blocks[where.block]
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 
 def unread_lines(context: Context) -> list[tuple[Where, str, str]]:
-    """The lines of a deck itself that are not read, without comments: their place, keyword and text."""
+    """Return the lines of a deck itself that are not read, without comments: their place, keyword and text."""
     return context.once(_every_unread_line)
 
 
 def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
-    deck, found = context.written, list[tuple[Where, str, str]]()
+    deck, unread = context.written, list[tuple[Where, str, str]]()
     for at, _, block in deck.alone.every_block():
         lines: Iterable[tuple[Path, str]]
         if type(block) is Opaque:
@@ -96,8 +96,8 @@ def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
             lines = ((("unread", n), line) for n, line in enumerate(kept))
         else:
             lines = kept_places(block)
-        found += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
-    return found
+        unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
+    return unread
 
 
 def _uses_any_curve(line: str) -> bool:
@@ -108,9 +108,9 @@ def _uses_any_curve(line: str) -> bool:
 
 
 def _uses_curve(groups: list[Group]) -> bool:
-    """Whether CURVE= of a line uses a curve: behind a number, a label, or the setting of a thing.
+    """Return True if CURVE= of a line uses a curve: after a number, a label, or the setting of an object.
 
-    Where it stands first, it may give a name to a new one.
+    If CURVE= comes first, it may name a new curve.
     """
     first = groups[0]
     text = first.fields[0].text
@@ -129,7 +129,7 @@ class _Looking:
         }
 
     def look(self, where: Where, keyword: str, line: str) -> None:
-        """Look at a line."""
+        """Check a line."""
         for match in _EQUATION.finditer(line):
             self._equation(match[0], where.inside(*match.span()))
         known = catalogue.sections_of(keyword) is not None
@@ -138,10 +138,10 @@ class _Looking:
         for problem in problems:
             self._unclosed(problem, where, line)
         for group in groups:
-            for given in group.fields:
-                self._label(given, where)
+            for field in group.fields:
+                self._label(field, where)
                 if known and group.key not in _FREE:
-                    self._number(given, where)
+                    self._number(field, where)
             value = group.fields[0]
             if known and value.text and not value.text.startswith("=["):
                 if check := self.checks.get(group.key):
@@ -150,7 +150,7 @@ class _Looking:
                     self._curve(where.inside(*value.span), keyword, value.text)
 
     def condition(self, where: Where, keyword: str, line: str, nodes: Numbered | None) -> None:
-        """The node that follows a vessel, first on its line, and the vessel where it stands there.
+        """Check the node that follows a vessel, first on its line, and the vessel if it is on the same line.
 
         The form of the line is not public: a node, a vessel and degrees of freedom are what decks show.
         """
@@ -160,12 +160,12 @@ class _Looking:
             return
         if node is not None:
             self._follower(node, where.inside(*first.span), nodes)
-        for given in others:
-            if given.text and read_number(given.text) is None and not given.text.startswith(("=[", "{")):
-                self._vessel(where.inside(*given.span), keyword, given.text)
+        for field in others:
+            if field.text and read_number(field.text) is None and not field.text.startswith(("=[", "{")):
+                self._vessel(where.inside(*field.span), keyword, field.text)
 
     def _follower(self, node: float, where: Where, nodes: Numbered | None) -> None:
-        """The number of a node that follows a vessel."""
+        """Report the number of a node that follows a vessel, if it is not defined."""
         shows = nodes is not None and shows_nodes(self.context, nodes)
         lacks = nodes is not None and shows and (nodes.indices(np.array([node])) < 0).any()
         if lacks and not self.context.possible_definition("NODE", int(node)):
@@ -173,7 +173,7 @@ class _Looking:
             self._note(Problem(REF006, message, None, Severity.WARNING, where, lacks=f"{node:.0f}"))
 
     def _keyless(self, where: Where, keyword: str, groups: list[Group]) -> None:
-        """A line of a keyword that is read, which lacks the key before its first value."""
+        """Report a line of a keyword that is read, if the key before its first value is missing."""
         section = self.context.written.sections[where.section].name
         block = catalogue.block_class(section, keyword)
         first = groups[0].fields[0]
@@ -199,25 +199,25 @@ class _Looking:
             if reason.problem:
                 self._note(reason.problem)
 
-    def _label(self, given: Field, where: Where) -> None:
-        if given.text.startswith("{") and Label.match(given.text):
-            check_label(self.context, REF006, given.text, where.inside(*given.span))
+    def _label(self, field: Field, where: Where) -> None:
+        if field.text.startswith("{") and Label.match(field.text):
+            check_label(self.context, REF006, field.text, where.inside(*field.span))
 
-    def _number(self, given: Field, where: Where) -> None:
-        """A number with a letter in place of a digit."""
-        if meant := number_meant(given.text):
-            message = f"{shown(given.text)} is not a number: write {meant}{_UNREAD}"
-            self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*given.span)))
+    def _number(self, field: Field, where: Where) -> None:
+        """Report a number with a letter in place of a digit."""
+        if number := number_meant(field.text):
+            message = f"{shown(field.text)} is not a number: write {number}{_UNREAD}"
+            self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*field.span)))
 
     def _unclosed(self, problem: Problem, where: Where, line: str) -> None:
-        """An equation that is not closed; other marks may be text."""
+        """Report an equation that is not closed; other marks may be text."""
         if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
             message = f"{problem.message}{_UNREAD}"
             where = where.inside(*problem.span)
             self._note(Problem(SYN006, message, None, Severity.WARNING, where))
 
     def _set(self, where: Where, keyword: str, name: str) -> None:
-        """A set that a line names; postprocessing has sets of its own beside those of the model."""
+        """Report an undefined set that a line names; postprocessing may have its own sets."""
         if keyword in catalogue.definers(Names.SET) or not self._is_of_model(where, keyword, _OF_RESULTS):
             return
         of_results = self.context.written.sections[where.section].name in _OF_RESULTS
@@ -236,9 +236,9 @@ class _Looking:
         return sets_of_postprocessing(self.context.deck)
 
     def _is_of_model(self, where: Where, keyword: str, more: Collection[str] = ()) -> bool:
-        """Whether a line is of a section where things of the model are used, or one more, and its keyword makes none.
+        """Return True if a line's section uses objects of the model, or is in `more`, and its keyword makes none.
 
-        A deck without a model is a part of a job, and one that continues another that is not known is too.
+        A deck without a model is a part of a job, and so is a deck that continues another one that is not known.
         """
         section = self.context.written.sections[where.section].name
         kept = catalogue.opaque_keyword(section, keyword)
@@ -258,7 +258,10 @@ class _Looking:
             self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))
 
     def _curve(self, where: Where, keyword: str, name: str) -> None:
-        """A curve that a line of the model or of a load case uses; another line that is not read may define it."""
+        """Report an undefined curve that a line of the model or of a load case uses.
+
+        Nothing is reported if another unread line may define it.
+        """
         if not self._is_of_model(where, keyword):
             return
         key = name_key(name)
@@ -271,29 +274,29 @@ class _Looking:
 
     @cached_property
     def curves(self) -> dict[str, str]:
-        """The curves of all kinds that the deck defines, by their folded names."""
+        """Curves of all kinds that the deck defines, by their folded names."""
         kinds = names_of(self.context, CURVES | {Names.CURVE}).values()
         return {key: name for names in kinds for key, name in names.known.items()}
 
     @cached_property
     def _may_lack_curves(self) -> bool:
-        """Whether a line that defines a curve may be one that could not be used."""
+        """True if a line that could not be used may define a curve."""
         kinds = (*CURVES, Names.CURVE)
         return not self.context.unread.isdisjoint(keyword for kind in kinds for keyword in catalogue.definers(kind))
 
     @cached_property
     def _other_words(self) -> set[str]:
-        """What stands in the lines that are not read and use no curve: a curve of this name may be defined there."""
-        found: set[str] = set()
+        """Texts in unread lines that use no curve: a curve with one of these names may be defined there."""
+        words: set[str] = set()
         for _, _, block in self.context.deck.every_block():
             for line in data_lines(raw_lines(block)):
                 if not _uses_any_curve(line):
                     pieces = line.replace("=", ",").split(",")
-                    found.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
-        return found
+                    words.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
+        return words
 
     def _file(self, where: Where, _: str, written: str) -> None:
-        """A file beside the deck; a path with folders of another machine is looked for as any other is.
+        """Report a missing file; a path with folders of another machine is looked for like any other.
 
         A file of postprocessing may be one that the run makes.
         """

@@ -1,4 +1,4 @@
-"""Whether coordinates look as if Z were the vertical axis; in a deck it is X."""
+"""Signs that coordinates have Z as the vertical axis; in a deck it is X."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from mudline.model.scene.numbering import Floats, Indices
 FLAT = 0.01
 """Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
 NEAR = 0.05
-"""Share of the water depth by which a riser ends beside the seabed or the sea surface."""
+"""Share of the water depth within which a riser ends at the seabed or the sea surface."""
 DEEPEST = 5.0
-"""Diameters below 0 at which Z may still be the height of a pipe that lies on the seabed."""
+"""Depth in diameters below 0 at which Z may still be the height of a pipe that lies on the seabed."""
 LEVEL = 0.005
-"""Rise to length of an element that lies level."""
+"""Ratio of rise to length of a level element."""
 
 
 @np.errstate(over="ignore", invalid="ignore")
 def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
-    """What makes Z look like the height of nodes at `places` (n, 3), in words; "" where nothing does.
+    """Return in words the signs that Z is the height of nodes at `places` (n, 3); "" without any.
 
-    Either the line has one X and Z goes through the water depth; or elements run along X, and lie just below Z = 0, or
-    at minus the water depth, as a pipe on the seabed does. A vertical riser at Z = 0 does neither, unless it is longer
-    than the water is deep.
+    Either the line has one X and Z spans the water depth. Or elements run along X, and lie just below Z = 0, or at
+    minus the water depth, as a pipe on the seabed does. A vertical riser at Z = 0 shows neither sign, unless it is
+    longer than the water depth.
     """
     ends = scene.element_nodes[elements]
     used = places[ends.ravel()]

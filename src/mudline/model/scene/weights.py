@@ -1,4 +1,4 @@
-"""What weighs beside the sections of a deck: contents by load case, masses at nodes, and what no figure has."""
+"""Weights in addition to the sections of a deck: contents by load case, masses at nodes, and omitted keywords."""
 
 from __future__ import annotations
 
@@ -19,11 +19,15 @@ if TYPE_CHECKING:
     from mudline.model.scene.resolved import ResolvedDeck
 
 
-class Contents(NamedTuple):
-    """What is in the elements (m,) in a load case, in the deck's units; 0 where nothing is.
+class PipeContents(NamedTuple):
+    """Contents of the elements (m,) in a load case, in the deck's units; 0 without contents.
 
-    `number` counts the load cases of the file from 1. `mass` is per length of pipe. What an earlier load case fills
-    stays as it is until a later one gives its contents again.
+    number: number of the load case in the file, from 1.
+    where: place of the load case.
+    density: density of the contents.
+    mass: mass per length of pipe.
+
+    Contents of an earlier load case stay until a later one gives them again.
     """
 
     number: int
@@ -32,10 +36,10 @@ class Contents(NamedTuple):
     mass: Floats
 
 
-def contents(scene: ResolvedDeck) -> list[Contents]:
-    """Return the contents in each load case of the deck itself; none where `*INTERNAL FLUID` fills no pipe.
+def contents(scene: ResolvedDeck) -> list[PipeContents]:
+    """Return the contents in each load case of the deck itself; none if `*INTERNAL FLUID` fills no pipe.
 
-    An element is full or empty: full where its middle is not above the level of the fluid.
+    An element is full or empty: full if its middle is not above the level of the fluid.
     """
     if not any(True for _ in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE")):
         return []
@@ -44,7 +48,7 @@ def contents(scene: ResolvedDeck) -> list[Contents]:
     area = np.nan_to_num(math.pi / 4.0 * inner * inner)
     middle = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes].mean(axis=1)
     density = np.zeros(len(area))
-    found: list[Contents] = []
+    filled: list[PipeContents] = []
     for index, section in enumerate(scene.deck.own_sections):
         if section.name != "LOAD CASE":
             continue
@@ -53,32 +57,32 @@ def contents(scene: ResolvedDeck) -> list[Contents]:
             if where.section == index:
                 _fill(scene, cast("InternalFluid", block), middle, density)
         with np.errstate(over="ignore"):
-            found.append(Contents(len(found) + 1, Where(index), density, density * area))
-    return found
+            filled.append(PipeContents(len(filled) + 1, Where(index), density, density * area))
+    return filled
 
 
 def _fill(scene: ResolvedDeck, fluid: InternalFluid, middle: Floats, density: Floats) -> None:
     for entry in fluid.sets:
         name = known_name(entry.set_name) if entry.set_name else "ALL"
         holder = None if name is None else scene.set_table.find(name)
-        given, level = number(entry, "density", 0.0), number(entry, "level", math.inf)
+        fluid_density, level = number(entry, "density", 0.0), number(entry, "level", math.inf)
         if holder is not None:
-            density[holder.elements] = np.where(middle[holder.elements] > level, 0.0, given)
+            density[holder.elements] = np.where(middle[holder.elements] > level, 0.0, fluid_density)
 
 
 class Attached(NamedTuple):
-    """Masses of `*MASS` at the nodes of elements (m,), per length of them; `weighing` without those of no weight."""
+    """Masses of `*MASS` at the nodes of elements (m,), per length; `weighing` excludes those without weight."""
 
     weighing: Floats
     mass: Floats
 
 
 def attached(scene: ResolvedDeck) -> Attached:
-    """Return the masses at nodes, each shared by the elements that end there in equal parts; inertia is none."""
+    """Return the masses at nodes, shared equally by the elements that end there; rotary inertia is left out."""
     at_nodes = np.zeros((2, len(scene.node_ids) + 1))
-    for one, node in _masses(scene):
+    for point_mass, node in _masses(scene):
         if node is not None:
-            at_nodes[one.type_ == "NO WEIGHT MASS" :, node] += number(one, "mass", 0.0)
+            at_nodes[point_mass.type_ == "NO WEIGHT MASS" :, node] += number(point_mass, "mass", 0.0)
     if not at_nodes.any():
         nothing = np.zeros(len(scene.element_ids))
         return Attached(nothing, nothing)
@@ -90,44 +94,44 @@ def attached(scene: ResolvedDeck) -> Attached:
 
 
 def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
-    """Yield each mass that is no rotary inertia, with the index of its node; None where that is not known."""
+    """Yield each mass that is not rotary inertia, with the index of its node; None if that is not known."""
     for _, block in scene.deck.blocks("MASS"):
-        for one in cast("Masses", block).masses:
-            if one.type_ != "ROTARY INERTIA":
-                known = scene.nodes.indices(np.array([one.node]))[0] if isinstance(one.node, int) else -1
-                yield one, int(known) if known >= 0 else None
+        for mass in cast("Masses", block).masses:
+            if mass.type_ != "ROTARY INERTIA":
+                known = scene.nodes.indices(np.array([mass.node]))[0] if isinstance(mass.node, int) else -1
+                yield mass, int(known) if known >= 0 else None
 
 
 def operating_weight(scene: ResolvedDeck) -> Floats:
-    """Submerged weight per length (m,) with the contents of the last load case and with masses at nodes.
+    """Return submerged weight per length (m,) with the contents of the last load case and with masses at nodes.
 
-    In the deck's units; NaN where it is not known.
+    It is in the deck's units; NaN where it is not known.
     """
     mass = attached(scene).weighing
-    for one in contents(scene)[-1:]:
-        mass = mass + one.mass
+    for filled in contents(scene)[-1:]:
+        mass = mass + filled.mass
     with np.errstate(over="ignore", invalid="ignore"):
         return scene.submerged_weight + mass * scene.surroundings.gravity if mass.any() else scene.submerged_weight
 
 
 _WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS")
-"""Keywords whose weight or lift no figure has: what public pages say of them is not enough."""
+"""Keywords whose weight or lift is left out: public pages do not describe them sufficiently."""
 
 
 def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:
-    """Return what the deck has that weighs or lifts, and that has no part in `operating_weight`, as `*NAME`.
+    """Return parts of the deck that weigh or lift, but are not in `operating_weight`, as `*NAME`.
 
     `with_masses` is False for weights without the masses at nodes.
     """
     deck, unread = scene.deck, scene.context.unread
-    given = deck.keywords() | deck.keywords("LOAD CASE")
-    found = [f"*{name}" for name in _WEIGHING if name in given]
-    found += [f"*{name} (in part)" for name in ("MASS", "INTERNAL FLUID") if name in unread]
-    if "*MASS (in part)" not in found and any(node is None for _, node in _masses(scene)):
-        found.append("*MASS (in part)")
-    if not with_masses and "MASS" in given:
-        found = [*(one for one in found if one != "*MASS (in part)"), "*MASS"]
+    keywords = deck.keywords() | deck.keywords("LOAD CASE")
+    names = [f"*{name}" for name in _WEIGHING if name in keywords]
+    names += [f"*{name} (in part)" for name in ("MASS", "INTERNAL FLUID") if name in unread]
+    if "*MASS (in part)" not in names and any(node is None for _, node in _masses(scene)):
+        names.append("*MASS (in part)")
+    if not with_masses and "MASS" in keywords:
+        names = [*(one for one in names if one != "*MASS (in part)"), "*MASS"]
     before = {base.deck.file for base in deck.bases if "INTERNAL FLUID" in base.deck.keywords("LOAD CASE")}
-    if before and "INTERNAL FLUID" not in given:
-        found.append("*INTERNAL FLUID of the deck that it continues")
-    return found
+    if before and "INTERNAL FLUID" not in keywords:
+        names.append("*INTERNAL FLUID of the deck that it continues")
+    return names

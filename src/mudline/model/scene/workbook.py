@@ -39,9 +39,9 @@ _UNREADABLE = (
 
 @contextmanager
 def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> Iterator[Any]:
-    """The workbook in a stream: the values that formulas had, or with `formulas` their texts.
+    """Yield the workbook in a stream: the values that formulas had, or with `formulas` their texts.
 
-    Raises DeckError for what is not a workbook, also in the block, where its sheets are read; ImportError without
+    Raises DeckError for a file that is not a workbook, also when its sheets are read in the block; ImportError without
     openpyxl.
     """
     from openpyxl import load_workbook  # noqa: PLC0415 - only who reads a workbook needs it
@@ -61,7 +61,7 @@ def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> I
 
 
 class Cell(NamedTuple):
-    """A cell: row and column from 1, its value, and whether a formula in it was never calculated."""
+    """Cell: row and column from 1, its value, and True if a formula in it was never calculated."""
 
     row: int
     column: int
@@ -70,8 +70,8 @@ class Cell(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sheet:
-    """The rows of a sheet, each the cells with a value; the only sheet of a CSV file has the name of the file."""
+class WorkbookSheet:
+    """Rows of a sheet, each the cells with a value; the only sheet of a CSV file has the name of the file."""
 
     file: str
     title: str
@@ -79,7 +79,7 @@ class Sheet:
     is_workbook: bool
 
     def fault(self, row: int, column: int, message: str) -> DeckError:
-        """The error about the cell in a row and a column, from 1."""
+        """Return the error about the cell in a row and a column, from 1."""
         if not self.is_workbook:
             heading = next((str(cell.value) for cell in self.rows[0] if cell.column == column), str(column))
             return data_error(self.file, f"column {cut(heading, 40)}: {message}", row)
@@ -89,23 +89,23 @@ class Sheet:
         return data_error(self.file, f"{where}: {message}", row, column)
 
 
-def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
-    """The sheets of a workbook with the values that formulas had when it was saved.
+def workbook_sheets(data: bytes, file: str) -> list[WorkbookSheet]:
+    """Return the sheets of a workbook with the values that formulas had when it was saved.
 
-    Raises DeckError for what is not a workbook; ImportError without openpyxl.
+    Raises DeckError for a file that is not a workbook; ImportError without openpyxl.
     """
     with (
         opened_workbook(io.BytesIO(data), file) as book,
         opened_workbook(io.BytesIO(data), file, formulas=True) as written,
     ):
         pairs = zip(book.worksheets, written.worksheets, strict=True)
-        return [Sheet(file, sheet.title, list(_rows(sheet, texts)), is_workbook=True) for sheet, texts in pairs]
+        return [WorkbookSheet(file, sheet.title, list(_rows(sheet, texts)), is_workbook=True) for sheet, texts in pairs]
 
 
 def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - openpyxl has no types
-    """The rows of a sheet whose cells have a value, or a formula without one."""
-    for one in (sheet, texts):
-        one.reset_dimensions()
+    """Yield the rows of a sheet whose cells have a value, or a formula without one."""
+    for view in (sheet, texts):
+        view.reset_dimensions()
     for number, (values, formulas) in enumerate(zip(sheet.iter_rows(), texts.iter_rows(), strict=True), 1):
         cells = []
         for column, (value, formula) in enumerate(zip(values, formulas, strict=True), 1):
@@ -116,25 +116,25 @@ def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - ope
 
 
 def _width(line: str, separator: str) -> int:
-    """How many fields a line has; none where it is no line of a table, which is reported when it is read."""
+    """Return the number of fields of a line; 0 if it is not a line of a table, which is reported when it is read."""
     try:
         return len(next(csv.reader([line], delimiter=separator), []))
     except csv.Error:
         return 0
 
 
-def csv_sheet(data: bytes, file: str) -> Sheet:
-    """A CSV file as a sheet; its fields are separated by commas, semicolons or tabs, as those of its first line are.
+def csv_sheet(data: bytes, file: str) -> WorkbookSheet:
+    """Return a CSV file as a sheet; its first line shows the separator: comma, semicolon or tab.
 
-    Raises DeckError for what is not text.
+    Raises DeckError for a file that is not text.
     """
     source = Source.from_bytes(data, file)
     if not source.readable:
         raise data_error(file, source.problems[0].message)
     first = source.unified.partition("\n")[0]
-    separator = max(SEPARATORS, key=lambda one: _width(first, one))
+    separator = max(SEPARATORS, key=lambda mark: _width(first, mark))
     rows: list[list[Cell]] = []
     for fields, line in csv_rows(file, source.unified, separator):
-        given = ((column, text.strip()) for column, text in enumerate(fields, 1))
-        rows.append([Cell(line, column, text) for column, text in given if text])
-    return Sheet(file, PurePath(file).stem, rows, is_workbook=False)
+        cells = ((column, text.strip()) for column, text in enumerate(fields, 1))
+        rows.append([Cell(line, column, text) for column, text in cells if text])
+    return WorkbookSheet(file, PurePath(file).stem, rows, is_workbook=False)

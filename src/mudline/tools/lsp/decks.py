@@ -16,7 +16,7 @@ from pygls.exceptions import JsonRpcException
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
 from mudline.basics.patterns import matches
-from mudline.checks.configuration import Configuration, ConfigurationError, Given
+from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_context, read_deck
 from mudline.checks.fixing import with_severities
@@ -203,13 +203,13 @@ class Decks:
     def _settings(self, document: Document) -> tuple[Configuration, LintSettings]:
         """The configuration of a document and its settings; one with a fault is noted and left out."""
         if document.path is None:
-            return Configuration(), merged_settings(Configuration(), Given())
+            return Configuration(), merged_settings(Configuration(), CallerSettings())
         try:
             path = str(document.path)
             return self._configured.configured.of(path), self._configured.of(path)
         except (ConfigurationError, UnknownRule) as error:
             self._fault(str(error))
-        return Configuration(), merged_settings(Configuration(), Given())
+        return Configuration(), merged_settings(Configuration(), CallerSettings())
 
     def _fault(self, message: str) -> None:
         if message not in self._shown:

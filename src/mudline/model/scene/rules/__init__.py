@@ -1,5 +1,5 @@
-"""Rules about what makes a deck illegal, doubtful, or impossible to evaluate, a module for each subject.
+"""Rules about faults that make a deck illegal, doubtful, or impossible to evaluate, a module for each subject.
 
-What reading and resolving notice on their way needs no function and is declared in `mudline.language.codes`.
-All modules in here are imported.
+Faults noticed while reading and resolving need no function; their codes are in `mudline.language.codes`. All modules in
+here are imported.
 """

@@ -1,4 +1,4 @@
-"""Extension keywords: what they need, what they exclude, and the values of suction, unloading and soil."""
+"""Extension keywords: their needs, the laws they exclude, and the values of suction, unloading and soil."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _LOWEST, _HIGHEST = 0.01, 0.99
 def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """An extension keyword is in a model without an elastic seabed.
 
-    The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or none at all. Write
+    The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or a missing one. Write
     *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
 
     Example on seabed:
@@ -57,9 +57,9 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    found = scene.deck.blocks_with("extension")
-    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in found))
-    for where, _ in found[:1]:
+    blocks = scene.deck.blocks_with("extension")
+    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in blocks))
+    for where, _ in blocks[:1]:
         needs = "needs" if len(names.split(" and ")) == 1 else "need"
         message = f"{names} {needs} an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
         if supplier:
@@ -73,7 +73,7 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
     """The corners of the suction trapezoid are out of order or out of range.
 
-    Suction rises up to the first corner, holds, and falls from the second one to breakout: both are fractions of the
+    Suction rises up to the first corner, holds, and falls from the second corner to breakout. Both are fractions of the
     suction depth, 0.01 <= first <= second <= 0.99, so that rise and fall have a finite slope. Correct them.
 
     Example on seabed:
@@ -100,10 +100,10 @@ def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
 def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     """A suction law lacks a value that it needs.
 
-    COHESION= gives both the largest force and the suction depth, and takes the external diameter of the elements for
-    it; without it FORCE= and DEPTH= are both required; where given, they override it. The relation between cohesion and
-    depth is not dimensionally homogeneous, and the default of REGULARISATION= is in m/s: with user units neither can be
-    converted, so that FORCE=, DEPTH= and REGULARISATION= must all be given. Give what is missing.
+    COHESION= gives both the largest force and the suction depth, computed with the external diameter of the elements.
+    Without it FORCE= and DEPTH= are both required; if they are given, they override it. The relation between cohesion
+    and depth is not dimensionally homogeneous, and the default of REGULARISATION= is in m/s. In user units neither can
+    be converted, so FORCE=, DEPTH= and REGULARISATION= must all be given. Give the missing values.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -143,10 +143,10 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
 def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements have two suction laws.
 
-    *SEABED SUCTION describes the whole uplift resistance of an element. SUCTION= of *SEABED PROPERTIES, or a curve that
-    is negative below the mudline and so pulls, would hold the pipe a second time. Remove one of them. With `--tension
-    cut` the pull of a curve is left out, and there is one law only: such a deck is evaluated then. A curve that pulls
-    only where it is extrapolated is a warning; a position that reaches this part of it is refused.
+    *SEABED SUCTION describes the whole uplift resistance of an element. SUCTION= of *SEABED PROPERTIES, or a curve with
+    negative forces below the mudline, would hold the pipe a second time. Remove one of them. With `--tension cut` the
+    negative forces of a curve are left out, and only one law remains: the deck can then be evaluated. A curve that is
+    negative only in its extrapolation is a warning; a position that reaches this part is refused.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -183,20 +183,20 @@ def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
-    """Elements that follow a curve of some kind."""
+    """Return a mask (m,) of the elements whose curve fulfils a condition."""
     flags = [entry.curve is not None and pulls(entry) for entry in scene.laws.curves]
     of_law = [set_law.curve >= 0 and flags[set_law.curve] for set_law in scene.laws.set_laws]
-    found: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
-    return found
+    mask: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
+    return mask
 
 
 def _lists_pull(entry: SceneCurve) -> bool:
-    """Whether a curve has a point with a negative force below the mudline."""
+    """Return True if a curve has a point with a negative force below the mudline."""
     return bool((entry.points[entry.points[:, 0] > 0.0, 1] < 0.0).any())
 
 
 def _may_pull(entry: SceneCurve) -> bool:
-    """Whether a curve without such a point is negative at the mudline, or falls for ever beyond its last point."""
+    """Return True if the force of a curve is negative at the mudline, or decreases beyond its last point."""
     if entry.curve is None:
         return False
     force, slope = entry.curve.evaluate(np.array([0.0, max(0.0, float(entry.curve.ratios[-1]))]))
@@ -208,9 +208,9 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """Unloading is combined with smoothing or a nodal stiffness, or its stiffness is not above 0.
 
     Smoothing and unloading both change the reaction near the seabed, and there is no law for the two together.
-    *SEABED CONTACT smooths a linear law unless it says SMOOTHING=NONE. Write that, or remove the unloading; a stiffness
-    divides and must be above 0. SMOOTHING=AUTO smooths nothing where the submerged weight is not known, or is not above
-    0. NODAL STIFFNESS= replaces the law per unit length that would be unloaded.
+    *SEABED CONTACT smooths a linear law unless it says SMOOTHING=NONE. Write that, or remove the unloading. The
+    unloading stiffness is a divisor and must be above 0. SMOOTHING=AUTO has no effect if the submerged weight is not
+    known, or is not above 0. NODAL STIFFNESS= replaces the law per unit length that would be unloaded.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -243,13 +243,13 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _smoothed(scene: ResolvedDeck) -> Mask:
-    """Elements (m,) with a linear law that is smoothed."""
-    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    """Return a mask (m,) of the elements with a linear law that is smoothed."""
+    smoothed: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if "SEABED CONTACT" in scene.extensions:
         from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
 
-        found[element_smoothing(scene).rows] = True
-    return found
+        smoothed[element_smoothing(scene).rows] = True
+    return smoothed
 
 
 EXT010 = Code("EXT010", "soil-conflict", Severity.ERROR)
@@ -258,12 +258,12 @@ EXT012 = Code("EXT012", "unusual-soil", Severity.WARNING)
 
 _KEYWORD = "SEABED SOIL"
 _USUAL = {"factor": (5.0, 7.0), "exponent": (0.2, 0.3), "stiffness": (50.0, 500.0), "suction": (0.0, 1.0)}
-"""By parameter of the law: what published soils have."""
+"""Range in published soils, by parameter of the law."""
 _NAMES = {"factor": "a of BEARING=", "exponent": "b of BEARING=", "stiffness": "K_max", "suction": "f_suc"}
 
 
 def _fields(extension: Extension) -> Iterator[tuple[int, Parameter, tuple[str, ...], float]]:
-    """Block, parameter, path and value of every number that a block gives."""
+    """Yield the block, parameter, path and value of every number that a block gives."""
     from mudline.model.contact.laws.soil import SOIL  # noqa: PLC0415 - most decks have no soil
     from mudline.model.scene.assignments import SOIL_FIELDS  # noqa: PLC0415 - as above
 
@@ -278,12 +278,12 @@ def _fields(extension: Extension) -> Iterator[tuple[int, Parameter, tuple[str, .
 
 @rule(EXT010, blocks=True)
 def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
-    """An element with *SEABED SOIL has another law of its normal reaction.
+    """An element with *SEABED SOIL has another law for its normal reaction.
 
-    The soil says what resists penetration, uplift and penetrating again. *SEABED SUCTION and *SEABED UNLOADING would
-    add a second law of the same, and NODAL STIFFNESS= of *SEABED CONTACT replaces all of it: remove one of the two. The
-    soil replaces the curve of an element, which is said as information; the number that the keyword family asks for is
-    replaced without a word.
+    The soil describes the resistance against penetration, uplift and renewed penetration. *SEABED SUCTION and
+    *SEABED UNLOADING would add a second law for them, and NODAL STIFFNESS= of *SEABED CONTACT replaces them all: remove
+    one of the two. The soil replaces the curve of an element, which is an info. It also replaces the number that the
+    keyword family requires, which is not reported.
 
     Example on pipe:
           STIFFNESS=50000.0
@@ -319,11 +319,11 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @rule(EXT011, blocks=True)
 def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A value of *SEABED SOIL is one that no soil has.
+    """A value of *SEABED SOIL is impossible for a soil.
 
-    Strength at the mudline, bearing factor and exponent, K_max and the length of the decay of suction divide or are
-    raised to powers and must be above 0; a strength that falls with depth would become negative, and ratios, weights
-    and factors below 0 have no meaning. Correct the value.
+    Strength at the mudline, bearing factor and exponent, K_max and the decay length of suction are divisors or raised
+    to powers, and must be above 0. A strength that decreases with depth would become negative. Ratios, weights and
+    factors below 0 have no meaning. Correct the value.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -351,11 +351,11 @@ def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @rule(EXT012, blocks=True)
 def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A value of *SEABED SOIL is outside of what published soils have, or its units cannot be checked.
+    """A value of *SEABED SOIL is outside the range of published soils, or its units cannot be checked.
 
     Bearing factors have a from 5 to 7 and b from 0.2 to 0.3, K_max is from 50 to 500, and suction is at most as large
-    as the resistance against penetration. A value in another unit or in the wrong field is the usual cause. With user
-    units the numbers are taken as they are, which is said as information: use one system for lengths and forces.
+    as the resistance against penetration. Usually the value is in another unit or in the wrong field. In user units the
+    numbers are taken as they are, which is an info: use one system for lengths and forces.
 
     Example on seabed:
           STIFFNESS=50000.0

@@ -1,4 +1,4 @@
-"""Values, names and files that no deck should have: ranges of fields, undefined names, pipes without a wall."""
+"""Values, names and files at fault: ranges of fields, undefined names, pipes without a wall."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 SBD010 = Code("SBD010", "negative-property", Severity.ERROR)
 
 _GEOMETRY = "geometry"
-"""A setting of `*SEABED TRENCH`, the third step of a path to its values; EXT003 says what is wrong with them."""
+"""Setting of `*SEABED TRENCH`, the third step of a path to its values; EXT003 reports their faults."""
 
 
 @rule(SBD010, blocks=True)
@@ -37,9 +37,9 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value is out of its range: a stiffness, a length or a diameter is negative, or zero where it divides.
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value is in the wrong field. The same
-    holds for a share above 1, as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and of tables
-    are looked at too. A deck in JSON or YAML with such a value is refused when it is read, and `convert` writes none.
-    The geometry of a trench and the stiffness of unloading have rules of their own, EXT003 and EXT009.
+        holds for a share above 1, such as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and
+        of tables are checked too. A deck in JSON or YAML with such a value is refused when it is read, and `convert`
+        writes none. The geometry of a trench and the stiffness of unloading have their own rules, EXT003 and EXT009.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -59,11 +59,13 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
 def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
     """A file that the deck names was not found.
 
-    FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
-    mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
-    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A file that
-    nothing is computed from is an info where its folder has no other file of its suffix: the deck came without its
-    companions. A deck from standard input has no folder in which its files could be, so they are not searched.
+    Settings such as FILE= of *SEABED PROFILE and LAST= of *RESTART name files next to the deck. If the deck named by
+    *RESTART is missing, mudline does not know the model of this deck, and missing definitions are only warnings. The
+    finding is also given for a deck that is there and cannot be read, and for decks that continue each other in a
+    cycle.
+
+    A file that nothing is computed from is an info if its folder has no other file with its suffix: the deck came
+    without its companions. A deck from standard input has no folder, so files are not searched.
 
     Example on storm:
          $LOAD CASE
@@ -77,7 +79,7 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
         # Without the file of its profile the seabed is not known.
         profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
         blocks = Blocks.ALWAYS if profile or severity is Severity.ERROR else Blocks.NEVER
-        severity = max(severity, Severity.WARNING, key=lambda one: one.rank) if profile else severity
+        severity = max(severity, Severity.WARNING, key=lambda level: level.rank) if profile else severity
         yield Problem(REF015, message, None, severity, where, blocks=blocks)
 
 
@@ -90,7 +92,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
-    thickness was subtracted from the wrong one. Correct Do or Di.
+        thickness was subtracted from the wrong diameter. Correct Do or Di.
 
     Example on pipe:
         - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
@@ -110,10 +112,10 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @rule(GEO004, blocks=True)
 def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The two nodes of an element lie at one place.
+    """The two nodes of an element lie at the same place.
 
     The element has no length and no direction, so it has neither a stiffness nor a share of the seabed. A node was
-    copied without changing its coordinates, or two parts that meet have a node each. Correct the node, or join the
+    copied without changing its coordinates, or two parts that meet have one node each. Correct the node, or join the
     parts at one node. In a model with flex joints, hinges, springs or dampers, which may have no length, this is a
     warning.
 
@@ -141,10 +143,10 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     for index in same[: MOST_REPORTED + 1].tolist():
         where = scene.table.numbered.where(index)
         if where in reported:
-            continue  # others of the same GEN=
+            continue  # another element of the same GEN=
         reported.add(where)
-        one, other = scene.node_ids[scene.element_nodes[index]].tolist()
-        nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
+        start, end = scene.node_ids[scene.element_nodes[index]].tolist()
+        nodes = f"both its ends are node {start}" if start == end else f"nodes {start} and {end} lie at one place"
         message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"
         yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)
 
@@ -154,11 +156,11 @@ REF019 = Code("REF019", "undefined-name", Severity.ERROR)
 
 @rule(REF019, blocks=True)
 def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A vessel, a line, a vector or another thing with a name is used, and the deck does not define it.
+    """A name is used that the deck does not define: of a vessel, a line, a vector or another object.
 
     Mostly the name is spelt differently in two places: case is ignored in names, spaces are not. Correct the name, or
-    define the thing. It is a warning where a line that was not read, or the deck that *RESTART continues, may define
-    it. Sets, curves, nodes and elements have rules of their own. The contact with the seabed does not depend on it.
+        define the object. It is a warning if an unread line, or the deck that *RESTART continues, may define the name.
+        Sets, curves, nodes and elements have their own rules. The contact with the seabed does not depend on the name.
 
     Example:
          $MODEL
@@ -178,7 +180,7 @@ def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The cables, which have numbers, that nodes lie on."""
+    """Yield undefined cables, which have numbers, that nodes lie on."""
     blocks = scene.context.blocks("CABLE")
     cables = {cable.cable for _, block in blocks for cable in block.cables}
     doubt = any(not is_read(block) or scene.deck.lost(where) for where, block in blocks) or scene.context.restart

@@ -1,4 +1,4 @@
-"""Resistance across the line: trenches, and friction that breaks out."""
+"""Lateral resistance: trenches, and friction with a breakout."""
 
 from __future__ import annotations
 
@@ -26,24 +26,28 @@ _KEYWORD = "SEABED TRENCH"
 _SIZES = ("depth", "bottom_width", "upper_width")
 _LEAST_ROWS = 2
 _FIELDS = 2
-"""Of a row of a table; one with fewer cannot be read."""
+"""Number of fields in a row of a table; a shorter row cannot be read."""
 _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
 
 @rule(EXT003, blocks=True)
 def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
+    """A trench has no possible geometry, no resistance, no friction spring, or a self-locking wall.
 
     The walls of a trench rise from its bottom width to a larger upper width, and its depth is above 0. Their resistance
-    raises the limit of the lateral friction spring: at both nodes of an element *SEABED FRICTION, or a transverse
-    friction coefficient that no LATERAL= replaces, must give one. MODEL=PEAK, the default, needs PEAK=; the rows of
-    PEAK=TABLE are two or more, and their offsets begin at 0 or more and ascend. MODEL=WALL has the resistance of its
-    slope: where the transverse coefficient times that slope is 1 or more, the wall would hold any force. The two points
-    of CENTRELINE= must differ. RESIDUAL= goes with a number in PEAK= and is reached behind the middle of the wall;
-    SMOOTHING= rounds off at most half of the shortest side of the resistance; neither, nor LEVEL=LOWERED, goes with
-    MODEL=WALL. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose friction this deck may
-    not show. Correct the value, or give what is missing.
+    raises the limit of the lateral friction spring. Both nodes of an element need such a spring: from *SEABED FRICTION,
+    or from a transverse friction coefficient that no LATERAL= replaces. Correct the value, or give what is missing.
+
+    * MODEL=PEAK, the default, needs PEAK=. The rows of PEAK=TABLE are two or more, and their offsets begin at 0 or more
+      and ascend.
+    * MODEL=WALL takes the resistance from its slope. If the transverse coefficient times that slope is 1 or more, the
+      wall would hold any force.
+    * RESIDUAL= needs a number in PEAK=, and is reached beyond the middle of the wall. SMOOTHING= rounds off at most
+      half of the shortest side of the resistance. MODEL=WALL excludes RESIDUAL=, SMOOTHING= and LEVEL=LOWERED.
+    * The two points of CENTRELINE= must differ.
+    * PEAK= with MODEL=WALL has no effect and is a warning. So are elements whose friction may be given outside this
+      deck.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -63,15 +67,15 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
         yield from _of_block(entry, where)
         held = extension.of_element == index
-        if np.any(found := held & bare):
-            message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
+        if np.any(both := held & bare):
+            message = f"{scene.describe(both)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
             yield _of_friction(scene, message, where.inside("set"))
-        if np.any(found := held & locked):
-            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(found, '', '').rstrip()}", where.inside("geometry"))
+        if np.any(both := held & locked):
+            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(both, '', '').rstrip()}", where.inside("geometry"))
 
 
 def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
-    """What is wrong with the friction of elements, which may have another one than this deck shows."""
+    """Return a problem of the friction of elements: a warning if the deck may not show all of their friction."""
     if _uncertain(scene):
         return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return Problem(EXT003, message, where=where)
@@ -82,13 +86,13 @@ def _entries(scene: ResolvedDeck) -> list[TrenchSet]:
 
 
 def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
-    """What a block says by itself: its resistance, its section, its centreline."""
+    """Yield faults of a block by itself: its resistance, its section, its centreline."""
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
-    found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
+    faults = [*_resistance_faults(entry)] if entry.model != "WALL" else []
     unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < _FIELDS)
-    for path, message in found or (() if unread else _excess_faults(entry)):
+    for path, message in faults or (() if unread else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
@@ -101,7 +105,7 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
 
 
 def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """Path and message of what keeps a block from saying its resistance; a sloped wall has that of its geometry."""
+    """Yield path and message of faults in the resistance of a block; a sloped wall takes it from its geometry."""
     if entry.peak is None:
         yield ("set",), "MODEL=PEAK needs a resistance: give PEAK="
     if entry.peak != "TABLE":
@@ -116,17 +120,17 @@ def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...]
 
 
 def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """Path and message of a level, a residual or rounded corners that go with no other value, or with no geometry."""
+    """Yield path and message of a level, a residual or rounded corners that do not fit other values or the geometry."""
     from mudline.model.contact.laws.trench import shortest_side  # noqa: PLC0415 - a deck without trenches does without it
     from mudline.model.scene.assignments import resistance_diagram  # noqa: PLC0415 - as above
 
     if entry.model == "WALL":
-        for name, given in (
+        for name, present in (
             ("level", entry.level == "LOWERED"),
             ("residual", entry.residual),
             ("smoothing", entry.smoothing),
         ):
-            if given:
+            if present:
                 yield (
                     (name,),
                     f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two",
@@ -145,7 +149,7 @@ def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], st
 
 
 def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
-    """Elements in a trench of which a node has no lateral friction spring, and those whose wall locks itself."""
+    """Return masks (m,) of elements in a trench: those without a lateral friction spring, and self-locking ones."""
     extension = scene.extensions[_KEYWORD]
     nothing: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if not (extension.of_element >= 0).any() or scene.element_nodes.min(initial=0) < 0 or _unread(scene):
@@ -158,7 +162,7 @@ def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
 
 
 def _unread(scene: ResolvedDeck) -> bool:
-    """Whether friction could not be read, or belongs to no set, which is reported as an error."""
+    """Return True if friction could not be read, or belongs to no set, which is reported as an error."""
     friction = scene.extensions.get("SEABED FRICTION")
     if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
@@ -167,7 +171,7 @@ def _unread(scene: ResolvedDeck) -> bool:
 
 
 def _uncertain(scene: ResolvedDeck) -> bool:
-    """Whether some friction may come from lines, sets or a deck that this deck does not show."""
+    """Return True if some friction may come from lines, sets or a deck that this deck does not show."""
     friction = scene.extensions.get("SEABED FRICTION")
     if friction is not None and any(held is None or held.open for held in friction.sets):
         return True
@@ -175,18 +179,18 @@ def _uncertain(scene: ResolvedDeck) -> bool:
 
 
 def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
-    """Elements (m,) whose two nodes have a lateral friction spring."""
+    """Return a mask (m,) of the elements whose two nodes have a lateral friction spring."""
     sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
     if friction is not None:
         stiffness = np.asarray(friction.parameters["lateral_stiffness"])
         coefficient = np.asarray(friction.parameters["lateral_coefficient"])
         sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
-    found: Mask = np.logical_and(*sprung[scene.element_nodes].T)
-    return found
+    both_ends: Mask = np.logical_and(*sprung[scene.element_nodes].T)
+    return both_ends
 
 
 def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
-    """Elements (m,) in a trench with sloped walls where the lateral coefficient of a node has mu2 tan(theta) >= 1."""
+    """Return a mask (m,) of the elements in a trench with sloped walls where a node has mu2 tan(theta) >= 1."""
     from mudline.model.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
 
     extension = scene.extensions[_KEYWORD]
@@ -194,12 +198,12 @@ def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
     if friction is not None:
         coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
     depth, bottom, upper = (extension.values(extension.of_element, "geometry", name) for name in _SIZES)
-    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    locking: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for end in scene.element_nodes.T:
         added = wall_coefficient(depth, bottom, upper, coefficient[end])
-        found |= ~(np.isfinite(added) & (added >= 0.0))
+        locking |= ~(np.isfinite(added) & (added >= 0.0))
     usable = (depth > 0.0) & (bottom > 0.0) & (upper > bottom)
-    return found & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)
+    return locking & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)
 
 
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)
@@ -207,12 +211,12 @@ EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)
 
 @rule(EXT013, blocks=True)
 def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The lateral breakout of *SEABED FRICTION is incomplete, impossible, or beside a law that it excludes.
+    """The lateral breakout of *SEABED FRICTION is incomplete, impossible, or combined with a law that it excludes.
 
-    LATERAL=PEAK-RESIDUAL needs PEAK= and RESIDUAL= with a factor and a displacement each; the residual is at most the
-    peak and is reached behind it. LATERAL=F114 needs the factor of PEAK= alone, and a diameter: the rest follows from
-    the embedment. Both are a limit of their own across the line: CRITERION=ELLIPSE, and *SEABED TRENCH on the same
-    element, have no place beside it. PEAK= or RESIDUAL= without them has no effect and is a warning.
+    LATERAL=PEAK-RESIDUAL needs PEAK= and RESIDUAL= with a factor and a displacement each. The residual is at most the
+    peak, and is reached at a larger displacement. LATERAL=F114 needs only the factor of PEAK=, and a diameter:
+    everything else follows from the embedment. Both limit the lateral force by themselves, so CRITERION=ELLIPSE is
+    excluded, and *SEABED TRENCH on the same element. PEAK= or RESIDUAL= without them has no effect and is a warning.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -234,18 +238,18 @@ def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
 
     trench = scene.extensions.get("SEABED TRENCH")
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-        given = cast("FrictionSet", entry)
+        friction = cast("FrictionSet", entry)
         held = extension.of_element == index
-        if not breaks_out(given):
+        if not breaks_out(friction):
             for name in ("peak", "residual"):
-                if getattr(given, name) is not None:
+                if getattr(friction, name) is not None:
                     message = (
                         f"{name.upper()}= has no effect under LATERAL=COULOMB: write LATERAL=PEAK-RESIDUAL or F114"
                     )
                     yield Problem(EXT013, message, None, Severity.WARNING, where.inside(name))
             continue
-        yield from () if is_partly_unknown(given) else _of_breakout(given, where)
-        if given.criterion == "ELLIPSE":
+        yield from () if is_partly_unknown(friction) else _of_breakout(friction, where)
+        if friction.criterion == "ELLIPSE":
             yield Problem(
                 EXT013,
                 "a breakout across the line has no ellipse: write CRITERION=BOX",
@@ -257,25 +261,25 @@ def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
             )
             yield Problem(EXT013, message, where=where.inside("lateral"))
         bare = held & np.isnan(scene.diameter)
-        if given.lateral == "F114" and bare.any():
+        if friction.lateral == "F114" and bare.any():
             message = (
                 f"{scene.describe(bare)} no external diameter for LATERAL=F114: give Do (or Dd) in *GEOMETRIC SETS"
             )
             yield lacks_diameter(scene, EXT013, message, where.inside("lateral"))
 
 
-def _of_breakout(given: FrictionSet, where: Where) -> Iterator[Problem]:
-    """What a block lacks, or has too much of."""
+def _of_breakout(friction: FrictionSet, where: Where) -> Iterator[Problem]:
+    """Yield faults of a breakout: missing values, and values that its law excludes."""
     (peak, at), (residual, end) = (
-        (number(part, "factor"), number(part, "displacement")) for part in (given.peak, given.residual)
+        (number(part, "factor"), number(part, "displacement")) for part in (friction.peak, friction.residual)
     )
-    if given.lateral == "F114":
+    if friction.lateral == "F114":
         if np.isnan(peak):
             yield Problem(
                 EXT013, "LATERAL=F114 needs the factor at breakout: give PEAK=", where=where.inside("lateral")
             )
-        if given.residual is not None or not np.isnan(at):
-            name = "peak" if given.residual is None else "residual"
+        if friction.residual is not None or not np.isnan(at):
+            name = "peak" if friction.residual is None else "residual"
             message = f"LATERAL=F114 has displacements and a residual of its own: remove those of {name.upper()}="
             yield Problem(EXT013, message, where=where.inside(name))
     elif np.isnan([peak, at, residual, end]).any():

@@ -1,4 +1,4 @@
-"""The types of seabed of a model, and what its laws need: curves, an elastic seabed, a stiffness, diameters."""
+"""Seabed types of a model, and the needs of its laws: curves, an elastic seabed, a stiffness, diameters."""
 
 from __future__ import annotations
 
@@ -34,17 +34,17 @@ SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 
 def extends_rigid(scene: ResolvedDeck) -> bool:
-    """Whether EXT001 says that the seabed is rigid: faults of laws that have no effect then are not reported."""
+    """Return True if EXT001 reports a rigid seabed: faults of laws that then have no effect are not reported."""
     extension = bool(scene.deck.blocks_with("extension"))
     return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
 
 
 @rule(SBD001, blocks=True)
 def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
+    """A rigid seabed has a force-embedment curve, or a value of an elastic seabed.
 
-    Nothing sinks into a rigid seabed, so a curve cannot hold there: it is an error, as one of the two is not what was
-    meant. STIFFNESS= with a number, LATERAL= and SUCTION= have no effect and are a warning. Choose TYPE=ELASTIC, or
+    Nothing penetrates a rigid seabed, so a curve has no meaning there. It is an error, as either the curve or the type
+    is wrong. STIFFNESS= with a number, LATERAL= and SUCTION= have no effect and are a warning. Choose TYPE=ELASTIC, or
     remove the line.
 
     Example on clay:
@@ -72,9 +72,8 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """The model has a rigid and an elastic seabed.
 
-    A model has one of them for all its elements, given by TYPE= or by *RIGID SURFACE and *ELASTIC SURFACE. A block
-    pasted from another deck is the usual cause. Remove one of them; a hard part of an elastic seabed takes a high
-    stiffness.
+    A model has one of them for all its elements, given by TYPE= or by *RIGID SURFACE and *ELASTIC SURFACE. Usually a
+    block was pasted from another deck. Remove one of them; a hard part of an elastic seabed takes a high stiffness.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -86,12 +85,12 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     if len(scene.laws.types) < 2:
         return
-    places = sorted((where, name) for name, found in scene.laws.types.items() for where in found)
+    places = sorted((where, name) for name, type_places in scene.laws.types.items() for where in type_places)
     where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
     if not name:
         return
-    this, other = ("a rigid", "an elastic") if name == "RIGID" else ("an elastic", "a rigid")
-    message = f"{this} seabed after {other} one: a model has one of them; remove the other"
+    present, earlier = ("a rigid", "an elastic") if name == "RIGID" else ("an elastic", "a rigid")
+    message = f"{present} seabed after {earlier} one: a model has one of them; remove the other"
     if where.section == places[0][0].section:
         yield Problem(SBD002, message, where=where)
     else:
@@ -101,11 +100,11 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @rule(SBD003, blocks=True)
 def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
-    """*SEABED PROPERTIES does not say whether the seabed is rigid or elastic.
+    """*SEABED PROPERTIES lacks the type of the seabed, rigid or elastic.
 
-    The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= goes on
-    with the type of the one before it. A SET= that is missing at the beginning is a warning: the lines before the first
-    SET= are read as SET=ALL (inferred), and so are the points of *EMBEDMENT before its first SET=.
+    The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= keeps the
+        type of the block before it. A SET= that is missing at the beginning is a warning: lines before the first SET=
+        are read as SET=ALL (inferred), and so are points of *EMBEDMENT before its first SET=.
 
     Example on seabed:
         + TYPE=ELASTIC
@@ -135,8 +134,8 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
-    The first field of *ELASTIC SURFACE may be empty only when curves of *EMBEDMENT carry the elements. Otherwise
-    nothing holds them vertically, and a static run has no solution. Give a stiffness, here or with the newer keywords.
+    The first field of *ELASTIC SURFACE may be empty only if curves of *EMBEDMENT carry the elements. Otherwise nothing
+    holds them vertically, and a static run has no solution. Give a stiffness, here or with the newer keywords.
 
     Example:
          $MODEL
@@ -162,9 +161,9 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @rule(SBD005, blocks=True)
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
-    """*EMBEDMENT is used with a rigid seabed, or with none.
+    """*EMBEDMENT is used with a rigid seabed, or without a seabed.
 
-    A force-embedment curve describes how far a pipe sinks, so it holds only on an elastic seabed: *ELASTIC SURFACE, or
+    A force-embedment curve gives the penetration of a pipe, so it needs an elastic seabed: *ELASTIC SURFACE, or
     *SEABED PROPERTIES with TYPE=ELASTIC. Choose the elastic seabed, or remove the curves.
 
     Example:
@@ -210,8 +209,8 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements follow a force-embedment curve and have no external diameter.
 
-    The embedment ratio is a depth divided by the external diameter: without one there is no ratio, and no force. The
-    diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
+    The embedment ratio is a depth divided by the external diameter: without a diameter there is no ratio, and no force.
+    The diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
     Give the elements a section, or put them into a set that has one.
 
     Example on clay:
@@ -259,7 +258,7 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) -> Problem:
-    """An external diameter that a law needs and that is not known, wherever it may be given."""
+    """Return the problem of an unknown external diameter that a law needs, wherever it may be given."""
     if scene.section_table.open:
         message += "; a section belongs to a set whose elements this deck does not show"
         return Problem(code, message, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
@@ -271,12 +270,12 @@ REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 
 @rule(REF002, blocks=True)
 def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A STIFFNESS=, or another setting that takes the name of a curve, names one that the deck does not define.
+    """STIFFNESS=, or another setting that takes a curve, names a curve that the deck does not define.
 
-    The elements of the set have no seabed then. A STIFFNESS= that is not a number is taken for the name of a curve, so
-    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name. The curves of
-    *MOMENT-CURVATURE, *FORCE-STRAIN and the like are looked up in the same way; without one of them the contact with
-    the seabed can be computed all the same. It is a warning where a line that was not read may define the curve.
+    The elements of the set then have no seabed. A STIFFNESS= that is not a number is taken for the name of a curve, so
+    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name. It is a warning
+    if an unread line may define the curve. The curves of *MOMENT-CURVATURE, *FORCE-STRAIN and the like are looked up in
+    the same way; the contact with the seabed does not depend on them.
 
     Example on clay:
         - STIFFNESS=Caly
@@ -291,11 +290,11 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     followed: set[Where] | None = None
     unused = [name for key, name in names.items() if key not in scene.laws.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
-    other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for name, where in ((one.name, one.where) for one in scene.context.once(every_name)[Names.CURVE].used):
+    unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
+    for name, where in ((use.name, use.where) for use in scene.context.once(every_name)[Names.CURVE].used):
         if folded(name) in names:
             continue
-        hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)
+        hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else unused_hint)
         number = number_meant(name)
         number = f"if it is a number, write {number}" if number else ""
         advice = advice_on(name) or number or "*SEABED STIFFNESS has no such curve"
@@ -306,7 +305,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _followed(scene: ResolvedDeck) -> set[Where]:
-    """Where the deck names missing curves that elements follow."""
+    """Return the places that name missing curves which elements follow."""
     lost = (
         i for i, set_law in enumerate(scene.laws.set_laws) if set_law.kind is LawKind.CURVE and set_law.curve == NOTHING
     )

@@ -33,11 +33,11 @@ _VERTICAL = 90.0
 
 @rule(SBD011, blocks=True)
 def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A rigid seabed has a profile that only an elastic one takes.
+    """A rigid seabed has a profile that only an elastic seabed may have.
 
     A rigid seabed is flat, sloping or a polyline in one plane: nodes are moved back to it along its normal. A surface
-    in three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic seabeds only,
-    which is a warning (inferred).
+        in three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic seabeds
+        only; on a rigid one they are a warning (inferred).
 
     Example on seabed:
         - TYPE=RIGID
@@ -71,9 +71,9 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """The slope of the seabed is steep.
 
-    A slope is an angle in degrees: one of 90 or more is not a seabed, and one above 45 is steeper than soil can stand.
-    A gradient in percent, typed as degrees, is a common cause. Correct it. A profile that rises by more than its whole
-    width most likely has its columns exchanged: those of 2D are Y and elevation, those of 3D elevation, Y and Z.
+    A slope is an angle in degrees: 90 or more is not a seabed, and more than 45 is steeper than soil can stand. Often a
+        gradient in percent was typed as degrees. Correct it. A profile that rises by more than its whole width most
+        likely has its columns exchanged: 2D has Y and elevation, 3D has elevation, Y and Z.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -97,7 +97,7 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _exchanged_columns(floor: SeabedShape) -> Iterator[Problem]:
-    """A profile or surface that is higher than it is wide."""
+    """Yield a problem of a profile or surface that is higher than it is wide."""
     extents = np.ptp(floor.points, axis=0)
     surface = floor.kind is SeabedKind.SURFACE
     rise, *sides = extents if surface else extents[::-1]
@@ -112,13 +112,13 @@ def _exchanged_columns(floor: SeabedShape) -> Iterator[Problem]:
 
 @rule(SBD023, blocks=True)
 def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The profile of the seabed cannot be read, or its points make no seabed.
+    """The profile of the seabed cannot be read, or its points do not form a seabed.
 
-    A compiled file (.fcsbd) of *SEABED PROFILE is binary, and its format is not public: mudline knows nothing of
-    the seabed that it describes, so the deck cannot be evaluated. A linear profile may be a text file instead, with a
-    line `Y, elevation` for each point; in such a file the finding is a warning and names the first line that cannot be
-    read. Another binary file is an info, as a compiled one is. Points that make no seabed, such as a single one or two
-    elevations at one Y, are an error. A file that is missing is reported as REF015 only.
+    A compiled file (.fcsbd) of *SEABED PROFILE is binary, and its format is not public: the seabed is not known, and
+    the deck cannot be evaluated. A linear profile may be a text file instead, with a line `Y, elevation` for each
+    point. If its lines cannot be read, the finding is a warning and names the first faulty line. Any binary file is an
+    info. Points that do not form a seabed, such as a single point or two elevations at one Y, are an error. A missing
+    file is only reported as REF015.
 
     Example:
          $MODEL
@@ -152,8 +152,8 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The seabed is given twice: by planes and by a profile or a slope.
 
-    *SEABED PLANES describes the whole seabed, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
-    them the pipe lies on would be a guess. Keep one of them.
+    *SEABED PLANES describes the whole seabed, and so does *SEABED PROFILE or the slope of a legacy surface. It is not
+    defined which of them the pipe lies on. Keep one of them.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -185,9 +185,9 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """A plane of the seabed is incomplete, vertical or empty.
 
-    A plane is a point and a slope, in degrees between -90 and 90; its bounds must hold some ground, the smaller value
-    first. Give what is missing. Two planes of one name are a warning: names are for readers, and case does not count in
-    them.
+    A plane is a point and a slope, in degrees between -90 and 90. The smaller value of its bounds comes first. Give the
+    missing values, or correct them. Two planes with the same name are a warning: names only help readers, and are
+    case-insensitive.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -227,7 +227,7 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _known_planes(scene: ResolvedDeck) -> bool:
-    """Whether all numbers of planes could be read; others are reported already."""
+    """Return True if all numbers of planes could be read; other faults are reported already."""
     numbers = (
         value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds)
     )
@@ -239,7 +239,7 @@ def _is_empty(bounds: PlaneBounds | None) -> bool:
 
 
 def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
-    """Planes of the deck itself with the name of an earlier one."""
+    """Yield planes of the deck itself with the name of an earlier plane."""
     known: set[str] = set()
     for where, block in scene.context.blocks("SEABED PLANES"):
         if where.section >= len(scene.deck.own_sections):
@@ -254,7 +254,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _fault(scene: ResolvedDeck) -> str:
-    """Why the seabed cannot be made from its numbers, or ""."""
+    """Return the reason why the seabed cannot be made from its numbers, or ""."""
     try:
         made_seabed(scene.seabed)
     except ValueError as error:
