@@ -14,7 +14,7 @@ from tests.helpers.builders.decks import CLEAN, CLEAN_WARNING, LINEAR, PULLING
 RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
 FRICTION = CLEAN.replace(" STIFFNESS=Clay\n", " STIFFNESS=Clay\n FRICTION=0.3, 0.5\n")
 STAGES = [
-    "floor",
+    "seabed surface",
     "normal law",
     "smoothing",
     "unloading",
@@ -228,7 +228,7 @@ def test_plan_in_json_and_csv(place: Place) -> None:
     assert friction["active"]
     assert "mobilisation length" in friction["why"]
     rows = list(csv.DictReader(run("evaluate", place(), "--plan", "--output-format", "csv").out.splitlines()))
-    assert [row["stage"] for row in rows if row["active"] == "true"] == ["floor", "normal law", "assembly"]
+    assert [row["stage"] for row in rows if row["active"] == "true"] == ["seabed surface", "normal law", "assembly"]
     assert {row["active"] for row in rows} == {"true", "false"}
 
 

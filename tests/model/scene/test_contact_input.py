@@ -276,7 +276,7 @@ def test_beds_of_points(tmp_path: Path, keyword: str, content: str, why: str) ->
     path = tmp_path / "deck.keyxm"
     path.write_text(line_deck(METRIC, LINEAR_BED + f"*SEABED PROFILE\n {keyword}\n FILE=bed.txt\n"))
     contact = resolve(load_path(path)).contact()
-    assert why in contact.plan["floor"].why
+    assert why in contact.plan["seabed surface"].why
     assert np.isfinite(contact.evaluate().gap).any()
 
 

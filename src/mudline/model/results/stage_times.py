@@ -32,6 +32,7 @@ CLOCK: Timer = thread_time if get_clock_info("thread_time").resolution < 1e-5 el
 _ROUNDS = 9
 _LEAST = 1e-3
 """Seconds that a round of each model takes."""
+_SURFACE = "seabed surface"
 _COHESION = 5000.0
 _DIAMETER = 0.3
 
@@ -75,7 +76,7 @@ class Pruning(NamedTuple):
 def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     """Return the stages of a scene and what they take, measured in turns on the deck's own elements."""
     model = ContactModel(given, backend="numpy")
-    models = {"": model, "floor": ContactModel(replace(given, laws=()), backend="numpy")}
+    models = {"": model, _SURFACE: ContactModel(replace(given, laws=()), backend="numpy")}
     for stage in model.plan:
         if stage.stage in _STAGES:
             changed = without(given, stage.stage) if stage.active else with_added(given, stage.stage)
@@ -87,7 +88,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     taken = seconds_per_step(models, timer)
     if "" not in taken:
         taken = {}
-    whole, floor = taken.get("", 0.0), taken.get("floor", 0.0)
+    whole, surface = taken.get("", 0.0), taken.get(_SURFACE, 0.0)
     if taken and not removable:
         taken["normal law"] = whole
     rows = []
@@ -97,7 +98,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
         share = time = added = None
         if stage.active and stage.stage in taken:
             less = taken[stage.stage]
-            time = max({"floor": floor, "normal law": less - floor}.get(stage.stage, whole - less), 0.0)
+            time = max({_SURFACE: surface, "normal law": less - surface}.get(stage.stage, whole - less), 0.0)
             share = min(time / whole, 1.0)
         elif stage.stage in taken and stage.stage in _STAGES:
             added = max(taken[stage.stage] - whole, 0.0) / len(given.node_ids)
