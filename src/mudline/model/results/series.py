@@ -1,7 +1,7 @@
-"""Figures that are followed over the steps of an evaluation, and the tables of a long series.
+"""Figures followed over the steps of an evaluation, and the tables of a long series.
 
-Of each figure the extremes are kept, with the steps where they first were; of a condition the number of steps. Memory
-does not grow with the number of steps.
+The extremes of each figure are kept, with the steps of their first occurrence; of a condition the number of steps.
+Memory does not grow with the number of steps.
 """
 
 from __future__ import annotations
@@ -68,11 +68,11 @@ LINE_FIGURES = ("first", "last", "contact_length", "force", "uplift", "reaction"
 
 
 def _of_lines(evaluation: Evaluation, part: Part) -> Figures:
-    found = evaluation.touchdown.series(part)
-    values = {name: Followed(_side_by_side(found, name, part)) for name in LINE_FIGURES}
+    lines = evaluation.touchdown.series(part)
+    values = {name: Followed(_side_by_side(lines, name, part)) for name in LINE_FIGURES}
     return values | {
         "contact_steps": Followed(values["contact_length"].values > 0.0),
-        "touchdown_steps": Followed(_side_by_side(found, "points", part) > 0),
+        "touchdown_steps": Followed(_side_by_side(lines, "points", part) > 0),
     }
 
 
@@ -81,11 +81,11 @@ def _side_by_side(lines: Sequence[LineSeries], name: str, part: Part) -> Values:
 
 
 def _of_case(evaluation: Evaluation, part: Part) -> Figures:
-    """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if only nodes may."""
+    """Return the figures of `CASES` over all lines that may lie on the seabed, or all lines if only nodes may."""
     law = evaluation.model.input.law
-    found = evaluation.touchdown.series(part)
-    lying = [line for line in found if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
-    lines = lying or (found if evaluation.has_seabed_law else [])
+    series = evaluation.touchdown.series(part)
+    lying = [line for line in series if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
+    lines = lying or (series if evaluation.has_seabed_law else [])
     touching = np.count_nonzero(carried(part.result)[:, evaluation.elements], axis=1)
     figures = {"in_contact": Followed(touching.astype(np.float64)[:, np.newaxis])}
     if not lines:
@@ -101,12 +101,12 @@ def _of_case(evaluation: Evaluation, part: Part) -> Figures:
         "contact_length": Followed(length),
         "largest_force": Followed(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
         "largest_uplift": Followed(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
-        "reaction": Followed(np.where(np.isnan(reaction), np.inf, reaction), weight),  # one that is not known stays so
+        "reaction": Followed(np.where(np.isnan(reaction), np.inf, reaction), weight),  # an unknown one stays unknown
     }
 
 
 def _of_suction(_: Evaluation, part: Part) -> Figures:
-    """Where suction is pulled at velocities below REGULARISATION."""
+    """Return the elements with suction at velocities below REGULARISATION."""
     slow = part.result.regularised
     if slow is None:
         return {}
@@ -125,11 +125,11 @@ FIGURES: Mapping[str, Callable[[Evaluation, Part], Figures]] = {
     "case": _of_case,
     "suction": _of_suction,
 }
-"""What gives the figures of some steps, by table; one column for each row of the table."""
+"""Functions for the figures of some steps, by table; a figure has one column for each row of the table."""
 
 
 class Peak(NamedTuple):
-    """A least or largest value over all steps, the step where it first was, and what went with it."""
+    """A least or largest value over all steps, the step of its first occurrence, and the value that goes with it."""
 
     value: float
     step: int
@@ -140,9 +140,9 @@ class Best:
     """The least (`sign` 1) or the largest (-1) values of columns (k,) over steps.
 
     Attributes:
-        values: the values; infinite for none.
-        steps: where each of them first was, -1 for none.
-        at: what went with each of them, NaN for nothing.
+        values: the values; infinite without a value.
+        steps: step of the first occurrence of each value, -1 without a value.
+        at: value that goes with each of them, NaN for none.
     """
 
     def __init__(self, columns: int, sign: float) -> None:
@@ -150,18 +150,18 @@ class Best:
         self.values, self.at = np.full(columns, sign * np.inf), np.full(columns, np.nan)
         self.steps = np.full(columns, _NO_STEP, np.int64)
 
-    def take(self, start: int, found: Followed) -> None:
-        """Look at the values of the steps `start` and on."""
-        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(found.values, axis=0)
+    def take(self, start: int, figure: Followed) -> None:
+        """Add the values of the steps from `start` on."""
+        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(figure.values, axis=0)
         column = np.flatnonzero(best * self._sign < self.values * self._sign)
         if column.size:
-            row = (found.values[:, column] == best[column]).argmax(axis=0)
-            self.values[column], self.steps[column] = found.values[row, column], start + row
-            if found.at is not None:
-                self.at[column] = found.at[row, column]
+            row = (figure.values[:, column] == best[column]).argmax(axis=0)
+            self.values[column], self.steps[column] = figure.values[row, column], start + row
+            if figure.at is not None:
+                self.at[column] = figure.at[row, column]
 
     def peak(self) -> Peak | None:
-        """Return the best of all columns, the first of several; None without any."""
+        """Return the best of all columns, the first of several equal ones; None without any."""
         known = np.flatnonzero(self.steps >= 0)
         if not known.size:
             return None
@@ -175,15 +175,15 @@ class Extremes:
     def __init__(self, columns: int) -> None:
         self.least, self.largest = Best(columns, 1.0), Best(columns, -1.0)
 
-    def take(self, start: int, found: Followed) -> None:
-        """Look at the values of the steps `start` and on."""
-        self.least.take(start, found)
-        self.largest.take(start, found)
+    def take(self, start: int, figure: Followed) -> None:
+        """Add the values of the steps from `start` on."""
+        self.least.take(start, figure)
+        self.largest.take(start, figure)
 
     def farthest(self) -> Peak | None:
         """Return the value with the largest magnitude; None without any."""
-        found = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
-        return min(found, key=lambda peak: (-abs(peak.value), peak.step), default=None)
+        peaks = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
+        return min(peaks, key=lambda peak: (-abs(peak.value), peak.step), default=None)
 
     def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
         """Return the least value of a column, its time, the largest value and its time; None without any."""
@@ -199,10 +199,11 @@ class Extremes:
 
 
 class SeriesSummary:
-    """Takes the steps of an evaluation a few at a time, and keeps the extremes and counts of the figures of tables.
+    """Consumer of the steps of an evaluation that keeps the extremes and counts of the figures of tables.
 
     Attributes:
-        extremes: by table and figure. counts: numbers of steps, by table and condition.
+        extremes: extremes by table and figure.
+        counts: numbers of steps by table and condition.
     """
 
     def __init__(self, evaluation: Evaluation, *tables: str) -> None:
@@ -212,24 +213,24 @@ class SeriesSummary:
         self.counts: dict[tuple[str, str], NDArray[np.int64]] = {}
 
     def take(self, part: Part) -> None:
-        """Look at some steps."""
+        """Add some steps."""
         for table in self._tables:
-            for name, found in FIGURES[table](self.evaluation, part).items():
-                columns, key = found.values.shape[1], (table, name)
-                if found.values.dtype == np.bool_:
+            for name, figure in FIGURES[table](self.evaluation, part).items():
+                columns, key = figure.values.shape[1], (table, name)
+                if figure.values.dtype == np.bool_:
                     before = self.counts.setdefault(key, np.zeros(columns, np.int64))
-                    before += np.count_nonzero(found.values, axis=0)
+                    before += np.count_nonzero(figure.values, axis=0)
                 else:
-                    self.extremes.setdefault(key, Extremes(columns)).take(part.start, found)
+                    self.extremes.setdefault(key, Extremes(columns)).take(part.start, figure)
 
     def of(self, table: str, figure: str) -> Extremes:
-        """Return the extremes of a figure; those of nothing if no step has it."""
+        """Return the extremes of a figure; empty extremes if no step has it."""
         return self.extremes.get((table, figure), Extremes(0))
 
     def totals(self) -> dict[str, Peak]:
         """Return the largest value of each figure of `STEPS` that has one; of `force` by its magnitude."""
-        found = {name: self.of("totals", name) for name in STEPS}
-        peaks = {name: each.farthest() if name == "force" else each.largest.peak() for name, each in found.items()}
+        extremes = {name: self.of("totals", name) for name in STEPS}
+        peaks = {name: each.farthest() if name == "force" else each.largest.peak() for name, each in extremes.items()}
         return {name: peak for name, peak in peaks.items() if peak is not None}
 
     def number(self, peak: Peak | None) -> int | None:
@@ -242,7 +243,7 @@ class SeriesSummary:
 # --------------------------------------------------------------------------------------------------------------- tables
 
 SERIES_FORMAT = "mudline-series/1"
-"""Name and version of the form of files with the summary of a series."""
+"""Name and version of the format of files with the summary of a series."""
 
 _OF_LINES = {
     "first": "first_touchdown",
@@ -250,16 +251,16 @@ _OF_LINES = {
     "force": "largest_force",
     "uplift": "largest_uplift",
 }
-"""The quantities of `LINES` whose names are not those of the figures of a line."""
+"""Quantities of `LINES` whose names differ from the figures of a line."""
 
 
 def series_summary(evaluation: Evaluation, *more: str) -> SeriesSummary:
-    """Return what follows the figures of `series_tables`, and those of more tables."""
+    """Return a consumer for the figures of `series_tables`, and of additional tables."""
     return SeriesSummary(evaluation, "elements", "nodes", "summary", "totals", *more)
 
 
 def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> Tables:
-    """The tables of a summary, with what JSON has besides them."""
+    """Return the tables of a summary, with the additional keys of JSON."""
     evaluation = summary.evaluation
     given, times = evaluation.model.input, evaluation.time
     facts = {
@@ -276,17 +277,17 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
         "steps": evaluation.steps,
         "plan": plan_rows(evaluation.model.plan),
         "positions": "file",
-        "warnings": [one.row() for one in warnings],
+        "warnings": [warning.row() for warning in warnings],
     }
     return Tables(tables, SERIES_FORMAT, given.units, more)
 
 
 def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[Column]:
-    """Of each figure the least and the largest value, its step and its time."""
+    """Yield the least and the largest value of each figure, with step and time."""
     units, of_table = summary.evaluation.scene.units, {"elements": ELEMENTS, "nodes": NODES, "summary": LINES}[table]
-    for figure, found in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
+    for figure, extremes in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
         quantity = of_table[_OF_LINES.get(figure, figure) if table == "summary" else figure]
-        for side, best in (("least", found.least), ("largest", found.largest)):
+        for side, best in (("least", extremes.least), ("largest", extremes.largest)):
             name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
             yield _column(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
             yield _column(f"{name}_step", steps, blank=_NO_STEP)
@@ -295,15 +296,15 @@ def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Itera
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:
-    """A row for each figure of `STEPS`: its largest value over all steps."""
+    """Return a row for each figure of `STEPS` with its largest value over all steps."""
     peaks = summary.totals()
-    found = [peaks.get(name, Peak(np.nan, _NO_STEP)) for name in STEPS]
-    numbers = [summary.number(peak) for peak in found]
-    steps = np.array([peak.step for peak in found], np.int64)
+    largest = [peaks.get(name, Peak(np.nan, _NO_STEP)) for name in STEPS]
+    numbers = [summary.number(peak) for peak in largest]
+    steps = np.array([peak.step for peak in largest], np.int64)
     elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
     columns = [
         Column("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
-        _column("largest", np.array([peak.value for peak in found])),
+        _column("largest", np.array([peak.value for peak in largest])),
         _column("step", steps, blank=_NO_STEP),
         _column("element", elements, blank=NO_ELEMENT),
     ]
