@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput
-from mudline.model.contact.result import ContactResult, Part
+from mudline.model.contact.result import ContactResult, ResultPart
 
 Values = NDArray[Any]
 
@@ -22,7 +22,7 @@ CUT = "curve-cut"
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class ResultColumn:
     """A column of a table with the same rows at all steps.
 
     Attributes:
@@ -48,13 +48,13 @@ class Column:
         """True if the values have no axis for steps."""
         return self.values.ndim == 1 + self.vector
 
-    def flat(self) -> list[Column]:
+    def flat(self) -> list[ResultColumn]:
         """Return the column itself, or the three columns of a vector."""
         if not self.vector:
             return [self]
         axes = enumerate(("_x", "_y", "_z"))
         return [
-            Column(self.name + axis, self.values[..., i], over_steps=self.over_steps, unit=self.unit)
+            ResultColumn(self.name + axis, self.values[..., i], over_steps=self.over_steps, unit=self.unit)
             for i, axis in axes
         ]
 
@@ -67,11 +67,11 @@ class Column:
 
 NO_ELEMENT = -1
 """"No element" in a column of element numbers."""
-Others = Callable[[Part], Sequence[tuple[str, FloatArray]]]
+Others = Callable[[ResultPart], Sequence[tuple[str, FloatArray]]]
 """Function that returns additional columns of elements for some steps: names, and values (steps, m)."""
 
 
-class Table(ABC):
+class ResultTable(ABC):
     """A table of some elements, nodes or lines, which makes the columns for some steps."""
 
     quantities: ClassVar[Mapping[str, Quantity]]
@@ -91,22 +91,22 @@ class Table(ABC):
         return len(self._chosen)
 
     @abstractmethod
-    def columns(self, part: Part) -> list[Column]:
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
         """Return the columns of the result quantities, then additional columns."""
 
-    def facts(self) -> list[Column]:
+    def facts(self) -> list[ResultColumn]:
         """Return the columns that no step changes, including the law of elements whose curve is cut at some steps."""
         return [
-            Column(name, values, self._names.get(name, ()), over_steps=False, unit=quantity.unit_name(self.units))
+            ResultColumn(name, values, self._names.get(name, ()), over_steps=False, unit=quantity.unit_name(self.units))
             for name, quantity in self.quantities.items()
             if (values := self._fixed.get(name)) is not None
         ]
 
-    def _columns(self, given: dict[str, Values], result: ContactResult) -> list[Column]:
+    def _columns(self, given: dict[str, Values], result: ContactResult) -> list[ResultColumn]:
         """Return a column of each quantity: a fixed one, one of `given`, or the attribute of the result."""
         values = self._fixed | given
         return [
-            Column(
+            ResultColumn(
                 name,
                 values[name] if name in values else kept(getattr(result, name), self._chosen),
                 self._names.get(name, quantity.names),
@@ -119,7 +119,7 @@ class Table(ABC):
         ]
 
 
-class ElementTable(Table):
+class ElementResults(ResultTable):
     """The evaluated elements.
 
     `others` returns additional columns by name: values (m,) of all elements for each step.
@@ -149,7 +149,7 @@ class ElementTable(Table):
             "node2": given.node_ids[self._ends[:, 1]],
         }
 
-    def columns(self, part: Part) -> list[Column]:
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
         """Return the columns of the result quantities, then the additional columns."""
         result = part.result
         ends = [_places(result, column) for column in self._ends.T]
@@ -161,10 +161,10 @@ class ElementTable(Table):
             values["law"] = np.where(kept(result.cut, self._chosen), self._cut_code, self._fixed["law"])
         columns = self._columns(values, result)
         others = () if self._others is None else self._others(part)
-        return columns + [Column(name, kept(values, self._chosen)) for name, values in others]
+        return columns + [ResultColumn(name, kept(values, self._chosen)) for name, values in others]
 
 
-class NodeTable(Table):
+class NodeResults(ResultTable):
     """The nodes that have a position. Without friction the friction forces are 0 and the states -1."""
 
     quantities = NODES
@@ -177,7 +177,7 @@ class NodeTable(Table):
             "line": given.lines.of_node[chosen] + 1,
         }
 
-    def columns(self, part: Part) -> list[Column]:
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
         """Return the columns of the result quantities."""
         result, chosen = part.result, self._chosen
         axial, lateral = _by_direction(result.friction)

@@ -8,7 +8,7 @@ import numpy as np
 
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 from mudline.model.contact.vectors import in_plane, turned_3, units
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Directions(NamedTuple):
     size: FloatArray
 
 
-def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Directions:
+def directions_of(tables: LawTables, points: FloatArray, normals: FloatArray) -> Directions:
     """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
     line, nodes = tables.line, len(points)
     with np.errstate(all="ignore"):
@@ -51,13 +51,13 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
     return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
 
 
-def lower(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
+def lower(tables: LawTables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
     """Add the depth of trenches with a lowered seabed to gaps (steps, n) of `points` (steps, n, 3)."""
     for place, normals, height in zip(points, normal, gap, strict=True):
         np.add(height, level(tables, place, laid, normals).depth, out=height)
 
 
-def level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
+def level(tables: LawTables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
     """Return depth and gradient of trenches below nodes at `points` (n, 3).
 
     Raises TypeError if no trench lowers the seabed.
@@ -75,7 +75,7 @@ def projected(vectors: FloatArray, normal: FloatArray) -> FloatArray:
     return np.stack(in_plane(tuple(vectors.T), tuple(normal.T)), axis=1)
 
 
-def mean_normal(tables: Tables, elements: IndexArray, normal: FloatArray) -> tuple[FloatArray, ...]:
+def mean_normal(tables: LawTables, elements: IndexArray, normal: FloatArray) -> tuple[FloatArray, ...]:
     """Return components (steps, k) of the mean unit normal at both ends of elements (k,); normals are (steps, n, 3)."""
     if normal.strides[1] == 0:  # all nodes share a normal
         return tuple(normal[:1, :1, axis] for axis in range(3))

@@ -15,9 +15,9 @@ from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
 from mudline.basics.short_repr import counted
-from mudline.model.contact.columns import Column, ElementTable, NodeTable, Table, Values, by_number
-from mudline.model.contact.result import ContactResult, Part, TableName
-from mudline.model.contact.touchdown import LineTable, line_summaries
+from mudline.model.contact.columns import ElementResults, NodeResults, ResultColumn, ResultTable, Values, by_number
+from mudline.model.contact.result import ContactResult, ResultPart, TableName
+from mudline.model.contact.touchdown import LineResults, line_summaries
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -62,7 +62,7 @@ def arrow_table(result: ContactResult, table: TableName) -> pa.Table:
 
 
 def arrow_of(
-    columns: list[Column], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
+    columns: list[ResultColumn], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
 ) -> pa.Table:
     """Return flat columns over some steps as an Arrow table, after the `leading` columns; raises ImportError."""
     arrow = _library("pyarrow")
@@ -84,7 +84,7 @@ def dataset(result: ContactResult) -> xr.Dataset:
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {"axis": ["x", "y", "z"]}
     for which, kind in (("elements", "element"), ("nodes", "node")):
-        table, part = _table(result, which), Part(0, result.as_series())
+        table, part = _table(result, which), ResultPart(0, result.as_series())
         for column in table.columns(part):
             into = coordinates if column.name in _COORDINATES or column.name == kind else variables
             into[array_name(which, column.name)] = _variable(column, kind, None if single else part.count)
@@ -130,25 +130,25 @@ def array_name(table: str, column: str) -> str:
     return f"node_{column}" if table == "nodes" and column in ELEMENTS else column
 
 
-def spelled(column: Column) -> Values:
+def spelled(column: ResultColumn) -> Values:
     """Return the values of a column, with texts as numpy strings; "" for no text."""
     if not column.names:
         return column.values
     return np.array([name or "" for name in column.names], dtype=np.str_)[column.values]
 
 
-def _table(result: ContactResult, name: str) -> Table:
+def _table(result: ContactResult, name: str) -> ResultTable:
     given = result.known
     elements = np.flatnonzero(result.evaluated)
     if name == "nodes":
-        return NodeTable(given, by_number(given, result.present))
-    return ElementTable(given, elements) if name == "elements" else LineTable(given, elements)
+        return NodeResults(given, by_number(given, result.present))
+    return ElementResults(given, elements) if name == "elements" else LineResults(given, elements)
 
 
-def _columns(result: ContactResult, name: TableName) -> tuple[Table, list[Column], Part]:
+def _columns(result: ContactResult, name: TableName) -> tuple[ResultTable, list[ResultColumn], ResultPart]:
     """Return a table, its flat columns and its part over all steps."""
     expect_word(name, "table", get_args(TableName), f"one of {', '.join(get_args(TableName))}")
-    table, part = _table(result, name), Part(0, result.as_series())
+    table, part = _table(result, name), ResultPart(0, result.as_series())
     return table, [flat for column in table.columns(part) for flat in column.flat()], part
 
 
@@ -160,7 +160,7 @@ def _leading(result: ContactResult, rows: int) -> Iterator[tuple[str, Values]]:
         yield "step", np.repeat(np.arange(len(result.depth)), rows)
 
 
-def _units(columns: list[Column], units: str) -> dict[str, str]:
+def _units(columns: list[ResultColumn], units: str) -> dict[str, str]:
     """Return the unit of each column by name; "" for none."""
     return {"time": time_unit(units), **{column.name: column.unit for column in columns}}
 
@@ -169,7 +169,7 @@ def _given(about: Mapping[str, str]) -> dict[str, str]:
     return {name: value for name, value in about.items() if value}
 
 
-def _series(pandas: ModuleType, column: Column, steps: int) -> Any:  # noqa: ANN401 - pandas takes arrays of many kinds
+def _series(pandas: ModuleType, column: ResultColumn, steps: int) -> Any:  # noqa: ANN401 - pandas takes arrays of many kinds
     values = column.cut(0, steps).ravel()
     if column.names:
         return pandas.Categorical.from_codes(values, categories=list(column.names[:-1]))
@@ -178,7 +178,7 @@ def _series(pandas: ModuleType, column: Column, steps: int) -> Any:  # noqa: ANN
     return pandas.arrays.IntegerArray(values.astype(np.int64), values == column.blank)
 
 
-def _array(arrow: ModuleType, column: Column, steps: int) -> pa.Array:
+def _array(arrow: ModuleType, column: ResultColumn, steps: int) -> pa.Array:
     values = column.cut(0, steps).ravel()
     if column.blank is not None:
         return arrow.array(values, mask=values == column.blank)
@@ -188,7 +188,7 @@ def _array(arrow: ModuleType, column: Column, steps: int) -> pa.Array:
     return arrow.DictionaryArray.from_arrays(codes, arrow.array(column.names[:-1], arrow.string()))
 
 
-def _variable(column: Column, kind: str, steps: int | None) -> tuple[tuple[str, ...], Values, dict[str, str]]:
+def _variable(column: ResultColumn, kind: str, steps: int | None) -> tuple[tuple[str, ...], Values, dict[str, str]]:
     """Return dimensions, values and attributes of a variable of xarray; `steps` is None for a single state."""
     values = spelled(column)
     dimensions = (kind, "axis") if column.vector else (kind,)

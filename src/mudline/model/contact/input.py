@@ -128,7 +128,7 @@ class AssignedLaw:
         return values
 
 
-class Names(Protocol):
+class InputNames(Protocol):
     """Names of the laws of elements, and the unit system, for tables of results."""
 
     @property
@@ -192,7 +192,7 @@ class ContactInput:
     weight: FloatArray | None = None
     empty_weight: FloatArray | None = None
     left_out: Mapping[str, str] = field(default_factory=dict)
-    names: Names | None = None
+    names: InputNames | None = None
     _lines: list[Lines] = field(init=False, repr=False, default_factory=list)
     assigned: dict[str, AssignedLaw] = field(init=False, repr=False)
     """The laws of the elements and nodes, by name."""

@@ -17,7 +17,7 @@ _FEW_RUNS = 16
 """Number of runs below which slices of arrays are copied one by one."""
 
 
-class _Run(NamedTuple):
+class _ElementRun(NamedTuple):
     """Elements start <= e < stop whose nodes are e + first and e + second."""
 
     start: int
@@ -29,7 +29,7 @@ class _Run(NamedTuple):
 _Parts = list[tuple[slice, slice]]
 
 
-class Line:
+class Incidence:
     """The elements (m, 2) among nodes (n).
 
     Attributes:
@@ -60,7 +60,7 @@ class Line:
         self.turns = bool(same.size)
         self._junctions = np.flatnonzero(degree > 2)
         self._runs = _runs(self.first, self.second)
-        self._chain = self._runs is not None and [*self._runs] == [_Run(0, nodes - 1, 0, 1)]
+        self._chain = self._runs is not None and [*self._runs] == [_ElementRun(0, nodes - 1, 0, 1)]
         self._element_parts: dict[tuple[int, int], tuple[_Parts, _Parts]] = {}
         self._node_parts: dict[tuple[int, int], tuple[_Parts, _Parts]] = {}
         self._pair: tuple[IndexArray, FloatArray] | None = None if self._runs else _first_two(self)
@@ -141,14 +141,14 @@ class Line:
             total[:, node - begin] = sums
 
 
-def _first_two(line: Line) -> tuple[IndexArray, FloatArray]:
+def _first_two(line: Incidence) -> tuple[IndexArray, FloatArray]:
     """Return the first two elements (2, n) at each node and their senses; a missing element is the column of zeros."""
     senses = np.append(line.senses, [1.0] * 2)
     pair = 1 + np.where(line.beside < 0, len(line.first), line.beside).T
     return pair, np.stack([senses[line.start[:-1]], senses[line.start[:-1] + 1]])
 
 
-def _runs(first: IndexArray, second: IndexArray) -> list[_Run] | None:
+def _runs(first: IndexArray, second: IndexArray) -> list[_ElementRun] | None:
     """Return runs of elements whose two nodes both increase by one; None if there are many runs."""
     count = len(first)
     breaks = np.flatnonzero((np.diff(first) != 1) | (np.diff(second) != 1)) + 1
@@ -156,13 +156,13 @@ def _runs(first: IndexArray, second: IndexArray) -> list[_Run] | None:
         return None
     starts, stops = [0, *breaks.tolist()], [*breaks.tolist(), count]
     return [
-        _Run(start, stop, int(first[start]) - start, int(second[start]) - start)
+        _ElementRun(start, stop, int(first[start]) - start, int(second[start]) - start)
         for start, stop in zip(starts, stops, strict=True)
         if start < stop
     ]
 
 
-def _parts(runs: list[_Run], begin: int, end: int, *, of_nodes: bool) -> tuple[_Parts, _Parts]:
+def _parts(runs: list[_ElementRun], begin: int, end: int, *, of_nodes: bool) -> tuple[_Parts, _Parts]:
     """Return for both ends of a range of elements slices of elements and of their nodes.
 
     With `of_nodes` return slices of a range of nodes and of the elements that begin, and that end, there.

@@ -29,7 +29,7 @@ from mudline.model.contact.numpy_driver import NumpyDriver
 from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
 from mudline.model.contact.result import (
     ContactResult,
-    Part,
+    ResultPart,
     blank_absent,
     blank_result,
     is_finite,
@@ -37,7 +37,7 @@ from mudline.model.contact.result import (
     refuse_pulling,
 )
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import Batch, ContactState, Tables
+from mudline.model.contact.tables import ContactState, LawTables, StepBatch
 
 if TYPE_CHECKING:
     from mudline.model.contact.compiled.driver import CompiledDriver
@@ -78,7 +78,7 @@ class ContactModel:
         self.input = given
         self._seabed: Seabed = given.seabed or FlatSeabed()
         with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
-            self._tables = Tables(given)
+            self._tables = LawTables(given)
             self._choice = BackendChoice(backend, threads, self._tables)
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
@@ -154,7 +154,7 @@ class ContactModel:
         velocities: ArrayLike | None = None,
         times: ArrayLike | None = None,
         together: bool = False,
-    ) -> Iterator[Part]:
+    ) -> Iterator[ResultPart]:
         """Evaluate a series a few steps at a time, in bounded memory; with `together` all steps in one result.
 
         Arguments and exceptions are those of `evaluate`.
@@ -183,9 +183,9 @@ class ContactModel:
                 state = self._advance(driver, points, rates, spans, part, state, start, spare if driver else state)
                 spare = before
             if whole is None:
-                yield Part(start, part)
+                yield ResultPart(start, part)
         if whole is not None:
-            yield Part(0, whole)
+            yield ResultPart(0, whole)
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step, without any contact yet."""
@@ -324,7 +324,7 @@ class ContactModel:
             laid = points[0].copy() if self.plan.history else points[0]
         self._numpy.locate(points, part)
         complete = part.present is self._everywhere or bool(part.present.all())
-        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
+        batch = StepBatch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
             from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
 

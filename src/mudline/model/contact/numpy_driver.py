@@ -16,10 +16,10 @@ import numpy as np
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
 from mudline.model.contact.laws import law_module
-from mudline.model.contact.numpy_elements import Elements, Work
+from mudline.model.contact.numpy_elements import ElementRange, Work
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import Batch, ContactState, Tables, rows_within
+from mudline.model.contact.tables import ContactState, LawTables, StepBatch, rows_within
 from mudline.model.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ freed memory that is kept at the end of the heap: the results of five million no
 class NumpyDriver:
     """Evaluator of batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed) -> None:
+    def __init__(self, tables: LawTables, seabed: Seabed) -> None:
         _keep_freed_memory()
         self._tables, self._seabed = tables, seabed
         elements, nodes = len(tables.half), len(tables.given.node_ids)
@@ -57,9 +57,9 @@ class NumpyDriver:
         slides = tables.friction is not None or tables.lateral is not None
         self._components = (2 if flat else 3) if slides else 0
         starts = range(0, elements, width)
-        self._elements = [Elements(tables, start, min(start + width, elements), flat=flat) for start in starts]
+        self._elements = [ElementRange(tables, start, min(start + width, elements), flat=flat) for start in starts]
         starts = range(0, nodes, width)
-        self._nodes = [Nodes(tables, start, min(start + width, nodes), flat=flat) for start in starts]
+        self._nodes = [NodeRange(tables, start, min(start + width, nodes), flat=flat) for start in starts]
 
     def locate(self, points: FloatArray, part: ContactResult) -> None:
         """Write gaps and normals of `part` (steps, n)."""
@@ -68,7 +68,7 @@ class NumpyDriver:
         else:
             self._seabed.gaps(points, part.gap)
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState) -> None:
+    def run(self, batch: StepBatch, part: ContactResult, state: ContactState) -> None:
         """Write a batch to `part` except gaps and normals, which are there already; `state` is updated in place."""
         steps, elements = len(batch.points), len(self._tables.half)
         lateral = self._components if self._tables.lateral is not None else 0
@@ -140,10 +140,10 @@ class _Breakout(NamedTuple):
         self.held[...] = np.where(held[self.at], self.held, [[np.nan]] * 3 + [[0.0]] * 2)
 
 
-class Nodes:
+class NodeRange:
     """Range of nodes begin <= i < end."""
 
-    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+    def __init__(self, tables: LawTables, begin: int, end: int, *, flat: bool) -> None:
         self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
         self._here = here = slice(begin, end)
         self._plane = vectors.PLANES[2 if flat else 3]

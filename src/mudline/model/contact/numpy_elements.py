@@ -26,13 +26,13 @@ from mudline.model.contact.directions import mean_normal
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.laws import PathLaw, law_module
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import ContactState, NormalRows, Tables, arrays_of, rows_within
+from mudline.model.contact.tables import ContactState, LawTables, NormalRows, arrays_of, rows_within
 from mudline.model.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.suction import SuctionHistory
     from mudline.model.contact.laws.unloading import UnloadingHistory
-    from mudline.model.contact.tables import Batch
+    from mudline.model.contact.tables import StepBatch
 
 Values = tuple[FloatArray, FloatArray, FloatArray]
 """Force, slope and stiffness (steps, k)."""
@@ -60,7 +60,7 @@ class Work(NamedTuple):
     ratio: FloatArray
 
 
-class _Group(NamedTuple):
+class _LawGroup(NamedTuple):
     """Elements of a range with one normal law.
 
     Attributes:
@@ -92,10 +92,10 @@ _Trench = tuple[FloatArray, BoolArray]
 """Uplift of elements with an unloading law from their trench bottom, and whether they are below it."""
 
 
-class Elements:
+class ElementRange:
     """Range of elements begin <= e < end."""
 
-    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+    def __init__(self, tables: LawTables, begin: int, end: int, *, flat: bool) -> None:
         self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
         here = slice(begin, end)
         self._here, self._inner = here, slice(begin + 1, end + 1)
@@ -125,12 +125,12 @@ class Elements:
             _, of_suction, of_unloading = np.intersect1d(pulls, unloads, assume_unique=True, return_indices=True)
             self._in_trench = of_suction, of_unloading
 
-    def _group(self, rows: NormalRows) -> _Group | None:
+    def _group(self, rows: NormalRows) -> _LawGroup | None:
         cut = rows_within(rows.rows, self.begin, self.end)
         at = rows.rows[cut]
         columns = tuple(column[None, cut] for column in rows.columns)
         held = slice(rows.path + cut.start, rows.path + cut.stop)
-        return _Group(rows, at - self.begin, columns, self._tables.diameter[None, at], held) if len(at) else None
+        return _LawGroup(rows, at - self.begin, columns, self._tables.diameter[None, at], held) if len(at) else None
 
     def _subset(self, assigned: AssignedLaw | None) -> _Subset | None:
         if assigned is None:
@@ -143,7 +143,7 @@ class Elements:
         columns = tuple(column[None, rows] for column in assigned.columns)
         return _Subset(rows, at, assigned.rows[rows], columns, self._diameter[:, at], onset)
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState, work: Work) -> None:
+    def run(self, batch: StepBatch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and their values for the nodes."""
         depth, contact = self._write_depths(part)
         values = part.force[:, self._here], part.slope[:, self._here], part.stiffness[:, self._here]
@@ -216,7 +216,7 @@ class Elements:
 
     def _apply_normal_law(  # noqa: PLR0913, PLR0917 - as above, for a group
         self,
-        group: _Group,
+        group: _LawGroup,
         depth: FloatArray,
         ratio: FloatArray | None,
         touches: BoolArray,
@@ -293,7 +293,7 @@ class Elements:
             kept[some.rows] = moved[-1]
         return bottom - taken(depth, some.at), z > bottom
 
-    def _may_steepen(self, some: _Subset) -> list[tuple[_Group, IndexArray, IndexArray]]:
+    def _may_steepen(self, some: _Subset) -> list[tuple[_LawGroup, IndexArray, IndexArray]]:
         """Return elements whose normal law may be steeper than their line: group, places in subset and group."""
         at = np.arange(self.end - self.begin)[some.at]
         groups = []
@@ -305,7 +305,7 @@ class Elements:
                 groups.append((group, mine[steeper], theirs[steeper]))
         return groups
 
-    def _slope(self, group: _Group, z: FloatArray, rows: IndexArray) -> FloatArray:
+    def _slope(self, group: _LawGroup, z: FloatArray, rows: IndexArray) -> FloatArray:
         """Return the steepest slope of a normal law between the mudline and penetrations (steps, k) of elements."""
         diameter = group.diameter[:, rows]
         if group.rows.curve >= 0:

@@ -15,7 +15,7 @@ from mudline.basics.short_repr import UnknownNameError, counted, outline
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.laws import known_laws
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ class Plan:
         return "\n".join([*lines, f"{'history':<14} {'yes' if self.history else 'no':<3} {self.steps}"])
 
 
-def make_plan(given: ContactInput, tables: Tables, choice: BackendChoice) -> Plan:
+def make_plan(given: ContactInput, tables: LawTables, choice: BackendChoice) -> Plan:
     """Return all stages of the evaluation, active or not, with reasons."""
     forces = bool(tables.normal or tables.nodal or _beside(given, "suction"))
     stages = (
@@ -119,7 +119,7 @@ def _seabed(given: ContactInput) -> str:
     return given.seabed.describe() + held
 
 
-def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> str:
+def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -> str:
     parts = []
     curves = [rows for rows in tables.normal if rows.curve >= 0]
     if curves:
@@ -151,7 +151,7 @@ def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> s
     return "; ".join(parts)
 
 
-def _smoothing(tables: Tables) -> tuple[bool, str]:
+def _smoothing(tables: LawTables) -> tuple[bool, str]:
     widths: list[FloatArray] = [
         rows.columns[1] for rows in (*tables.normal, *tables.nodal) if rows.law.name in {"smoothed", "nodal"}
     ]
@@ -172,7 +172,7 @@ def _stage(given: ContactInput, stage: str, otherwise: str) -> Stage:
     return Stage(stage, bool(parts), "; ".join(parts) or otherwise)
 
 
-def _trench(given: ContactInput, tables: Tables) -> Stage:
+def _trench(given: ContactInput, tables: LawTables) -> Stage:
     stage = _stage(given, "trench", "no node lies in a trench")
     if not stage.active:
         return stage
@@ -203,7 +203,7 @@ class BackendChoice:
         uncovered: why the laws have no compiled loops; empty if they have.
     """
 
-    def __init__(self, backend: Backend, threads: int | None, tables: Tables) -> None:
+    def __init__(self, backend: Backend, threads: int | None, tables: LawTables) -> None:
         expect_word(backend, "backend", ("auto", "numpy", "fast"), "auto, numpy or fast")
         if backend == "fast":
             import_module("numba")

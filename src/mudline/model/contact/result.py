@@ -19,7 +19,7 @@ from mudline.basics.installed import install_hint
 from mudline.basics.short_repr import counted, outline, short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
 from mudline.model.contact.input import ContactInput, ElementError, PositionError
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 
 if TYPE_CHECKING:  # each is imported when it is asked for
     import pandas as pd
@@ -241,7 +241,7 @@ def _whole(value: int, name: str) -> int:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Part:
+class ResultPart:
     """Steps `start` and on of a series, with their results (steps, ...)."""
 
     start: int
@@ -279,7 +279,7 @@ _get_by_step, _get_rest = attrgetter(*_BY_STEP), attrgetter(*_OF_ALL_STEPS)
 def blank_result(
     positions: NDArray[Any],
     present: BoolArray,
-    tables: Tables,
+    tables: LawTables,
     same_normal: FloatArray | None,
     times: FloatArray | None,
 ) -> ContactResult:
@@ -344,7 +344,7 @@ def is_finite(part: ContactResult, speed: FloatArray | None) -> bool:
     return math.isfinite(sum(float(values.sum()) for values in every))
 
 
-def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, tables: Tables) -> None:
+def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, tables: LawTables) -> None:
     """Raise an error for the first step of a batch with a value that is not finite, if any.
 
     Raises:
@@ -357,7 +357,7 @@ def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, table
         refuse_pulling(part.steps(step, step + 1), first_step + step, tables)
 
 
-def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: Tables) -> None:
+def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: LawTables) -> None:
     given = tables.given
     _refuse_node(np.isinf(part.gap), given.node_ids, step, "its distance to the seabed overflows")
     if speed is not None:
@@ -382,7 +382,7 @@ def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, table
     _refuse_node(wrong, given.node_ids, step, "the reaction there overflows")
 
 
-def refuse_pulling(part: ContactResult, first_step: int, tables: Tables) -> None:
+def refuse_pulling(part: ContactResult, first_step: int, tables: LawTables) -> None:
     """Raise ElementError for the first element with suction whose curve pulls, uncut, if any."""
     if tables.pulling is None:
         return
@@ -395,7 +395,7 @@ def refuse_pulling(part: ContactResult, first_step: int, tables: Tables) -> None
         raise ElementError(f"element {element} at step {step}: {what}", element, step)
 
 
-def _refuse_force(part: ContactResult, element: int, step: int, tables: Tables) -> NoReturn:
+def _refuse_force(part: ContactResult, element: int, step: int, tables: LawTables) -> NoReturn:
     number, why = int(tables.given.element_ids[element]), "its force overflows"
     index = int(tables.given.curve_index[element])
     if index >= 0 and part.contact[element]:

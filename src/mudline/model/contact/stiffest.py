@@ -26,7 +26,7 @@ from mudline.basics.short_repr import UnknownNameError, outline, short_repr
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.laws import Law, Reached, known_laws
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
+from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
 
 
 class LawStiffness(NamedTuple):
@@ -71,7 +71,7 @@ class Stiffest(NamedTuple):
         return np.fmax.reduce(columns) if columns else np.full(len(tables_length), np.nan)
 
 
-def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Stiffest:
+def stiffest(tables: LawTables, result: ContactResult | None, speed: FloatArray | None) -> Stiffest:
     """Return the largest stiffness and damping of each law.
 
     `result` has the forces at some positions, and `speed` (..., n) the velocities along the normals there; None for the
@@ -94,7 +94,7 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
 
 
 def _of_law(
-    tables: Tables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
+    tables: LawTables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
 ) -> LawStiffness:
     """Return the values of a law on some rows; for rows of nodes an element has the larger value of its two nodes."""
     ends, of_nodes = tables.given.element_nodes, law.acts_on == "nodes"
@@ -112,7 +112,7 @@ def _largest(values: FloatArray) -> FloatArray:
     return values if values.ndim == 1 else np.fmax.reduce(values, axis=0)
 
 
-def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
+def _slope(tables: LawTables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
     """Return the largest stiffness (k,) of a normal law, with a result that of its own path at the positions."""
     if result is None:
         return steepest_anywhere(tables, rows)
@@ -131,7 +131,7 @@ def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> Fl
     return _largest(np.where(touches, slope, 0.0))
 
 
-def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
+def _reached(tables: LawTables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
     """Return the extremes of all elements and nodes that the laws' largest stiffness and damping depend on."""
     virgin, ends = np.zeros(len(tables.half)), tables.given.element_nodes
     for rows in tables.normal:
@@ -142,7 +142,7 @@ def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     return Reached(virgin, pull_out, pressing, lateral, walls=tables.trench is not None)
 
 
-def _static_normal_force(tables: Tables) -> FloatArray:
+def _static_normal_force(tables: LawTables) -> FloatArray:
     """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
     weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
     if weight is None:

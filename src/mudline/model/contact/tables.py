@@ -12,7 +12,7 @@ from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
 from mudline.model.contact.laws import NormalLaw, PathLaw
-from mudline.model.contact.line import Line
+from mudline.model.contact.line import Incidence
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def _like(part: _Part) -> _Part:
     return arrays[0] if isinstance(part, np.ndarray) else type(part)(*arrays)
 
 
-class Batch(NamedTuple):
+class StepBatch(NamedTuple):
     """Steps to be evaluated.
 
     Attributes:
@@ -129,7 +129,7 @@ class NormalRows(NamedTuple):
     path: int = -1
 
 
-class Tables:
+class LawTables:
     """The laws of an input as arrays. The attribute of an absent law is None.
 
     Attributes:
@@ -158,7 +158,7 @@ class Tables:
 
     def __init__(self, given: ContactInput) -> None:
         self.given = given
-        self.line = Line(given.element_nodes, len(given.node_ids))
+        self.line = Incidence(given.element_nodes, len(given.node_ids))
         self.half: FloatArray = 0.5 * given.length
         self.diameter = given.diameter
         onset = given.onset()
@@ -271,7 +271,7 @@ def _lateral(given: ContactInput) -> AssignedLaw | None:
         return replace(springs, parameters={"stiffness": springs["stiffness"] * (0.5 * given.length[springs.rows])})
 
 
-def _breakout(given: ContactInput, tables: Tables) -> AssignedLaw | None:
+def _breakout(given: ContactInput, tables: LawTables) -> AssignedLaw | None:
     """Return the breakout of nodes; ValueError for a node without friction in a box."""
     breakout = given.assigned.get("breakout")
     if breakout is None:
@@ -316,7 +316,7 @@ def _pulling(given: ContactInput) -> IndexArray | None:
     return elements if elements.size else None
 
 
-def steepest_anywhere(tables: Tables, rows: NormalRows) -> FloatArray:
+def steepest_anywhere(tables: LawTables, rows: NormalRows) -> FloatArray:
     """Return the largest stiffness (k,) that a normal law can reach on its elements or nodes."""
     with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
         if rows.curve >= 0:

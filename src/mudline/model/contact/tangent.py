@@ -18,7 +18,7 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.directions import Directions, directions_of, level, projected
 from mudline.model.contact.laws import Moving, PathLaw
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import ContactState, Tables
+from mudline.model.contact.tables import ContactState, LawTables
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.friction import ExtraLimit, FrictionForce, FrictionLaw
@@ -52,7 +52,7 @@ class Tangent(NamedTuple):
         return short_repr(self)
 
 
-class _Blocks:
+class _BlockSum:
     """Collector of 3 x 3 blocks d R_a / d x_b."""
 
     def __init__(self, nodes: int) -> None:
@@ -91,7 +91,7 @@ class _Step(NamedTuple):
         before, after: states before and after the step.
     """
 
-    tables: Tables
+    tables: LawTables
     points: FloatArray
     normal: FloatArray
     slope: FloatArray
@@ -103,7 +103,7 @@ class _Step(NamedTuple):
 
 
 def assemble(
-    tables: Tables,
+    tables: LawTables,
     points: FloatArray,
     speed: FloatArray | None,
     result: ContactResult,
@@ -122,7 +122,7 @@ def assemble(
         slope = normal + level(tables, points, laid, normal).gradient
     step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
-    by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
+    by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)
     _add_normal(step, (stiffness, own), step.slope, by_position)
     damping, own_damping = np.zeros(len(stiffness)), np.zeros(nodes)
     if speed is not None:
@@ -190,7 +190,7 @@ def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
     return damping, own
 
 
-def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _Blocks) -> None:
+def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _BlockSum) -> None:
     """Add normal forces along fixed normals, from derivatives by the heights of elements (m,) and of nodes (n,)."""
     stiffness, own = by_height
     used = np.flatnonzero(stiffness)
@@ -202,7 +202,7 @@ def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: Fl
     blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], slope[nodes]))
 
 
-def _add_lateral(step: _Step, blocks: _Blocks) -> None:
+def _add_lateral(step: _Step, blocks: _BlockSum) -> None:
     """Add lateral springs along their direction, which turns with the element."""
     lateral, before, after = step.tables.lateral, step.before.touchdown, step.after.touchdown
     if lateral is None or before is None or after is None:
@@ -308,7 +308,7 @@ def _breaking_out(
     return replace(law, mobilisation=mobilisation), extra
 
 
-def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
+def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _BlockSum) -> None:
     """Add springs along u1 and u2, and limits that depend on the offset in a trench."""
     along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
     if sliding.extra is not None:
@@ -323,7 +323,7 @@ def _add_compression(
     closed: IndexArray,
     stiffness: tuple[FloatArray, FloatArray],
     slope: FloatArray,
-    blocks: _Blocks,
+    blocks: _BlockSum,
 ) -> None:
     """Add the dependence of the limits on the normal force: `push` (n, 3) is d friction / d N."""
     elements, own = stiffness
@@ -336,7 +336,7 @@ def _add_compression(
             blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
 
 
-def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
+def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _BlockSum) -> None:
     """Add the turning of u1 and u2 with the line: directions of forces, elongations and offsets.
 
     A turn by an angle a about the normal makes d u1 = a u2, d u2 = -a u1.

@@ -11,16 +11,16 @@ import numpy as np
 
 from mudline.basics.quantities import LINES, finite
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.columns import NO_ELEMENT, Column, Table, Values
+from mudline.model.contact.columns import NO_ELEMENT, ResultColumn, ResultTable, Values
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.lines import ElementForce, LineSummary, TouchdownPoint
-from mudline.model.contact.result import ContactResult, Part, total_normal_force
+from mudline.model.contact.result import ContactResult, ResultPart, total_normal_force
 
 _NOWHERE = (math.nan, math.nan, math.nan)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Points:
+class _TouchdownPoints:
     """Touchdown points of a line.
 
     Attributes:
@@ -62,7 +62,7 @@ class LineSeries:
     force_at: IndexArray
     uplift: FloatArray
     uplift_at: IndexArray
-    found: _Points
+    found: _TouchdownPoints
 
 
 class Touchdown:
@@ -82,7 +82,7 @@ class Touchdown:
         """Length of a line; infinite where it overflows."""
         return float(self._arcs[line][-1])
 
-    def series(self, part: Part) -> list[LineSeries]:
+    def series(self, part: ResultPart) -> list[LineSeries]:
         """Return each line over some steps, without lines that have no evaluated element."""
         result = part.result
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -105,7 +105,7 @@ class Touchdown:
         before, behind = gap[step, segment], gap[step, segment + 1]
         portion = np.clip(before / (before - behind), 0.0, 1.0)
         portion = np.where(np.isnan(portion), 0.5, portion)
-        points = _Points(step, segment, portion, touches[step, segment + 1])
+        points = _TouchdownPoints(step, segment, portion, touches[step, segment + 1])
         steps = len(gap)
         both = touches[:, :-1] & touches[:, 1:] & between
         length = np.diff(arc)
@@ -149,7 +149,7 @@ class Touchdown:
         coordinates[there] = begin + part * (end - begin)
         return coordinates
 
-    def summaries(self, part: Part, lines: Sequence[LineSeries]) -> Iterator[LineSummary]:
+    def summaries(self, part: ResultPart, lines: Sequence[LineSeries]) -> Iterator[LineSummary]:
         """Yield every line at each of some steps, from its `series`: one step after the other."""
         ends = [np.searchsorted(line.found.step, np.arange(part.count + 1)).tolist() for line in lines]
         for step in range(part.count):
@@ -202,7 +202,7 @@ class Touchdown:
         return ElementForce(force, number, arc, x, y, z)
 
 
-class LineTable(Table):
+class LineResults(ResultTable):
     """The lines with an evaluated element."""
 
     quantities = LINES
@@ -220,7 +220,7 @@ class LineTable(Table):
             "length": np.array([self.finder.length(line) for line in lines.tolist()], np.float64),
         }
 
-    def columns(self, part: Part) -> list[Column]:
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
         """Return the columns of `LINES`."""
         with np.errstate(over="ignore", invalid="ignore"):
             values = [self._values(line, part.result) for line in self.finder.series(part)]
@@ -266,7 +266,7 @@ def line_summaries(result: ContactResult) -> list[LineSummary]:
 
     Raises ValueError for a result without an input.
     """
-    finder, part = Touchdown(result.known), Part(0, result.as_series())
+    finder, part = Touchdown(result.known), ResultPart(0, result.as_series())
     return list(finder.summaries(part, finder.series(part)))
 
 

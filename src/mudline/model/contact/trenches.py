@@ -25,7 +25,7 @@ from mudline.model.contact.laws.trench import (
     table_rows,
     wall_coefficient,
 )
-from mudline.model.contact.line import Line
+from mudline.model.contact.line import Incidence
 from mudline.model.contact.vectors import LEAST_SQUARE
 
 _ENDS = ("start_y", "start_z", "end_y", "end_z")
@@ -227,10 +227,10 @@ class LaidCentreline:
     passes nearby is therefore not taken for the trench. Elements at a node without a position (NaN) are left out.
     """
 
-    def __init__(self, laid: FloatArray, line: Line) -> None:
+    def __init__(self, laid: FloatArray, line: Incidence) -> None:
         known = ~np.isnan(laid[:, 0])
         if not known.all():
-            line = Line(line.ends[known[line.ends].all(axis=1)], len(laid))
+            line = Incidence(line.ends[known[line.ends].all(axis=1)], len(laid))
         # a last piece, without element and length, for nodes without pieces
         self.ends, self.elements_at = np.append(line.ends, [[-1, -1]], axis=0), line.beside
         axes = np.ascontiguousarray(laid.T)

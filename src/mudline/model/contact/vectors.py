@@ -151,7 +151,7 @@ def reaction_3(normal_force: Value, normal: Vector, tangential: Vector) -> Vecto
     )
 
 
-class Plane(NamedTuple):
+class PlaneFunctions(NamedTuple):
     """The functions above for two or for three components.
 
     project, default, across, dot, turned, blend, added, reaction: as the functions.
@@ -168,8 +168,8 @@ class Plane(NamedTuple):
 
 
 PLANES = {
-    2: Plane(projected_2, default_2, across_2, dot_2, turned_2, blend_2, added_2, reaction_2),
-    3: Plane(projected_3, default_3, across_3, dot_3, turned_3, blend_3, added_3, reaction_3),
+    2: PlaneFunctions(projected_2, default_2, across_2, dot_2, turned_2, blend_2, added_2, reaction_2),
+    3: PlaneFunctions(projected_3, default_3, across_3, dot_3, turned_3, blend_3, added_3, reaction_3),
 }
 """The functions by number of components."""
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.scene.csv_file import CsvTable, data_error, read_csv
 from mudline.model.scene.numbering import Floats, Ids, Indices
@@ -117,7 +117,7 @@ class Extreme:
 
 
 @dataclass(slots=True)
-class Difference:
+class ColumnDifference:
     """Differences in a column: our value less the other, and this over the larger magnitude of the two."""
 
     column: str
@@ -142,12 +142,12 @@ class Difference:
         }
 
 
-class Comparison:
+class ResultComparison:
     """Comparison of the steps of an evaluation with a file, a few steps at a time."""
 
     def __init__(self, evaluation: Evaluation, reference: Reference) -> None:
         self._evaluation, self.reference = evaluation, reference
-        self.differences = [Difference(name) for name in reference.values]
+        self.differences = [ColumnDifference(name) for name in reference.values]
         met = np.zeros(len(evaluation.scene.element_ids), dtype=bool)
         met[reference.element] = True
         self.missing = evaluation.scene.element_ids[evaluation.elements[~met[evaluation.elements]]]
@@ -157,7 +157,7 @@ class Comparison:
         """True if differences have a time."""
         return self._evaluation.time is not None
 
-    def others(self, part: Part) -> list[tuple[str, Floats]]:
+    def others(self, part: ResultPart) -> list[tuple[str, Floats]]:
         """Return additional columns: the values of the file (steps, m), NaN where it has none."""
         rows, step, element = self._rows(part)
         shape = (part.count, len(self._evaluation.scene.element_ids))
@@ -168,21 +168,21 @@ class Comparison:
             columns.append((f"{name}_against", values))
         return columns
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Compare some steps."""
         rows, step, element = self._rows(part)
         for column, (name, theirs) in zip(self.differences, self.reference.values.items(), strict=True):
             ours = getattr(part.result, name)[step, element]
             self._compare(column, ours, theirs[rows], part.start + step, element)
 
-    def _rows(self, part: Part) -> tuple[slice, Indices, Indices]:
+    def _rows(self, part: ResultPart) -> tuple[slice, Indices, Indices]:
         """Return the rows of the file for some steps, and their steps and elements."""
         reference = self.reference
         first, last = np.searchsorted(reference.step, [part.start, part.start + part.count]).tolist()
         rows = slice(first, last)
         return rows, reference.step[rows] - part.start, reference.element[rows]
 
-    def _compare(self, column: Difference, ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
+    def _compare(self, column: ColumnDifference, ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
         both = np.flatnonzero(~np.isnan(ours) & ~np.isnan(theirs))
         if not both.size:
             return

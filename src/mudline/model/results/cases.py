@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import BinaryIO, Literal
 
 from mudline.basics.quantities import finite
-from mudline.model.results.series import Peak, SeriesSummary
+from mudline.model.results.series import PeakValue, SeriesSummary
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.deck_values import FOOT, POUND
 
@@ -81,7 +81,7 @@ def case_summary(
         in_contact=int(_value(series.of("case", "in_contact").largest.peak()) or 0),
         touchdown_from=_value(series.of("case", "touchdown_from").least.peak()),
         touchdown_to=_value(series.of("case", "touchdown_to").largest.peak()),
-        contact_length=_value(series.of("case", "contact_length").largest.peak() or Peak(0.0, 0)),
+        contact_length=_value(series.of("case", "contact_length").largest.peak() or PeakValue(0.0, 0)),
         largest_force=_value(pushed),
         largest_force_element=series.number(pushed),
         largest_force_time=None if pushed is None or times is None else float(times[pushed.step]),
@@ -97,7 +97,7 @@ def case_summary(
     )
 
 
-def _value(peak: Peak | None) -> float | None:
+def _value(peak: PeakValue | None) -> float | None:
     return None if peak is None else finite(peak.value)
 
 

@@ -15,9 +15,9 @@ from mudline.basics.short_repr import counted, cut, outline, short_repr
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.arrays import Positions, StepReader
-from mudline.model.contact.columns import ElementTable, NodeTable, Others, by_number
-from mudline.model.contact.result import Part
-from mudline.model.contact.touchdown import LineTable, Touchdown
+from mudline.model.contact.columns import ElementResults, NodeResults, Others, by_number
+from mudline.model.contact.result import ResultPart
+from mudline.model.contact.touchdown import LineResults, Touchdown
 from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
@@ -33,7 +33,7 @@ _HISTORY = "this deck has laws whose result depends on the steps before, which n
 class ResultConsumer(Protocol):
     """Consumer of the results of a few steps at a time."""
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Take some steps."""
 
 
@@ -120,17 +120,17 @@ class Evaluation:
         """Finder of the touchdown of the lines in the results of some steps."""
         return Touchdown(self.model.input)
 
-    def element_table(self, others: Others | None = None) -> ElementTable:
+    def element_table(self, others: Others | None = None) -> ElementResults:
         """Return the rows of the evaluated elements, with additional columns."""
-        return ElementTable(self.model.input, self.elements, others)
+        return ElementResults(self.model.input, self.elements, others)
 
-    def node_table(self) -> NodeTable:
+    def node_table(self) -> NodeResults:
         """Return the rows of the nodes that have a position."""
-        return NodeTable(self.model.input, self.nodes)
+        return NodeResults(self.model.input, self.nodes)
 
-    def line_table(self) -> LineTable:
+    def line_table(self) -> LineResults:
         """Return the rows of the lines: touchdown, largest forces, reaction and weight."""
-        return LineTable(self.model.input, self.elements)
+        return LineResults(self.model.input, self.elements)
 
     def run(self, consumers: Iterable[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
         """Evaluate all steps once and pass the results on; `done` is called with the number of steps of each part.
@@ -143,7 +143,7 @@ class Evaluation:
                 consumer.take(part)
             done(part.count)
 
-    def parts(self) -> Iterator[Part]:
+    def parts(self) -> Iterator[ResultPart]:
         """Evaluate a few steps at a time; memory does not grow with the number of steps.
 
         Raises DeckError: a position that is not finite, a value that overflows.
@@ -154,7 +154,7 @@ class Evaluation:
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
                 times = None if self.time is None else self.time[part.steps]
-                yield part if times is None else Part(part.start, replace(part.result, times=times))
+                yield part if times is None else ResultPart(part.start, replace(part.result, times=times))
 
 
 def evaluate_scene(

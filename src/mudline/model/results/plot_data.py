@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import listed_numbers
 from mudline.model.contact import ContactInput, ContactResult
 from mudline.model.contact.lines import TouchdownPoint
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import Touchdown
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.totals import carried, step_figures
@@ -48,9 +48,9 @@ class Chosen(NamedTuple):
     result: ContactResult
 
     @property
-    def part(self) -> Part:
+    def part(self) -> ResultPart:
         """The step as a series of one."""
-        return Part(self.step, self.result.as_series())
+        return ResultPart(self.step, self.result.as_series())
 
     @property
     def heights(self) -> Floats:
@@ -162,7 +162,7 @@ class PlotData:
         """
         series = result.as_series()
         data = cls(result.known, series.evaluated, len(series.depth), series.times, elements=elements)
-        data.take(Part(0, series))
+        data.take(ResultPart(0, series))
         return data
 
     def _looped(self, elements: Sequence[int]) -> Indices:
@@ -179,7 +179,7 @@ class PlotData:
 
     # ------------------------------------------------------------------------------------------- as the parts come
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Add some steps."""
         result = part.result
         of_part = {name: np.asarray(figure.values[:, 0], np.float64) for name, figure in step_figures(part).items()}
@@ -208,7 +208,7 @@ class PlotData:
             step, row = np.divmod(picked, len(self.on_curve))
             self._points.append(self._points_of(part, step, self.on_curve[row]))
 
-    def _choose(self, name: str, part: Part, values: Floats) -> None:
+    def _choose(self, name: str, part: ResultPart, values: Floats) -> None:
         """Keep the step with the largest of these values (steps,), if no earlier step has a larger one.
 
         Only the total reaction may be 0 or less, or unknown at all steps.
@@ -219,7 +219,7 @@ class PlotData:
             self._sizes[name] = float(values[step])
             self.largest[name] = Chosen(part.start + step, part.result.step(step))
 
-    def _points_of(self, part: Part, step: Indices, element: Indices) -> Points:
+    def _points_of(self, part: ResultPart, step: Indices, element: Indices) -> Points:
         found = part.result.ratio[step, element], part.result.force[step, element]
         return Points(self.given.curve_index[element], *found, part.start + step)
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, text
-from mudline.model.contact.columns import Column
-from mudline.model.results.forms import Tables
+from mudline.model.contact.columns import ResultColumn
+from mudline.model.results.forms import ResultTables
 from mudline.model.results.summary_tables import weight_note
 from mudline.model.scene.sheet import AROUND, PIPE, RUN, WEIGHTS, Sheet, SheetColumn
 
@@ -53,17 +53,17 @@ def _sheet_column(column: SheetColumn, units: str) -> DisplayColumn:
     return DisplayColumn(column.heading, cell, column.unit(units), left=column.key in _WORDS, optional=is_bare)
 
 
-def sheet_data(sheet: Sheet, units: str) -> Tables:
+def sheet_data(sheet: Sheet, units: str) -> ResultTables:
     """Return the sheet as a table for files, with the additional keys `left_out` and `unit_of` of JSON."""
     columns = [_data(column, [row[column.key] for row in sheet.rows], units) for column in sheet.columns]
     unit_of = {column.name: column.unit or None for column in columns}
-    return Tables({"sheet": columns}, SHEET_FORMAT, units, {"left_out": list(sheet.left_out), "unit_of": unit_of})
+    return ResultTables({"sheet": columns}, SHEET_FORMAT, units, {"left_out": list(sheet.left_out), "unit_of": unit_of})
 
 
-def _data(column: SheetColumn, values: list[Any], units: str) -> Column:
+def _data(column: SheetColumn, values: list[Any], units: str) -> ResultColumn:
     if column.key in _WORDS:
         names = tuple(dict.fromkeys(value for value in values if value is not None))
         codes = [-1 if value is None else names.index(value) for value in values]
-        return Column(column.key, np.array(codes, np.int32), (*names, None))
+        return ResultColumn(column.key, np.array(codes, np.int32), (*names, None))
     dtype = np.int64 if column in RUN else np.float64  # None becomes NaN, a missing value
-    return Column(column.key, np.array(values, dtype), unit=column.unit(units))
+    return ResultColumn(column.key, np.array(values, dtype), unit=column.unit(units))

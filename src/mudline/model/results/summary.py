@@ -188,7 +188,7 @@ _TABLE_ROWS = 100
 """Largest number of rows of a table."""
 
 
-class _Case(NamedTuple):
+class _EmbeddedElements(NamedTuple):
     """Elements that share a law, a weight per length and a diameter; the index of the first of them."""
 
     set_name: str | None
@@ -244,18 +244,18 @@ class _Zones(NamedTuple):
         return cls(half_width, one_sided)
 
 
-def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_Case]:
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_EmbeddedElements]:
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
     width, side = zones.half_width[elements], zones.one_sided[elements]
     keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
     firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_TABLE_ROWS]
-    elements_shown = elements[firsts].tolist()
-    return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in elements_shown]
+    shown = elements[firsts].tolist()
+    return [_EmbeddedElements(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in shown]
 
 
-def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> dict[str, Any]:
+def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _EmbeddedElements) -> dict[str, Any]:
     diameter = float(scene.diameter[case.element])
     with np.errstate(all="ignore"):
         if scene.law[case.element] == LawKind.LINEAR:
@@ -296,14 +296,14 @@ def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, A
         order = usable[np.argsort(depth[usable], kind="stable")]
         for node in dict.fromkeys([*order[:1].tolist(), *order[-1:].tolist()]):
             at = int(elements[(ends[elements] == node).any(axis=1)][0])
-            case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at, filled)
+            case = _EmbeddedElements(scene.law_sets[at], "nodal", float(weight[at]), at, filled)
             ratio = float(np.divide(depth[node], scene.diameter[at]))
             rows.append(_row(scene, case, ratio, float(depth[node]), float(slope[node]), None))
     return rows
 
 
 def _row(
-    scene: Scene, case: _Case, ratio: float, penetration: float, stiffness: float, side: str | None
+    scene: Scene, case: _EmbeddedElements, ratio: float, penetration: float, stiffness: float, side: str | None
 ) -> dict[str, Any]:
     return {
         "set": case.set_name,

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from mudline.basics.quantities import SLIDING, STATES, Names, finite, shown
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.lines import LineSummary
-from mudline.model.contact.result import Part, total_normal_force
+from mudline.model.contact.result import ResultPart, total_normal_force
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask
 
 Row = TypeVar("Row")
 
 
-class Total(NamedTuple):
+class LawTotal(NamedTuple):
     """Elements that share a law and the set that assigned it, at one step.
 
     Attributes:
@@ -89,7 +89,7 @@ def carried(result: ContactResult) -> Mask:
     return in_contact
 
 
-def totals(evaluation: Evaluation, part: Part) -> list[Total]:
+def totals(evaluation: Evaluation, part: ResultPart) -> list[LawTotal]:
     """Return the totals by law and set, in the order of the elements, at the first step of a part."""
     scene, result = evaluation.scene, part.result.step(0)
     in_contact = carried(result)
@@ -101,7 +101,7 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
         for (law, name), members in groups.items():
             touching, deepest = int(in_contact[members].sum()), _deepest(result.depth[members])
             force = float((result.force[members] * evaluation.length[members]).sum())
-            rows.append(Total(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
+            rows.append(LawTotal(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
     return rows
 
 
@@ -111,7 +111,7 @@ def reaction(evaluation: Evaluation, result: ContactResult) -> float:
         return float(total_normal_force(result, evaluation.nodes))
 
 
-def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -> Iterator[StepTotal]:
+def step_totals(evaluation: Evaluation, part: ResultPart, *, of_nodes: bool = False) -> Iterator[StepTotal]:
     """Yield the figures of all evaluated elements, or nodes, at each step of a part with times."""
     elements, nodes, scene = evaluation.elements, evaluation.nodes, evaluation.scene
     for step, time in enumerate([] if part.result.times is None else part.result.times.tolist()):
@@ -130,7 +130,7 @@ def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -
             yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
 
 
-def line_steps(evaluation: Evaluation, part: Part) -> Iterator[LineSummary]:
+def line_steps(evaluation: Evaluation, part: ResultPart) -> Iterator[LineSummary]:
     """Yield every line at each step of a part."""
     return evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
 
@@ -186,7 +186,7 @@ def _deepest(depth: Floats) -> float | None:
     return finite(float(known.max())) if known.size else None
 
 
-class Followed(NamedTuple):
+class StepValues(NamedTuple):
     """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
 
     `at` (steps, k) goes with the numbers: index of the element of a number, -1 for none.
@@ -196,38 +196,38 @@ class Followed(NamedTuple):
     at: NDArray[Any] | None = None
 
 
-def step_figures(part: Part) -> dict[str, Followed]:
+def step_figures(part: ResultPart) -> dict[str, StepValues]:
     """Return the figures of `STEPS` for the steps of a part, each as one column."""
     result, chosen = part.result, np.flatnonzero(part.result.evaluated)
     with np.errstate(over="ignore", invalid="ignore"):
         reaction = total_normal_force(result, result.present)
     force = result.force[:, chosen]
     return {
-        "reaction": Followed(reaction[:, np.newaxis]),
+        "reaction": StepValues(reaction[:, np.newaxis]),
         "force": _largest(force, chosen, by_size=True),
         "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
-        "touching": Followed(carried(result)[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
+        "touching": StepValues(carried(result)[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
         "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
     }
 
 
-def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Followed:
+def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> StepValues:
     if not values.shape[1]:
-        return Followed(np.full((len(values), 1), np.nan), np.full((len(values), 1), -1))
+        return StepValues(np.full((len(values), 1), np.nan), np.full((len(values), 1), -1))
     ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
     column = ranked.argmax(axis=1)[:, np.newaxis]
     largest = np.take_along_axis(values, column, axis=1)
-    return Followed(largest, np.where(np.isnan(largest), -1, chosen[column]))
+    return StepValues(largest, np.where(np.isnan(largest), -1, chosen[column]))
 
 
 class First(Generic[Row]):
     """Consumer that keeps the first `most` rows (None: all) that `make` returns for some steps."""
 
-    def __init__(self, make: Callable[[Part], Iterator[Row]], most: int | None) -> None:
+    def __init__(self, make: Callable[[ResultPart], Iterator[Row]], most: int | None) -> None:
         self._make, self._most = make, most
         self.rows: list[Row] = []
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Add the rows of some steps up to the limit."""
         left = None if self._most is None else self._most - len(self.rows)
         if left != 0:

@@ -25,7 +25,7 @@ from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.arrays import StepReader
 from mudline.model.contact.input import ContactInput
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.given_positions import PositionDoubt, position_doubts
@@ -95,7 +95,7 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     steps = places.reshape(-1, *places.shape[-2:])
     watch = ContactWatch(scene, result.evaluated, steps, source)
     watch.look_at_positions(result.known, result.present)
-    watch.take(Part(0, result.as_series()))
+    watch.take(ResultPart(0, result.as_series()))
     return watch.warnings()
 
 
@@ -213,7 +213,7 @@ class ContactWatch:
             last = np.asarray(self._positions[len(self._positions) - 1], dtype=np.float64)
             self._doubts = position_doubts(given, self._scene, present, last)
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Add some steps."""
         result = part.result
         if self._judged or not self._acts:

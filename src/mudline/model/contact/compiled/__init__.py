@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
+from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -73,7 +73,7 @@ class Features(NamedTuple):
     velocities: bool
 
 
-def features_of(tables: Tables, *, flat: bool) -> Features:
+def features_of(tables: LawTables, *, flat: bool) -> Features:
     """Return the features of a scene."""
     friction, trench = tables.friction, tables.trench
     own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
@@ -95,7 +95,7 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
     )
 
 
-def _steepens(tables: Tables) -> bool:
+def _steepens(tables: LawTables) -> bool:
     """Return True if an unloading line may be less steep than the virgin path that led to it."""
     if tables.unloading is None:
         return False
@@ -104,12 +104,12 @@ def _steepens(tables: Tables) -> bool:
     return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
 
 
-def formulas(tables: Tables) -> list[NormalRows]:
+def formulas(tables: LawTables) -> list[NormalRows]:
     """Return the normal laws of elements with an equation in the order of their kinds, those with a path first."""
     return sorted((rows for rows in tables.normal if rows.curve < 0), key=lambda rows: rows.path < 0)
 
 
-def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
+def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     """Return indices (m, c) and numbers (m, c) of the elements, and all curves.
 
     Curves are (4, k): ratios, forces, slopes after the points, and the steepest slopes up to there.
@@ -155,7 +155,7 @@ def _knots(curve: ForceCurve) -> FloatArray:
     return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
 
 
-def suction_table(tables: Tables) -> Any:
+def suction_table(tables: LawTables) -> Any:
     """Return the suction laws (k, c)."""
     if tables.suction is None:
         return read_only(np.empty((0, SUCTION_COLUMNS)))
@@ -165,7 +165,7 @@ def suction_table(tables: Tables) -> Any:
     return read_only(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
 
 
-def node_tables(tables: Tables) -> tuple[Any, Any]:
+def node_tables(tables: LawTables) -> tuple[Any, Any]:
     """Return indices (n, c) and numbers (n, c) of the nodes."""
     count = len(tables.given.node_ids)
     most = max((len(rows.columns) for rows in tables.nodal), default=0)
@@ -188,13 +188,13 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
     return read_only(index), read_only(numbers)
 
 
-def breakout_table(tables: Tables) -> Any:
+def breakout_table(tables: LawTables) -> Any:
     """Return the breakout laws (k, 6): the parameters, and 1 over the number of elements at the node."""
     rows = tables.breakout
     return read_only(np.empty((0, 6)) if rows is None else np.column_stack((*rows.columns, tables.shares)))
 
 
-def trench_tables(tables: Tables) -> tuple[Any, ...]:
+def trench_tables(tables: LawTables) -> tuple[Any, ...]:
     """Return the trenches: start for each node, indices, numbers, straight centrelines, rows of all tables."""
     trench = tables.trench
     if trench is None:

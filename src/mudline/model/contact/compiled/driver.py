@@ -43,7 +43,7 @@ from mudline.model.contact.compiled.loops import ranges_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import IN_PLACE, Batch, ContactState, NormalRows, Tables, arrays_of
+from mudline.model.contact.tables import IN_PLACE, ContactState, LawTables, NormalRows, StepBatch, arrays_of
 
 _BATCH = 3 * 2**19
 """Largest number of nodes times steps at a time."""
@@ -111,7 +111,7 @@ _NO_LOOP: type[Exception] = getattr(numba.core.errors, "UnsupportedBytecodeError
 class CompiledDriver:
     """Evaluator of batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed, threads: int) -> None:
+    def __init__(self, tables: LawTables, seabed: Seabed, threads: int) -> None:
         """Prepare the tables of the loops, and the loops, which are compiled at their first call."""
         given = tables.given
         self._tables, self._threads = tables, threads
@@ -155,7 +155,7 @@ class CompiledDriver:
         self.broken = False
         """True after a law failed to compile."""
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState) -> bool:
+    def run(self, batch: StepBatch, part: ContactResult, state: ContactState, after: ContactState) -> bool:
         """Write a batch to `part` except gaps and normals, which are there already, and the new state to `after`.
 
         Return False if a value is not finite: the numpy driver then raises the error.
@@ -245,7 +245,7 @@ class CompiledDriver:
         return read_only(laid), beside(line.ends, line.elements_at)
 
 
-def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
+def _tasks(tables: LawTables, held: range, width: int) -> list[_Task]:
     """Return the ranges of elements `held`, each followed by the ranges of nodes whose elements are then complete.
 
     All ranges have this width. Ranges of nodes with elements elsewhere are left out; ranges without elements come
@@ -269,7 +269,7 @@ def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
 
 
 def _groups(
-    tables: Tables, threads: int, sequence: list[_Task], width: int
+    tables: LawTables, threads: int, sequence: list[_Task], width: int
 ) -> tuple[list[list[_Task]], list[list[_Task]]]:
     """Return the tasks of each thread in order, and the later tasks of nodes between two threads."""
     ranges = len(range(0, len(tables.half), width))
@@ -285,7 +285,7 @@ def _groups(
     return together, [share for first in range(count) if (share := later[first::count])]
 
 
-def _held(tables: Tables, sequence: list[_Task]) -> int:
+def _held(tables: LawTables, sequence: list[_Task]) -> int:
     """Return how far ranges of nodes look back over elements, at most, rounded up to a power of two."""
     line, far, written = tables.line, 1, 0
     for of_nodes, begin, end in sequence:

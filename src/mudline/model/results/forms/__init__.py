@@ -20,17 +20,17 @@ import numpy as np
 from mudline.basics.installed import install_hint
 from mudline.basics.quantities import RESULT_FORMAT, time_unit
 from mudline.model.contact import Plan
-from mudline.model.contact.columns import Column, Table
+from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.frames import array_name
-from mudline.model.contact.result import Part
-from mudline.model.results.against import Comparison
+from mudline.model.contact.result import ResultPart
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.totals import First, line_steps
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats
 
 
-class Form(NamedTuple):
+class ResultForm(NamedTuple):
     """A format of result files.
 
     Attributes:
@@ -47,21 +47,21 @@ class Form(NamedTuple):
 
 
 FORMS = {
-    "csv": Form("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
-    "json": Form("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
-    "npz": Form(
+    "csv": ResultForm("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
+    "json": ResultForm("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
+    "npz": ResultForm(
         "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last "
         "axis of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines); `units` and "
         "`format`"
     ),
-    "parquet": Form(
+    "parquet": ResultForm(
         "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
         f"`{install_hint('frames')}`",
         ("nodes", "summary"),
         "pyarrow",
         "frames",
     ),
-    "xlsx": Form(
+    "xlsx": ResultForm(
         "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
         f"`{install_hint('excel')}`",
         (),
@@ -75,7 +75,7 @@ TEXTS = ("csv", "json")
 
 More = Mapping[str, object]
 """Additional keys of JSON with their values."""
-Columns = Mapping[str, Sequence[Column]]
+Columns = Mapping[str, Sequence[ResultColumn]]
 """The columns of some steps, by table name."""
 Write = Callable[[Iterator[str]], None]
 """Function that writes text in pieces."""
@@ -86,7 +86,7 @@ class FormError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
+class FileContent:
     """Contents of a file in any format.
 
     Attributes:
@@ -110,13 +110,13 @@ class Contents:
         """Number of steps; 1 without times."""
         return 1 if self.times is None else len(self.times)
 
-    def timed(self, table: str, columns: Sequence[Column], start: int, count: int) -> list[Column]:
+    def timed(self, table: str, columns: Sequence[ResultColumn], start: int, count: int) -> list[ResultColumn]:
         """Return the flat columns of a table, after a column of times if there are any."""
         flat = [part for column in columns for part in column.flat()]
         if self.times is None:
             return flat
         times = np.broadcast_to(self.times[start : start + count, np.newaxis], (count, self.rows[table]))
-        return [Column("time", times, unit=time_unit(self.units)), *flat]
+        return [ResultColumn("time", times, unit=time_unit(self.units)), *flat]
 
 
 class Writer(Protocol):
@@ -135,11 +135,13 @@ class Sink:
     Without a writer nothing is written. JSON has the lines of all steps after them, and no table of lines.
     """
 
-    def __init__(self, evaluation: Evaluation, tables: Mapping[str, Table], writer: Writer | None, form: str) -> None:
+    def __init__(
+        self, evaluation: Evaluation, tables: Mapping[str, ResultTable], writer: Writer | None, form: str
+    ) -> None:
         self._evaluation, self._tables, self._writer = evaluation, tables, writer
         self._lines = First(partial(line_steps, evaluation), None if form == "json" else 0)
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Write some steps. Raises OSError."""
         if self._writer is None:
             return
@@ -151,7 +153,7 @@ class Sink:
             beside = {"restrained": [ids[step].tolist() for step in restrained]}
         self._writer.write(columns, part.start, part.count, beside)
 
-    def finish(self, warnings: Sequence[ContactWarning] = (), comparison: Comparison | None = None) -> None:
+    def finish(self, warnings: Sequence[ContactWarning] = (), comparison: ResultComparison | None = None) -> None:
         """Write the data that follow the last step. Raises OSError."""
         if self._writer is not None:
             more: dict[str, object] = {
@@ -162,29 +164,31 @@ class Sink:
             self._writer.finish(more if comparison is None else more | {"against": comparison.summary()})
 
 
-def tables_of(evaluation: Evaluation, form: str, elements: Table, only: str | None = None) -> dict[str, Table]:
+def tables_of(
+    evaluation: Evaluation, form: str, elements: ResultTable, only: str | None = None
+) -> dict[str, ResultTable]:
     """Return the tables of results in a format, or one table of CSV; JSON has the lines after the last step."""
     makers = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
     names = ("elements", "nodes") if form == "json" else makers if only is None else (only,)
     return {name: makers[name]() for name in names}
 
 
-def contents_of(evaluation: Evaluation, tables: Mapping[str, Table]) -> Contents:
+def contents_of(evaluation: Evaluation, tables: Mapping[str, ResultTable]) -> FileContent:
     """Return the contents of a file with these tables of results."""
     rows = {name: table.rows for name, table in tables.items()}
     plan = {"plan": plan_rows(evaluation.model.plan)}
-    return Contents(rows, evaluation.scene.units, head=plan, times=evaluation.time)
+    return FileContent(rows, evaluation.scene.units, head=plan, times=evaluation.time)
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
+class ResultOutput:
     """Destination of the contents of a file: its format, and open files in a folder, one for each table or one for all.
 
     `tracked` shows the progress of a long loop over a list.
     """
 
     form: str
-    contents: Contents
+    contents: FileContent
     streams: Sequence[BinaryIO]
     folder: Path
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
@@ -214,7 +218,7 @@ def plan_rows(plan: Plan) -> list[dict[str, Any]]:
 
 
 @dataclass(frozen=True, slots=True)
-class Tables:
+class ResultTables:
     """Whole tables by name: flat columns (rows,) without steps; `more` are additional keys of JSON."""
 
     columns: Columns
@@ -223,10 +227,10 @@ class Tables:
     more: More
 
     @property
-    def contents(self) -> Contents:
+    def contents(self) -> FileContent:
         """Contents of a file with these tables; the name of an array begins with that of its table."""
         rows = {name: len(columns[0].values) for name, columns in self.columns.items()}
-        return Contents(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
+        return FileContent(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
 
     def write(self, writer: Writer) -> None:
         """Write the tables. Raises OSError."""

@@ -10,15 +10,15 @@ from typing import IO, Any
 
 import numpy as np
 
-from mudline.model.contact.columns import Column, Values
-from mudline.model.results.forms import Columns, More, Output, Writer
+from mudline.model.contact.columns import ResultColumn, Values
+from mudline.model.results.forms import Columns, More, ResultOutput, Writer
 
 _PACKED = 1 << 18
 """Values packed at a time."""
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Writer]:
+def opened(output: ResultOutput) -> Iterator[Writer]:
     """Yield the writer of an archive."""
     with ExitStack() as temporary:
         yield NpzWriter(output, temporary)
@@ -31,7 +31,7 @@ class NpzWriter:
     takes one array after the other, so values that change are in nameless files in its folder until the end.
     """
 
-    def __init__(self, output: Output, temporary: ExitStack) -> None:
+    def __init__(self, output: ResultOutput, temporary: ExitStack) -> None:
         self._output, self._contents, self._temporary = output, output.contents, temporary
         self._arrays: dict[str, _Array] = {}
 
@@ -64,7 +64,7 @@ class NpzWriter:
 class _Array:
     """An array to be written: values that no step changes in memory, other values in a file of numbers."""
 
-    def __init__(self, column: Column, file: IO[bytes] | None) -> None:
+    def __init__(self, column: ResultColumn, file: IO[bytes] | None) -> None:
         self.over_steps = column.over_steps
         self.shape = column.values.shape if column.steady else column.values.shape[1:]
         self._texts = np.array([name or "" for name in column.names], dtype=np.str_) if column.names else None
@@ -72,7 +72,7 @@ class _Array:
         self.dtype = self._kept if self._texts is None else self._texts.dtype
         self._steady, self._file = column.values, file
 
-    def take(self, column: Column) -> None:
+    def take(self, column: ResultColumn) -> None:
         """Keep the values of some steps."""
         if self._file is not None:
             self._file.write(np.ascontiguousarray(column.values).data)

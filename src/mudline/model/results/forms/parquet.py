@@ -10,14 +10,14 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from mudline.model.contact.frames import arrow_of
-from mudline.model.results.forms import Columns, Contents, More, Output, Writer
+from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, Writer
 
 GROUP = 1 << 18
 """Rows from which on a group is written."""
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Writer]:
+def opened(output: ResultOutput) -> Iterator[Writer]:
     """Yield the writer of a file for each table."""
     with ExitStack() as files:
         yield ParquetWriter(output.contents, dict(zip(output.contents.rows, output.streams, strict=True)), files)
@@ -26,7 +26,7 @@ def opened(output: Output) -> Iterator[Writer]:
 class ParquetWriter:
     """Writer of the columns of CSV: vectors as three, missing values as null; texts are stored once per group."""
 
-    def __init__(self, contents: Contents, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
+    def __init__(self, contents: FileContent, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
         self._contents, self._streams, self._files = contents, streams, files
         self._writers: dict[str, pq.ParquetWriter] = {}
         self._waiting: dict[str, list[pa.Table]] = {table: [] for table in streams}

@@ -14,8 +14,8 @@ import numpy as np
 from pydantic_core import to_json
 
 from mudline.basics.quantities import csv_lines
-from mudline.model.contact.columns import Column, Values
-from mudline.model.results.forms import Columns, Contents, More, Output, Tables, Write, Writer
+from mudline.model.contact.columns import ResultColumn, Values
+from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, ResultTables, Write, Writer
 
 _BLOCK = 8192
 """Rows formatted at a time: the text of a large model is never in memory as a whole."""
@@ -26,7 +26,7 @@ T = TypeVar("T")
 Row = tuple[str, ...]
 
 
-def opened(output: Output) -> AbstractContextManager[Writer]:
+def opened(output: ResultOutput) -> AbstractContextManager[Writer]:
     """Return a context with the writer of a CSV for each table, or of one JSON."""
     contents, writes = output.contents, [text_into(stream) for stream in output.streams]
     if output.form == "json":
@@ -34,12 +34,12 @@ def opened(output: Output) -> AbstractContextManager[Writer]:
     return nullcontext(CsvWriter(contents, dict(zip(contents.rows, writes, strict=True))))
 
 
-def text_writer(form: str, contents: Contents, write: Write, table: str = "elements") -> Writer:
+def text_writer(form: str, contents: FileContent, write: Write, table: str = "elements") -> Writer:
     """Return the writer of one table as "csv", or of all tables as "json"."""
     return CsvWriter(contents, {table: write}) if form == "csv" else JsonWriter(contents, write)
 
 
-def write_text(tables: Tables, form: str, write: Write, table: str) -> None:
+def write_text(tables: ResultTables, form: str, write: Write, table: str) -> None:
     """Write whole tables as "json", or one of them as "csv"."""
     tables.write(text_writer(form, tables.contents, write, table))
 
@@ -70,7 +70,7 @@ class Spelling:
             return numbers
         return [self.nothing if text == "null" else text for text in numbers]
 
-    def rows(self, columns: Sequence[Column], steps: int, rows: int) -> Iterator[Row]:
+    def rows(self, columns: Sequence[ResultColumn], steps: int, rows: int) -> Iterator[Row]:
         """Yield the rows of some steps, one step after the other, from flat columns."""
         for first, last, block in blocks(steps, rows, _BLOCK):
             texts = [
@@ -107,7 +107,7 @@ _CSV = Spelling(lambda name: next(csv_lines([[name]])).removesuffix("\n"), "")
 class CsvWriter:
     """Writer of one file per table: `time` in front if there are times, `units` at the end."""
 
-    def __init__(self, contents: Contents, writes: Mapping[str, Write]) -> None:
+    def __init__(self, contents: FileContent, writes: Mapping[str, Write]) -> None:
         self._contents, self._writes = contents, writes
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
@@ -119,9 +119,9 @@ class CsvWriter:
     def finish(self, more: More) -> None:
         """Write nothing: a table cannot hold `more`."""
 
-    def _pieces(self, table: str, columns: Sequence[Column], start: int, count: int) -> Iterator[str]:
+    def _pieces(self, table: str, columns: Sequence[ResultColumn], start: int, count: int) -> Iterator[str]:
         rows = self._contents.rows[table]
-        units = Column("units", np.zeros(rows, np.int32), (self._contents.units, None), over_steps=False)
+        units = ResultColumn("units", np.zeros(rows, np.int32), (self._contents.units, None), over_steps=False)
         flat = [*self._contents.timed(table, columns, start, count), units]
         if start == 0:
             yield ",".join(column.name for column in flat) + "\n"
@@ -137,7 +137,7 @@ _JSON = Spelling(partial(json.dumps, ensure_ascii=False), "null")
 class JsonWriter:
     """Writer of one document, a row on a line; with times, the rows are under `steps`."""
 
-    def __init__(self, contents: Contents, write: Write) -> None:
+    def __init__(self, contents: FileContent, write: Write) -> None:
         self._contents, self._write = contents, write
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
@@ -179,7 +179,7 @@ def _dumped(value: object) -> str:
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
 
-def _objects(columns: Sequence[Column], rows: Iterable[Row]) -> Iterator[str]:
+def _objects(columns: Sequence[ResultColumn], rows: Iterable[Row]) -> Iterator[str]:
     fields = (f'"{column.name}": {"[%s, %s, %s]" if column.vector else "%s"}' for column in columns)
     template = "{" + ", ".join(fields) + "}"
     return (template % row for row in rows)

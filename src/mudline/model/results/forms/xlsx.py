@@ -14,8 +14,8 @@ from xlsxwriter.worksheet import Worksheet
 
 from mudline.basics.quantities import finite
 from mudline.basics.short_repr import cut
-from mudline.model.contact.columns import Column
-from mudline.model.results.forms import Columns, Contents, FormError, More, Output, Writer
+from mudline.model.contact.columns import ResultColumn
+from mudline.model.results.forms import Columns, FileContent, FormError, More, ResultOutput, Writer
 from mudline.model.results.forms.text import blocks
 
 SHEET_ROWS = 1_048_576
@@ -33,7 +33,7 @@ _CREATED = datetime(2000, 1, 1, tzinfo=UTC)
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Writer]:
+def opened(output: ResultOutput) -> Iterator[Writer]:
     """Yield the writer of a workbook. Raises FormError if a sheet cannot hold all rows of a table."""
     contents = output.contents
     for table, rows in contents.rows.items():
@@ -58,14 +58,14 @@ class WorkbookWriter:
     cell. The rows are in temporary files in the folder of the workbook until the end.
     """
 
-    def __init__(self, book: Any, contents: Contents) -> None:  # noqa: ANN401 - xlsxwriter has no types
+    def __init__(self, book: Any, contents: FileContent) -> None:  # noqa: ANN401 - xlsxwriter has no types
         self._book, self._contents = book, contents
         book.use_zip64()
         book.set_properties({"created": _CREATED})
         book.set_custom_property("mudline.format", contents.format)
         book.set_custom_property("mudline.units", contents.units)
         self._bold, self._italic = book.add_format({"bold": True}), book.add_format({"italic": True})
-        self._sheets = {name: book.add_worksheet(name, worksheet_class=_Sheet) for name in contents.rows}
+        self._sheets = {name: book.add_worksheet(name, worksheet_class=_ExactSheet) for name in contents.rows}
         self._rows = dict.fromkeys(contents.rows, _HEADINGS)
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
@@ -88,7 +88,7 @@ class WorkbookWriter:
         except XlsxWriterException as error:
             raise OSError(str(error)) from error
 
-    def _head(self, sheet: Any, columns: Sequence[Column]) -> None:  # noqa: ANN401 - as above
+    def _head(self, sheet: Any, columns: Sequence[ResultColumn]) -> None:  # noqa: ANN401 - as above
         """Write names and units, which stay in view, as do the first columns."""
         for place, column in enumerate(columns):
             longest = max((len(name) for name in column.names if name), default=_NARROW)
@@ -98,7 +98,7 @@ class WorkbookWriter:
         sheet.freeze_panes(_HEADINGS, 1 + (self._contents.times is not None))
 
 
-class _Sheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
+class _ExactSheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
     """A sheet whose numbers have all their digits; xlsxwriter writes 16."""
 
     def _xml_number_element(self, number: float, attributes: Sequence[tuple[str, object]] = ()) -> None:
@@ -106,7 +106,7 @@ class _Sheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
         self.fh.write(f"<c{about}><v>{number!r}</v></c>")
 
 
-def _cells(column: Column, first: int, last: int, block: slice) -> Sequence[object]:
+def _cells(column: ResultColumn, first: int, last: int, block: slice) -> Sequence[object]:
     """Return the values of some rows of some steps; None for a missing value."""
     values: list[Any] = column.cut(first, last)[:, block].ravel().tolist()
     if column.names:

@@ -57,7 +57,7 @@ class DrawnLine(NamedTuple):
     node_arcs: Floats
 
 
-class Stretch:
+class DrawnStretch:
     """The drawn lines, and the stretch of arc length of all panels along them: where contact changes.
 
     Attributes:
@@ -130,7 +130,7 @@ class Stretch:
         axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
 
 
-def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def force(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the seabed reaction of the elements, or on the nodes if only springs of nodes act."""
     result, units = data.drawn.result, data.given.units
     _extents(axes, data, data.force, stretch)
@@ -150,7 +150,7 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     zero_line(axes)
 
 
-def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def embedment(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the embedment of the elements, downwards; parts that hang high do not hide the embedment of the others."""
     _extents(axes, data, data.depth, stretch)
     _of_elements(axes, data.drawn.result.depth, stretch)
@@ -164,13 +164,13 @@ def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
 
 
-def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def stiffness(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the stiffness of the seabed under the elements."""
     _of_elements(axes, data.drawn.result.stiffness, stretch)
     axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
 
 
-def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def suction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the pull of the seabed per unit length, with the states of suction, at the step of the largest pull."""
     chosen = data.largest["pull"]
     pull, states = np.maximum(0.0 - chosen.result.force, 0.0), chosen.result.state
@@ -187,7 +187,7 @@ def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
 
 
-def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def friction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the axial and the lateral force on the nodes, crossed where they slip, at the step of the largest force."""
     chosen = data.largest["friction"]
     forces, slips = chosen.result.friction, False
@@ -209,7 +209,7 @@ def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     legend(axes, note=_step_note(data, chosen))
 
 
-def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
+def _of_elements(axes: Axes, values: Floats, stretch: DrawnStretch, *, mark: bool = True) -> None:
     """Draw values (m,) of the elements over the arc length of their middles."""
     for line in stretch.lines:
         style = line.style if mark else line.style._replace(marker="")
@@ -217,7 +217,7 @@ def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = T
     widen(axes, np.concatenate([np.zeros(0), *(values[line.elements] for line in stretch.lines)]))
 
 
-def _extents(axes: Axes, data: PlotData, extents: Extents, stretch: Stretch) -> None:
+def _extents(axes: Axes, data: PlotData, extents: Extents, stretch: DrawnStretch) -> None:
     """Shade the range between the least and the largest values of the elements over the steps of a series."""
     if data.steps == 1:
         return
@@ -251,7 +251,7 @@ _LABELLED_POINTS = 3
 """Number of touchdown points up to which their arc length is written next to them."""
 
 
-def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def line(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
     heights, seabed, touching = data.drawn.heights, data.drawn.seabed, False
     for drawn_line in stretch.lines:
@@ -277,7 +277,7 @@ def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     legend(axes, [*handles, *axes.get_legend_handles_labels()[0]])
 
 
-def _crop(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def _crop(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Crop parts that hang so high that nothing of the contact with the seabed would be seen."""
     sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
     most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
@@ -302,7 +302,7 @@ def _thick(axes: Axes, data: PlotData, drawn_line: DrawnLine) -> bool:
     return bool(here.size)
 
 
-def _touchdown_points(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def _touchdown_points(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Mark the touchdown points of the lines."""
     low, high = stretch.limits
     at_step = data.touchdown_points([line.number for line in stretch.lines])

@@ -20,7 +20,7 @@ from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.results.plot_data import Extents, PlotData
 from mudline.model.results.plots import along_line
-from mudline.model.results.plots.along_line import Stretch, when
+from mudline.model.results.plots.along_line import DrawnStretch, when
 from mudline.model.results.plots.curves import loop, on_curves
 from mudline.model.results.plots.style import (
     COLORS,
@@ -58,10 +58,10 @@ def panels_of(data: PlotData) -> list[Panel]:
     """
     # the force of a rigid seabed is not known: no panel shows it as 0
     touched = bool((data.touched & (data.given.law != LawKind.RIGID)).any())
-    stretch, lined = Stretch(data), data.elements.size > 0
+    stretch, lined = DrawnStretch(data), data.elements.size > 0
     touches_down = any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
 
-    def along(name: str, draw: Callable[[Axes, PlotData, Stretch], None]) -> Panel:
+    def along(name: str, draw: Callable[[Axes, PlotData, DrawnStretch], None]) -> Panel:
         return Panel(name, "arc length", lambda axes: draw(axes, data, stretch))
 
     loops = [Panel("loop", "own", partial(loop, data=data, place=place)) for place in range(len(data.looped))]
@@ -83,7 +83,7 @@ def panels_of(data: PlotData) -> list[Panel]:
 @drawing()
 def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
     """Return the figure of results; `caption` has the warnings, below the title."""
-    panels, stretch = panels_of(data), Stretch(data)
+    panels, stretch = panels_of(data), DrawnStretch(data)
     columns = 1 if len(panels) <= 2 else 2
     wide = len(panels) % columns
     """With an odd number of panels the first is as wide as the figure."""
@@ -114,7 +114,7 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
     return figure
 
 
-def _title(data: PlotData, panels: Sequence[Panel], stretch: Stretch) -> str:
+def _title(data: PlotData, panels: Sequence[Panel], stretch: DrawnStretch) -> str:
     """Return the title: the deck, and the step and the part of the line that panels along the line show."""
     source = "" if data.given.names is None else data.given.names.source
     title = f"Seabed contact of {printable(source, _CAPTION)}" if source else "Seabed contact"
@@ -135,7 +135,7 @@ def plot_panel(result: ContactResult, axes: Axes, name: str, *, elements: Sequen
     expect_word(name, "panel", tuple(panels), f"one of {', '.join(panels)}")
     panels[name].draw(axes)
     if panels[name].axis == "arc length":
-        Stretch(data).show(axes)
+        DrawnStretch(data).show(axes)
     finish(axes)
     return axes
 
@@ -155,7 +155,7 @@ def plot_result(
 # ----------------------------------------------------------------------------------------------------- panels over time
 
 
-def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def touchdown(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the arc length of the first and the last touchdown point of each line over time."""
     several = len(stretch.lines) > 1
     for line in stretch.lines:
