@@ -139,8 +139,8 @@ def as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealA
     array: RealArray = as_array(velocities, "velocities")
     same = array.shape == shape or (shape[0] == 1 and array.shape == shape[1:])
     if array.dtype.kind not in "iuf" or not same:
-        found = f"{array.shape} of {array.dtype}"
-        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {found}")
+        actual = f"{array.shape} of {array.dtype}"
+        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {actual}")
     return array.reshape(shape)
 
 

@@ -102,9 +102,9 @@ class ResultTable(ABC):
             if (values := self._fixed.get(name)) is not None
         ]
 
-    def _columns(self, given: dict[str, Values], result: ContactResult) -> list[ResultColumn]:
-        """Return a column of each quantity: a fixed one, one of `given`, or the attribute of the result."""
-        values = self._fixed | given
+    def _columns(self, changing: dict[str, Values], result: ContactResult) -> list[ResultColumn]:
+        """Return a column of each quantity: a fixed one, one of `changing`, or the attribute of the result."""
+        values = self._fixed | changing
         return [
             ResultColumn(
                 name,

@@ -217,13 +217,13 @@ class ContactInput:
         for name in ("length", "diameter"):
             _expect(getattr(self, name), name, "f", (elements,))
         for name in _WEIGHTS:
-            if (given := getattr(self, name)) is not None:
-                _expect(given, name, "f", (elements,))
+            if (weights := getattr(self, name)) is not None:
+                _expect(weights, name, "f", (elements,))
         expect_word(self.tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         self._check_elements(nodes)
         names = dict.fromkeys(assignment.law for assignment in self.laws)
-        found = {name: self._assigned(name) for name in names}
-        object.__setattr__(self, "assigned", {name: given for name, given in found.items() if len(given.rows)})
+        assigned = {name: self._assigned(name) for name in names}
+        object.__setattr__(self, "assigned", {name: law for name, law in assigned.items() if len(law.rows)})
         self._check_normal()
 
     @property

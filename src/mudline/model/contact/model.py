@@ -132,18 +132,18 @@ class ContactModel:
             ValueError: an argument has the wrong shape or type, or a series with suction or damping has neither
                 velocities nor times.
         """
-        given = self.input.coordinates if positions is None else positions
-        if isinstance(given, Positions):
-            present = given.present if present is None else present
-            velocities = given.velocities if velocities is None else velocities
-            times = given.time if times is None and given.timed else times
-            given = given.values if len(given.values) > 1 or given.time is not None else given.values[0]
+        series = self.input.coordinates if positions is None else positions
+        if isinstance(series, Positions):
+            present = series.present if present is None else present
+            velocities = series.velocities if velocities is None else velocities
+            times = series.time if times is None and series.timed else times
+            series = series.values if len(series.values) > 1 or series.time is not None else series.values[0]
         single = False
-        if not isinstance(given, StepReader):
-            given = as_array(given, "positions")
-            single = given.ndim == 2
-            given = given.copy() if single else given  # the result keeps the array, which the caller may overwrite
-        part = next(self.stream(given, present=present, velocities=velocities, times=times, together=True))
+        if not isinstance(series, StepReader):
+            series = as_array(series, "positions")
+            single = series.ndim == 2
+            series = series.copy() if single else series  # the result keeps the array, which the caller may overwrite
+        part = next(self.stream(series, present=present, velocities=velocities, times=times, together=True))
         return part.result.step(0) if single else part.result
 
     def stream(
@@ -230,15 +230,15 @@ class ContactModel:
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
-            given = _read_steps(series, range(1), self.input.node_ids, None)
+            places = _read_steps(series, range(1), self.input.node_ids, None)
             if out is None:
-                part, spare = self._blank(np.empty(given.shape), self._everywhere, None), None
+                part, spare = self._blank(np.empty(places.shape), self._everywhere, None), None
             else:
                 part, spare = self._again(out, state)
             # a copy, which state and result keep: the caller may write the next positions into the same array
             points = np.asarray(part.positions)
             points.flags.writeable = True
-            points[...] = given
+            points[...] = places
             points.flags.writeable = False
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
@@ -412,13 +412,13 @@ def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | Ste
     Raises:
         ValueError: the positions have another shape, or are not real numbers.
     """
-    given: RealArray | StepReader = positions if isinstance(positions, StepReader) else as_array(positions, "positions")
-    if given.dtype.kind not in "iuf":
-        raise ValueError(f"positions must be real numbers, not {given.dtype}")
-    if given.ndim not in {2, 3} or given.shape[-2:] != (nodes, 3):
+    array: RealArray | StepReader = positions if isinstance(positions, StepReader) else as_array(positions, "positions")
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"positions must be real numbers, not {array.dtype}")
+    if array.ndim not in {2, 3} or array.shape[-2:] != (nodes, 3):
         expected = f"({nodes}, 3) or (steps, {nodes}, 3)"
-        raise ValueError(f"positions must have the shape {expected}, not {given.shape}")
-    return given if isinstance(given, StepReader) or given.ndim == 3 else given[np.newaxis]
+        raise ValueError(f"positions must have the shape {expected}, not {array.shape}")
+    return array if isinstance(array, StepReader) or array.ndim == 3 else array[np.newaxis]
 
 
 def _as_mask(present: ArrayLike, nodes: int) -> BoolArray:

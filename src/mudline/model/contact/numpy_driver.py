@@ -34,11 +34,7 @@ _BATCH = 2**20
 """Largest number of nodes times steps of a batch."""
 _NONE = np.empty(0, np.intp)
 _KEPT = {-3: 2**25, -1: 2**29}
-"""Values of options of `mallopt` by number.
-
-M_MMAP_THRESHOLD is the size of the largest arrays that are kept, at its upper limit. M_TRIM_THRESHOLD is the size of
-freed memory that is kept at the end of the heap: the results of five million nodes.
-"""
+"""Options of `mallopt`: largest kept array (M_MMAP_THRESHOLD), kept memory of the heap (M_TRIM_THRESHOLD)."""
 
 
 class NumpyDriver:

@@ -188,11 +188,7 @@ Backend = Literal["auto", "numpy", "fast"]
 MOST_PARAMETERS = 9
 """Largest number of parameters of a normal law that compiled loops support."""
 _WORTH_COMPILING, _WORTH_COMPILING_PLAIN = 5_000_000, 50_000_000
-"""Number of nodes times steps that makes compiled loops worthwhile.
-
-The first number is for laws with a history, the second for laws without: numpy is nearly as fast there. The
-first use includes the time of compilation.
-"""
+"""Nodes times steps that make compiled loops worthwhile, first compilation included: with history, and without."""
 
 
 class BackendChoice:

@@ -86,10 +86,10 @@ def stiffest(tables: LawTables, result: ContactResult | None, speed: FloatArray 
             laws.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
         reached = _reached(tables, result, speed)
         for name in known_laws():
-            given = tables.given.assigned.get(name)
-            if given is not None and given.law.largest is not None:
-                own = reached.of_rows(given.rows, given.law.acts_on)
-                laws.append(_of_law(tables, given.law, given.rows, *given.law.largest(own, given.parameters)))
+            entry = tables.given.assigned.get(name)
+            if entry is not None and entry.law.largest is not None:
+                own = reached.of_rows(entry.rows, entry.law.acts_on)
+                laws.append(_of_law(tables, entry.law, entry.rows, *entry.law.largest(own, entry.parameters)))
     return Stiffest(tuple(laws))
 
 
@@ -156,10 +156,7 @@ def _static_normal_force(tables: LawTables) -> FloatArray:
 _THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
 
 ADVISED_OMEGA_DT = 0.5
-"""Largest product of frequency and step that is advised.
-
-Up to this value a landing gains up to 3 % of its speed, or loses 3.5 %, in the usual implicit schemes of second order.
-"""
+"""Largest advised product of frequency and step: a landing gains up to 3 % of its speed, or loses 3.5 %."""
 
 
 def rounded_down(step: float) -> float:

@@ -224,12 +224,12 @@ class LineResults(ResultTable):
         """Return the columns of `LINES`."""
         with np.errstate(over="ignore", invalid="ignore"):
             values = [self._values(line, part.result) for line in self.finder.series(part)]
-        given = {
+        figures = {
             name: np.stack([each[name] for each in values], axis=1) if values else np.zeros((part.count, 0))
             for name in LINES
             if name not in self._fixed
         }
-        return self._columns(given, part.result)
+        return self._columns(figures, part.result)
 
     def _values(self, line: LineSeries, result: ContactResult) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines

@@ -30,13 +30,13 @@ def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) ->
         for index, entry, curve in used_curves(scene)
     ]
     others = [
-        _curve_row(given.name, curve, [], (), None)
-        | {"at": [_value_of_other(curve, given, ratio) for ratio in ratios]}
-        | {"kind": given.kind, "keyword": given.keyword, "axes": list(given.axes)}
-        | {"units": [unit_text(unit, scene.units) for unit in given.units], "ends": given.ends}
-        | {"reach": [finite(end) for end in given.reach]}
-        for given in sorted(other_curves(scene.deck), key=lambda given: (given.kind, given.keyword))
-        if (curve := given.made())
+        _curve_row(source.name, curve, [], (), None)
+        | {"at": [_value_of_other(curve, source, ratio) for ratio in ratios]}
+        | {"kind": source.kind, "keyword": source.keyword, "axes": list(source.axes)}
+        | {"units": [unit_text(unit, scene.units) for unit in source.units], "ends": source.ends}
+        | {"reach": [finite(end) for end in source.reach]}
+        for source in sorted(other_curves(scene.deck), key=lambda source: (source.kind, source.keyword))
+        if (curve := source.made())
     ]
     return seabed + others
 
@@ -94,13 +94,13 @@ def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
     }
 
 
-def _value_of_other(curve: ForceCurve, given: DeckCurve, ratio: float) -> dict[str, Any]:
+def _value_of_other(curve: ForceCurve, source: DeckCurve, ratio: float) -> dict[str, Any]:
     """Return the values of a curve that does not continue with its slope: None where unknown, else the end value."""
     values = _value_at(curve, ratio)
-    low, high = given.reach
+    low, high = source.reach
     if not low <= ratio <= high:
         return dict.fromkeys(values) | {"ratio": ratio, "extrapolated": CURVE_SIDES[1 if ratio > high else -1]}
-    if values["extrapolated"] is not None and given.ends == "value":
+    if values["extrapolated"] is not None and source.ends == "value":
         values |= {"force": float(curve.forces[0 if values["extrapolated"] == "below" else -1]), "slope": 0.0}
     return values
 

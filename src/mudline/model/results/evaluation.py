@@ -182,16 +182,16 @@ def evaluate_scene(
 
         weighed = replace(ready.model.input, weight=pipe_of(scene).weight)
         ready = replace(ready, model=ContactModel(weighed))
-    given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
+    used = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
     if ready.model.plan.history:
-        _require_clock(ready, given)
+        _require_clock(ready, used)
     return Evaluation(
         ready.scene,
         ready.model,
-        given.values,
-        given.present,
-        given.time,
-        given.velocities,
+        used.values,
+        used.present,
+        used.time,
+        used.velocities,
         ready.lengths_from_positions,
         source="deck" if positions is None else "file" if at_rest is None else "rest shape",
         notes=tuple(at_rest or ()),
@@ -251,8 +251,8 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
     unknown = np.isnan(scene.length)
     if not unknown.any():
         return scene, 0
-    given = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
-    ends = given[scene.element_nodes[unknown]]
+    places = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
+    ends = places[scene.element_nodes[unknown]]
     between = distances(ends[:, 0], ends[:, 1])
     length = scene.length.copy()
     length[unknown] = np.where(np.isnan(between), 0.0, between)

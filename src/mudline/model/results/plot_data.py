@@ -220,8 +220,8 @@ class PlotData:
             self.largest[name] = Chosen(part.start + step, part.result.step(step))
 
     def _points_of(self, part: ResultPart, step: Indices, element: Indices) -> Points:
-        found = part.result.ratio[step, element], part.result.force[step, element]
-        return Points(self.given.curve_index[element], *found, part.start + step)
+        point = part.result.ratio[step, element], part.result.force[step, element]
+        return Points(self.given.curve_index[element], *point, part.start + step)
 
     # ------------------------------------------------------------------------------------------------ what there is
 

@@ -175,10 +175,10 @@ def extension_summary(scene: Scene) -> list[dict[str, Any]]:
         {
             "keyword": keyword,
             "set": getattr(entry, "set_name", None),
-            "elements": int((found.of_element == index).sum()),
+            "elements": int((extension.of_element == index).sum()),
         }
-        for keyword, found in scene.extensions.items()
-        for index, entry in enumerate(found.entries)
+        for keyword, extension in scene.extensions.items()
+        for index, entry in enumerate(extension.entries)
     ]
 
 

@@ -280,10 +280,10 @@ class ContactWatch:
 
     def warnings(self) -> list[ContactWarning]:
         """Return the warnings in the order of the deck; call after all steps."""
-        found = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
-        found += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
-        found += [*self._floating(), *self._curves()]
-        return sorted(found, key=lambda warning: warning.diagnostic.sort_key)
+        listed = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
+        listed += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
+        listed += [*self._floating(), *self._curves()]
+        return sorted(listed, key=lambda warning: warning.diagnostic.sort_key)
 
     def note(self) -> str:
         """Return the note that the positions are the deck's own, with the weight they carry.

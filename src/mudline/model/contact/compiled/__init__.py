@@ -37,10 +37,7 @@ INNER, OUTER, STEEPNESS, AMOUNT, TRENCH_NUMBERS = range(5)
 TRENCH_KIND, TABLE_START, TABLE_END, CENTRELINE, TRENCH_INDICES = range(5)
 
 NOTHING = 2**32 - 1
-""""None" in tables of indices.
-
-The indices are unsigned, as are all indices of the loops: a signed index would be checked for a count from the end.
-"""
+""""None" in tables of indices, which are unsigned: signed ones would be checked for a count from the end."""
 
 NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; laws with an equation are numbered from the last kind on."""

@@ -48,10 +48,7 @@ from mudline.model.contact.tables import IN_PLACE, ContactState, LawTables, Norm
 _BATCH = 3 * 2**19
 """Largest number of nodes times steps at a time."""
 _RANGE, _RANGE_OF_ONE = 256, 8192
-"""Elements or nodes in a range.
-
-With several steps the values of a range stay in the second-level cache; a single step reads nothing twice.
-"""
+"""Elements or nodes in a range, whose values stay in the second-level cache; in a range of a single step."""
 _STEPS = 64
 _NO_SPEED = np.empty((0, 0))
 _WORTH_THREADS = 60_000

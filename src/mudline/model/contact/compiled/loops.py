@@ -273,7 +273,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                 past_sticks, past_sticking = sticks, sticking
             for i in range(begin, end):
                 total = 0.0
-                wanted = push = sideward = nothing
+                direction = push = sideward = nothing
                 for at in range(first[i], behind[i]):
                     e = elements[at]
                     total += force[step, e] * half[e]
@@ -304,8 +304,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             unit = read(tangent, step, np.uint64(e) & ring)
                             if math.isnan(unit[0]):
                                 unit = in_plane(direction_of(points, step, ends[e, col.FIRST], ends[e, col.SECOND]))
-                            wanted = blend(wanted, unit, 1.0, senses[at] if turns else 1.0)
-                        along, exists = project(wanted, n)
+                            direction = blend(direction, unit, 1.0, senses[at] if turns else 1.0)
+                        along, exists = project(direction, n)
                         if not exists:
                             along = default(n)
                         if friction and turned and not math.isnan(table[i, col.COSINE]):

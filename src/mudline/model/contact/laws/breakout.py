@@ -42,15 +42,15 @@ def shares(far: Value, deep: Value, law: Numbers) -> tuple[Value, Value, Value]:
     return 1.0 - fall * into, where((into > 0.0) & (into < 1.0), fall / span, 0.0), law[0] / peak
 
 
-def _out_of_order(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
-    peak = given["peak_displacement"] + given["peak_growth"]
-    return given["residual_displacement"] <= peak, "its residual is reached no later than its peak"
+def _out_of_order(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    peak = parameters["peak_displacement"] + parameters["peak_growth"]
+    return parameters["residual_displacement"] <= peak, "its residual is reached no later than its peak"
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
     """Return the decrease of the lateral resistance after its peak, as an amount; it is smaller at large embedment."""
-    fall = reached.lateral * reached.normal_force * np.maximum(1.0 - given["residual"], 0.0)
-    return fall / (given["residual_displacement"] - given["peak_displacement"]), None
+    fall = reached.lateral * reached.normal_force * np.maximum(1.0 - parameters["residual"], 0.0)
+    return fall / (parameters["residual_displacement"] - parameters["peak_displacement"]), None
 
 
 BREAKOUT = Law(

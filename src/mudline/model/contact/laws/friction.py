@@ -314,11 +314,11 @@ def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal:
         return by_position, 0.0 - force * growth_by_offset, rising / scale - force * growth_by_normal
 
 
-def _plan(given: dict[str, FloatArray]) -> str:
-    constant = ~(np.isnan(given["axial_stiffness"]) & np.isnan(given["lateral_stiffness"]))
+def _plan(parameters: dict[str, FloatArray]) -> str:
+    constant = ~(np.isnan(parameters["axial_stiffness"]) & np.isnan(parameters["lateral_stiffness"]))
     parts = []
     if constant.any():
-        ellipses = int((constant & (given["elliptic"] > 0.0)).sum())
+        ellipses = int((constant & (parameters["elliptic"] > 0.0)).sum())
         criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
         parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
     if lengths := int((~constant).sum()):
@@ -326,12 +326,12 @@ def _plan(given: dict[str, FloatArray]) -> str:
     return "; ".join(parts)
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
     """Return the spring of a node that sticks, the stiffer of both directions."""
     springs = []
     for side in ("axial", "lateral"):
-        coefficient, constant = given[f"{side}_coefficient"], given[f"{side}_stiffness"]
-        rising = coefficient / given[f"{side}_mobilisation"]
+        coefficient, constant = parameters[f"{side}_coefficient"], parameters[f"{side}_stiffness"]
+        rising = coefficient / parameters[f"{side}_mobilisation"]
         spring = np.where(np.isnan(constant), np.where(rising > 0.0, rising * reached.normal_force, 0.0), constant)
         # a direction without a coefficient has no limit to stick below; trench walls add one
         springs.append(spring if reached.walls else np.where(coefficient > 0.0, spring, 0.0))

@@ -145,12 +145,12 @@ NODAL = NormalLaw(
 )
 
 
-def _own_stiffness(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
-    return given["stiffness"], None
+def _own_stiffness(_reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    return parameters["stiffness"], None
 
 
 def _planned(what: str) -> Callable[[dict[str, FloatArray]], str]:
-    return lambda given: f"{counted(int((given['stiffness'] > 0.0).sum()), 'element')} with a spring {what}"
+    return lambda parameters: f"{counted(int((parameters['stiffness'] > 0.0).sum()), 'element')} with a spring {what}"
 
 
 def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Value, Value]:
@@ -201,13 +201,13 @@ def damping_force(z: Value, v: Value, damping: Value) -> Value:
     return where((z > 0.0) & (v < 0.0), 0.0 - damping * v, 0.0)
 
 
-def _largest_damping(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
-    damping = np.where(given["damping"] > 0.0, given["damping"], np.nan)
+def _largest_damping(_reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    damping = np.where(parameters["damping"] > 0.0, parameters["damping"], np.nan)
     return 0.0 * damping, damping
 
 
-def _at(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
-    return np.where((step.z > 0.0) & (step.v < 0.0), given["damping"], 0.0)
+def _at(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
+    return np.where((step.z > 0.0) & (step.v < 0.0), parameters["damping"], 0.0)
 
 
 def _damping(name: str, summary: str, acts_on: str, parameter: Parameter) -> Law:

@@ -245,8 +245,8 @@ class SuctionHistory:
             return cls(nothing > 0.0, nothing.astype(np.int8), nothing, law.initial_factor, law.least_depth)
 
 
-def _crossed(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
-    return given["first_corner"] > given["second_corner"], "its first corner is above its second"
+def _crossed(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    return parameters["first_corner"] > parameters["second_corner"], "its first corner is above its second"
 
 
 def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -273,22 +273,22 @@ def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
     return slope
 
 
-def _damping(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
-    rate = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**given), step.before.factor)
+def _damping(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
+    rate = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**parameters), step.before.factor)
     return np.where(step.after.state == SUCTION, 0.0 - rate, 0.0)
 
 
-def _plan(given: dict[str, FloatArray]) -> str:
-    slow = sorted(set(given["regularisation"].tolist()))
+def _plan(parameters: dict[str, FloatArray]) -> str:
+    slow = sorted(set(parameters["regularisation"].tolist()))
     span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
     capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
-    elements = counted(len(given["regularisation"]), "element")
+    elements = counted(len(parameters["regularisation"]), "element")
     return f"{elements} after Bridge et al., with a state each{capped}"
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
     """Return the rise and the damping at the velocity that makes them largest; infinite if no velocity does."""
-    law = SuctionLaw(**given)
+    law = SuctionLaw(**parameters)
     if reached.speed is not None:
         rise, damping = (
             rates if rates.ndim == 1 else np.fmax.reduce(rates, axis=0) for rates in suction_rates(law, reached.speed)
@@ -329,7 +329,7 @@ SUCTION_LAW = Law(
     velocities=True,
     history=True,
     state="suction",
-    initial=lambda _, given: SuctionHistory.initial(SuctionLaw(**given)),
+    initial=lambda _, parameters: SuctionHistory.initial(SuctionLaw(**parameters)),
     check=_crossed,
     plan=_plan,
     largest=_largest,

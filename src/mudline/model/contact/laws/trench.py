@@ -140,8 +140,8 @@ _CENTRELINE = tuple(
 )
 
 
-def _widths(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
-    return ~(given["upper"] > given["bottom"]), "the upper width of its trench is not above the bottom width"
+def _widths(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    return ~(parameters["upper"] > parameters["bottom"]), "the upper width of its trench is not above the bottom width"
 
 
 def _trench(name: str, summary: str, own: Parameter, plan: str, equation: str, *, tables: bool = False) -> Law:

@@ -74,9 +74,9 @@ def on_line(z: Value, z_max: Value, force_max: Value, line: Value, bottom: Value
     return where(below, np.maximum(force_max - line * (z_max - z), 0.0), 0.0), where(below, line, 0.0)
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
     """Return ku, or the steepest slope of the virgin path if larger."""
-    return np.maximum(given["stiffness"], reached.virgin), None
+    return np.maximum(parameters["stiffness"], reached.virgin), None
 
 
 UNLOADING = Law(
@@ -87,7 +87,7 @@ UNLOADING = Law(
     parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
     history=True,
     state="unloading",
-    initial=lambda _, given: UnloadingHistory.initial(given["stiffness"]),
+    initial=lambda _, parameters: UnloadingHistory.initial(parameters["stiffness"]),
     plan="on unloading lines, from the deepest point so far",
     largest=_largest,
     equation="F = max(0, F_max - ku' (z_max - z)) below z_max",

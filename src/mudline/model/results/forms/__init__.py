@@ -75,6 +75,8 @@ TEXTS = ("csv", "json")
 
 More = Mapping[str, object]
 """Additional keys of JSON with their values."""
+NamedTables = Mapping[str, ResultTable]
+"""Tables of results, by name."""
 Columns = Mapping[str, Sequence[ResultColumn]]
 """The columns of some steps, by table name."""
 Write = Callable[[Iterator[str]], None]
@@ -135,9 +137,7 @@ class Sink:
     Without a writer nothing is written. JSON has the lines of all steps after them, and no table of lines.
     """
 
-    def __init__(
-        self, evaluation: Evaluation, tables: Mapping[str, ResultTable], writer: Writer | None, form: str
-    ) -> None:
+    def __init__(self, evaluation: Evaluation, tables: NamedTables, writer: Writer | None, form: str) -> None:
         self._evaluation, self._tables, self._writer = evaluation, tables, writer
         self._lines = First(partial(line_steps, evaluation), None if form == "json" else 0)
 
@@ -164,16 +164,14 @@ class Sink:
             self._writer.finish(more if comparison is None else more | {"against": comparison.summary()})
 
 
-def tables_of(
-    evaluation: Evaluation, form: str, elements: ResultTable, only: str | None = None
-) -> dict[str, ResultTable]:
+def tables_of(evaluation: Evaluation, form: str, elements: ResultTable, only: str | None = None) -> NamedTables:
     """Return the tables of results in a format, or one table of CSV; JSON has the lines after the last step."""
     makers = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
     names = ("elements", "nodes") if form == "json" else makers if only is None else (only,)
     return {name: makers[name]() for name in names}
 
 
-def contents_of(evaluation: Evaluation, tables: Mapping[str, ResultTable]) -> FileContent:
+def contents_of(evaluation: Evaluation, tables: NamedTables) -> FileContent:
     """Return the contents of a file with these tables of results."""
     rows = {name: table.rows for name, table in tables.items()}
     plan = {"plan": plan_rows(evaluation.model.plan)}
