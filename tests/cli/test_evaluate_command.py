@@ -243,7 +243,7 @@ def test_deck_without_elements(place: Place) -> None:
     assert "no elements to evaluate: *LINES may make them" in run("evaluate", place(deck)).err
     assert "to export: those of *LINES are" in run("export", place(deck), "--to", "orcaflex", "-o", "out").err
     outcome = run("evaluate", place("$MODEL\n*NODE,,,\n1,0,0,\n*ELEMENT,,,\n1,1,2,\n"))
-    assert "no elements to evaluate: 2 keywords of it not known, `mudline lint` names them" in outcome.err
+    assert "no elements to evaluate: 2 unknown keywords, `mudline lint` names them" in outcome.err
 
 
 @pytest.mark.parametrize("decks", [("a.keyxm", "b.keyxm"), (".",)], ids=["two", "folder"])

@@ -114,7 +114,7 @@ def test_the_plan_of_a_scene_with_everything() -> None:
     assert "after Bridge et al., with a state each, " in why["suction"]
     assert why["suction"].endswith("with a spring up to an extent, without history (inferred)")
     assert "nodes with a constant spring, " in why["friction"]
-    assert why["lateral"].endswith("with a spring to where it touched down (inferred), in place of friction")
+    assert why["lateral"].endswith("with a spring to its touchdown point (inferred), in place of friction")
     assert why["trench"].endswith("the seabed is not lowered")
 
 

@@ -366,7 +366,7 @@ class ContactInput:
         for assigned in self.normal_laws:
             for name in ("unloading", "suction") if isinstance(assigned.law, PathLaw) else ():
                 also = self.assigned[name].rows if name in self.assigned else np.zeros(0, np.intp)
-                what = f"has a {assigned.law.name} law, which has its own {name}, and a law of {name} beside it"
+                what = f"has a {assigned.law.name} law, which has its own {name}, and an additional {name} law"
                 self._refuse_first(assigned.law, assigned.rows, np.isin(assigned.rows, also), what)
 
     def _require(self, holds: BoolArray, otherwise: str) -> None:

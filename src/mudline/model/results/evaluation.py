@@ -27,7 +27,7 @@ from mudline.model.scene.weights import left_out
 Tension = Literal["keep", "cut"]
 PositionSource = Literal["deck", "file", "rest shape"]
 
-_HISTORY = "this deck has laws whose result depends on the steps before, which need times that rise"
+_HISTORY = "this deck has laws whose result depends on the steps before, which need ascending times"
 
 
 class ResultConsumer(Protocol):
@@ -227,7 +227,7 @@ def require_elements(scene: Scene) -> None:
         hint = _maker_hint(definers, "ELEMENT")
         unknown = sum(problem.code == SYN009 for problem in scene.deck.problems)
         if unknown and not hint:  # a keyword of the elements may be among them
-            hint = f": {counted(unknown, 'keyword')} of it not known, `mudline lint` names them"
+            hint = f": {counted(unknown, 'unknown keyword')}, `mudline lint` names them"
         raise scene.refusal(f"the deck has no elements to evaluate{hint}")
     dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
     if dangling.size:
@@ -275,5 +275,5 @@ def _require_clock(ready: Prepared, positions: Positions) -> None:
     falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
     if falls.size:
         before, after = positions.time[falls[0] : falls[0] + 2].tolist()
-        what = f"{laws[0]} needs velocities, or times that rise" if laws else _HISTORY
+        what = f"{laws[0]} needs velocities, or ascending times" if laws else _HISTORY
         raise ready.scene.refusal(f"{what}: {after!r} follows {before!r}")

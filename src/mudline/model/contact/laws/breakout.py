@@ -55,7 +55,7 @@ def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[Float
 
 BREAKOUT = Law(
     name="breakout",
-    summary="a lateral breakout that is had once, and a residual",
+    summary="a single lateral breakout, then a residual",
     stage="friction",
     acts_on="nodes",
     parameters=(
@@ -69,7 +69,7 @@ BREAKOUT = Law(
     state="breakout",
     initial=lambda count, _: np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1),
     check=_out_of_order,
-    plan="with a lateral breakout that is had once, and a residual, where mu2 and Kt2 have no effect",
+    plan="with a single lateral breakout, then a residual, where mu2 and Kt2 have no effect",
     largest=_largest,
     equation="limit = mu2 N up to s = d, falling to r mu2 N; s the largest displacement so far",
     source="DNV-RP-F114, residual factor and best estimates of displacements, read at second hand",

@@ -182,14 +182,14 @@ def lateral_force(stiffness: Value, elongation: Value) -> Value:
 
 LATERAL = Law(
     name="lateral",
-    summary="spring to where the element touched down",
+    summary="spring to the touchdown point of the element",
     stage="lateral",
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,
     state="touchdown",
     initial=lambda count, _: np.full((count, 3), np.nan, order="F"),
-    plan=_planned("to where it touched down (inferred), in place of friction"),
+    plan=_planned("to its touchdown point (inferred), in place of friction"),
     largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",
     source="LATERAL= of *SEABED PROPERTIES (INFERRED)",

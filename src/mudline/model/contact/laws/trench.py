@@ -177,9 +177,9 @@ TRENCH_TABLE = _trench(
 )
 TRENCH_LEVEL = _trench(
     "trench level",
-    "seabed that is lowered in a trench",
+    "lowered seabed in a trench",
     Parameter("depth", "L", "depth of the trench", above=True),
-    "where the seabed is lowered by depth and widths after all, along the normal of the seabed",
+    "where depth and widths lower the seabed, along its normal",
     "gap + depth w(|y|)",
 )
 TRENCH_WALL = _trench(
