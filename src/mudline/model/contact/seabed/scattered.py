@@ -118,7 +118,7 @@ def _triangulated(places: FloatArray) -> Delaunay:
     try:
         triangles = Delaunay(places)
     except QhullError as error:
-        raise ValueError("the points of the surface lie on a line; expected one off that line, or a 2D profile") from error
+        raise ValueError("the points of the surface lie on a line; expected one off it, or a 2D profile") from error
     if len(triangles.coplanar):
         raise ValueError(f"the surface has {len(triangles.coplanar)} points too close to others to distinguish")
     return triangles
