@@ -45,13 +45,14 @@ def test_representations_of_the_main_objects(monkeypatch: pytest.MonkeyPatch) ->
     assert repr(deck) == "<Deck 'scr-touchdown.keyxm': metric, 3 sections, 16 blocks>"
     assert repr(scene) == "<Scene of 'scr-touchdown.keyxm': metric, 201 nodes, 200 elements, 7 sets, 2 curves>"
     assert repr(contact) == (
-        "<ContactModel: 201 nodes, 200 elements; floor, normal law, friction, assembly; one step after the other>"
+        "<ContactModel: 201 nodes, 200 elements; seabed surface, normal law, friction, assembly; "
+        "one step after the other>"
     )
     result = contact.evaluate(np.zeros((4, 201, 3)))
     assert repr(result) == "<ContactResult: elements (4, 200), nodes (4, 201); with friction, friction_state>"
     assert repr(contact.plan) == (
-        "<Plan: floor, normal law, friction, assembly; without smoothing, unloading, suction, lateral, trench; "
-        "one step after the other>"
+        "<Plan: seabed surface, normal law, friction, assembly; without smoothing, unloading, suction, lateral, "
+        "trench; one step after the other>"
     )
     before = contact.initial_state()
     _, after = contact.step(scene.coordinates, None, before)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.model.contact import numpy_driver
-from mudline.model.contact.result import Part
-from mudline.model.results.against import Comparison
+from mudline.model.contact.result import ResultPart
+from mudline.model.results.against import ResultComparison
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
@@ -104,13 +104,13 @@ def test_the_time_of_the_largest_difference_in_a_series_of_several_parts(
     positions = place("".join(["time,node,x,y,z\n", *rows]), "steps.csv")
     other = place("".join(["time,element,force\n", *ours]), "other.csv")
     counted: list[int] = []
-    take = Comparison.take
+    take = ResultComparison.take
 
-    def counting(self: Comparison, part: Part) -> None:
+    def counting(self: ResultComparison, part: ResultPart) -> None:
         counted.append(part.count)
         take(self, part)
 
-    monkeypatch.setattr(Comparison, "take", counting)
+    monkeypatch.setattr(ResultComparison, "take", counting)
     options = (place(), "--positions", positions, "--against", other, "--output-format", "json")
     [column] = run("evaluate", *options).json()["against"]["columns"]
     assert counted == [1, 1, 1, 1]

@@ -14,7 +14,7 @@ from tests.helpers.builders.decks import CLEAN, CLEAN_WARNING, LINEAR, PULLING
 RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
 FRICTION = CLEAN.replace(" STIFFNESS=Clay\n", " STIFFNESS=Clay\n FRICTION=0.3, 0.5\n")
 STAGES = [
-    "floor",
+    "seabed surface",
     "normal law",
     "smoothing",
     "unloading",
@@ -249,7 +249,7 @@ def test_plan_in_json_and_csv(place: Place) -> None:
     assert friction["active"]
     assert "mobilisation length" in friction["why"]
     rows = list(csv.DictReader(run("evaluate", place(), "--plan", "--output-format", "csv").out.splitlines()))
-    assert [row["stage"] for row in rows if row["active"] == "true"] == ["floor", "normal law", "assembly"]
+    assert [row["stage"] for row in rows if row["active"] == "true"] == ["seabed surface", "normal law", "assembly"]
     assert {row["active"] for row in rows} == {"true", "false"}
 
 
@@ -264,7 +264,7 @@ def test_deck_without_elements(place: Place) -> None:
     assert "no elements to evaluate: *LINES may make them" in run("evaluate", place(deck)).err
     assert "to export: those of *LINES are" in run("export", place(deck), "--to", "orcaflex", "-o", "out").err
     outcome = run("evaluate", place("$MODEL\n*NODE,,,\n1,0,0,\n*ELEMENT,,,\n1,1,2,\n"))
-    assert "no elements to evaluate: 2 keywords of it not known, `mudline lint` names them" in outcome.err
+    assert "no elements to evaluate: 2 unknown keywords, `mudline lint` names them" in outcome.err
 
 
 @pytest.mark.parametrize("decks", [("a.keyxm", "b.keyxm"), (".",)], ids=["two", "folder"])

@@ -110,7 +110,7 @@ def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     np.savez(folder / "p.npz", positions=places, time=[0.0, 2.0, 1.0])
     outcome = run("evaluate", name, "--positions", "p.npz")
     assert (outcome.code, outcome.out) == (1, "")
-    assert "times that rise: 1.0 follows 2.0" in outcome.err
+    assert "ascending times: 1.0 follows 2.0" in outcome.err
 
 
 @pytest.mark.parametrize("times", [[0.0, 2.0, 1.0], [0.0, 1.0, 1.0]], ids=["fall", "repeat"])

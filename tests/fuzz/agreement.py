@@ -10,7 +10,7 @@ from itertools import zip_longest
 from pathlib import Path
 
 from mudline.checks.engine import Fixing, LintSettings, errors_beside, lint_bytes, naming_causes
-from mudline.checks.fixing import FixState, Reader, fix_bytes
+from mudline.checks.fixing import FixState, StageReader, fix_bytes
 from mudline.checks.overview import overview
 from mudline.checks.registry import rules, select
 from mudline.checks.verdict import judge_content
@@ -107,7 +107,7 @@ def fixes(data: bytes) -> None:
 
 
 def _state(data: bytes) -> FixState:
-    return Reader(NAME, LintSettings(rules()), None).read(data)
+    return StageReader(NAME, LintSettings(rules()), None).read(data)
 
 
 def _lines(data: bytes) -> list[str]:

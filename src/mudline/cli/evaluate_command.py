@@ -23,7 +23,7 @@ from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import beside, has_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
-from mudline.model.results.against import Comparison, read_reference
+from mudline.model.results.against import ResultComparison, read_reference
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
 from mudline.model.results.forms.text import text_writer, write_text
@@ -149,7 +149,7 @@ def _evaluate_one(
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     output, view = wanted.output, wanted.view
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
-    comparison = None if reference is None else Comparison(evaluation, reference)
+    comparison = None if reference is None else ResultComparison(evaluation, reference)
     try:
         drawing = None if plot.path is None else PlotData.of_evaluation(evaluation, plot_elements)
     except ValueError as error:
@@ -198,7 +198,7 @@ def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarn
     return warnings
 
 
-def _sink(evaluation: Evaluation, comparison: Comparison | None, wanted: Wanted) -> AbstractContextManager[Sink]:
+def _sink(evaluation: Evaluation, comparison: ResultComparison | None, wanted: Wanted) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output, or nowhere."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
     if wanted.output:
@@ -219,7 +219,7 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], vie
 # ----------------------------------------------------------------------------------------------------------- notes
 
 
-def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
+def _notify_before(evaluation: Evaluation, comparison: ResultComparison | None) -> None:
     """Report what is left out, and what is guessed."""
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")

@@ -15,10 +15,10 @@ from mudline.basics.quantities import UnitNames, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import Plan
-from mudline.model.contact.columns import Column, Table
+from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.lines import LineSummary
-from mudline.model.contact.result import Part
-from mudline.model.results.against import Comparison, Extreme
+from mudline.model.contact.result import ResultPart
+from mudline.model.results.against import Extreme, ResultComparison
 from mudline.model.results.evaluation import Evaluation, ResultConsumer
 from mudline.model.results.series import SeriesSummary
 from mudline.model.results.summary_tables import law_table, weight_note
@@ -66,7 +66,7 @@ class Screen:
         self.evaluation, self.which = evaluation, which
         self.most = None if view.verbose else SHOWN_ROWS
         self.every = every or view.verbose
-        self.first = First(lambda part: iter([Part(part.start, part.result.steps(0, 1))]), 1)
+        self.first = First(lambda part: iter([ResultPart(part.start, part.result.steps(0, 1))]), 1)
         self.steps = First(partial(step_totals, evaluation, of_nodes=which == "nodes"), self.most)
         self.lines = First(partial(line_steps, evaluation), self.most)
         self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
@@ -111,7 +111,7 @@ def _title(evaluation: Evaluation) -> str:
 # --------------------------------------------------------------------------------------------------------- one state
 
 
-def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
+def _print_state(printer: Printer, screen: Screen, first: ResultPart) -> None:
     """Print totals by law, touchdown, states of laws that have some, and what is in contact."""
     evaluation, result = screen.evaluation, first.result.step(0)
     _print_totals(printer, evaluation, first)
@@ -168,7 +168,7 @@ _OF_NODE = {
 
 
 def _touching(
-    table: Table, first: Part, acts: Mask, headings: Mapping[str, str], *, every: bool
+    table: ResultTable, first: ResultPart, acts: Mask, headings: Mapping[str, str], *, every: bool
 ) -> tuple[list[DisplayColumn], Iterable[Cells]]:
     """Columns of the elements or nodes on which the seabed acts, at the first step of a part, and their rows."""
     lacking = {"state"} if first.result.state is None else set()
@@ -180,7 +180,7 @@ def _touching(
     return columns, zip(*(_cells(one, acts, every=every) for one in chosen), strict=True)
 
 
-def _cells(column: Column, acts: Mask, *, every: bool) -> list[str | float]:
+def _cells(column: ResultColumn, acts: Mask, *, every: bool) -> list[str | float]:
     """The cells of a column, with all digits where `every` row is shown, else with those that matter in the column."""
     values = column.cut(0, 1)[0, acts].tolist()
     if column.names:
@@ -192,7 +192,7 @@ def _cells(column: Column, acts: Mask, *, every: bool) -> list[str | float]:
     return list(values)
 
 
-def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
+def _print_totals(printer: Printer, evaluation: Evaluation, part: ResultPart) -> None:
     rows = [each._asdict() for each in totals(evaluation, part)]
     if len(rows) > 1 or any(each["law"] == "nodal" for each in rows):
         total = reaction(evaluation, part.result.step(0))
@@ -373,7 +373,7 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) ->
 # -------------------------------------------------------------------------------------------------------- comparison
 
 
-def print_comparison(comparison: Comparison, view: View) -> None:
+def print_comparison(comparison: ResultComparison, view: View) -> None:
     """Print for each column how many values were compared, the largest differences and where they are."""
 
     def columns_of(heading: str, name: str) -> Iterator[DisplayColumn]:

@@ -12,15 +12,15 @@ import click
 from mudline.basics.files import suffix_of
 from mudline.cli.streams import notify_missing, writing
 from mudline.cli.view import View, tracked
-from mudline.model.contact.columns import ElementTable
+from mudline.model.contact.columns import ElementResults
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (
     FORMS,
-    Contents,
+    FileContent,
     FormError,
-    Output,
+    ResultOutput,
+    ResultTables,
     Sink,
-    Tables,
     Writer,
     contents_of,
     form_module,
@@ -48,7 +48,7 @@ def has_library(form: str) -> bool:
 
 @contextmanager
 def result_files(
-    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, synced: bool = True
+    evaluation: Evaluation, elements: ElementResults, path: Path, view: View, *, synced: bool = True
 ) -> Iterator[Sink]:
     """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all.
 
@@ -65,7 +65,7 @@ def beside(path: Path) -> dict[str, Path]:
     return {table: table_path(path, table) for table in FORMS[suffix_of(path)].beside}
 
 
-def write_tables(tables: Tables, path: Path) -> dict[str, Path]:
+def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
     """Write tables into a file, or several; returns those beside it by the names of the tables.
 
     Raises click.ClickException as `result_files` does.
@@ -78,11 +78,11 @@ def write_tables(tables: Tables, path: Path) -> dict[str, Path]:
 
 
 @contextmanager
-def _opened(path: Path, others: Sequence[Path], contents: Contents, view: View, *, synced: bool) -> Iterator[Writer]:
+def _opened(path: Path, others: Sequence[Path], contents: FileContent, view: View, *, synced: bool) -> Iterator[Writer]:
     """What writes a file, and others beside it."""
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *others)]
-        output = Output(suffix_of(path), contents, streams, path.parent, partial(tracked, view=view))
+        output = ResultOutput(suffix_of(path), contents, streams, path.parent, partial(tracked, view=view))
         try:
             writer = stack.enter_context(output.opened())
         except FormError as error:

@@ -25,13 +25,13 @@ from tests.helpers.builders.contact import (
     trench,
 )
 
-STAGES = ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
+STAGES = "seabed surface,normal law,smoothing,unloading,suction,friction,lateral,trench,assembly"
 
 
 def test_the_stages_stand_in_order() -> None:
     plan = ContactModel(chain([CURVE, LINEAR])).plan
-    assert [stage.stage for stage in plan] == STAGES
-    assert [stage.stage for stage in plan if stage.active] == ["floor", "normal law", "assembly"]
+    assert ",".join(stage.stage for stage in plan) == STAGES
+    assert [stage.stage for stage in plan if stage.active] == ["seabed surface", "normal law", "assembly"]
     assert plan.history is False
     assert plan.steps == "all steps at once"
     assert replace(plan, history=True).steps == "one step after the other"
@@ -84,7 +84,7 @@ def test_a_stage_that_is_not_there() -> None:
     with pytest.raises(KeyError, match="waves") as caught:
         plan["waves"]
     assert isinstance(caught.value, UnknownNameError)
-    first = "'floor', 'normal law', 'smoothing', 'unloading', 'suction'"
+    first = "'seabed surface', 'normal law', 'smoothing', 'unloading', 'suction'"
     assert str(caught.value) == f"no stage 'waves': there are {first}, 'friction', 'lateral', 'trench', 'assembly'"
 
 
@@ -114,7 +114,7 @@ def test_the_plan_of_a_scene_with_everything() -> None:
     assert "after Bridge et al., with a state each, " in why["suction"]
     assert why["suction"].endswith("with a spring up to an extent, without history (inferred)")
     assert "nodes with a constant spring, " in why["friction"]
-    assert why["lateral"].endswith("with a spring to where it touched down (inferred), in place of friction")
+    assert why["lateral"].endswith("with a spring to its touchdown point (inferred), in place of friction")
     assert why["trench"].endswith("the seabed is not lowered")
 
 

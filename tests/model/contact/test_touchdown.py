@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from mudline.basics.quantities import LINES
 from mudline.model.contact import ContactInput, ContactModel, LawAssignment
 from mudline.model.contact.lines import Lines, LineSummary, TouchdownPoint, _followed, _in_order, lines_of
-from mudline.model.contact.result import Part
-from mudline.model.contact.touchdown import LineTable, line_summaries
+from mudline.model.contact.result import ResultPart
+from mudline.model.contact.touchdown import LineResults, line_summaries
 
 STIFFNESS, WEIGHT = 1000.0, 100.0
 
@@ -103,7 +103,7 @@ def test_the_table_says_the_same_as_the_rows() -> None:
     given = line_input(4)
     series = np.stack([at_heights(1.0, -1.0, -1.0, 2.0), at_heights(1.0, 1.0, 1.0, 1.0)])
     result = ContactModel(given).evaluate(series, times=[0.0, 1.0])
-    columns = LineTable(given, np.arange(3)).columns(Part(0, result))
+    columns = LineResults(given, np.arange(3)).columns(ResultPart(0, result))
     assert [column.name for column in columns] == list(LINES)
     values = {column.name: column.cut(0, 2)[:, 0] for column in columns}
     first, last = line_summaries(result)

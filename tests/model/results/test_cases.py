@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 import mudline
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.results.cases import CaseSummary, case_summary, worst_first, write_parquet
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
@@ -26,13 +26,13 @@ def heave() -> Evaluation:
     return evaluate_scene(scene, read_positions(SAMPLES / "positions.csv", scene.nodes))
 
 
-def single_steps(evaluation: Evaluation) -> Iterator[Part]:
+def single_steps(evaluation: Evaluation) -> Iterator[ResultPart]:
     """The same steps, one at a time."""
     for part in evaluation.parts():
         for step in range(part.count):
             only = part.result.step(step).as_series()
             times = None if evaluation.time is None else evaluation.time[part.start + step : part.start + step + 1]
-            yield Part(part.start + step, replace(only, times=times))
+            yield ResultPart(part.start + step, replace(only, times=times))
 
 
 def test_row_is_the_worst_of_the_lines() -> None:

@@ -20,7 +20,7 @@ from mudline.model.contact import ContactInput, ContactModel, ContactResult, Law
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.curves import ForceCurve
 from mudline.model.results.plot_data import PlotData
-from mudline.model.results.plots.along_line import Stretch
+from mudline.model.results.plots.along_line import DrawnStretch
 from mudline.model.results.plots.figure import evaluation_figure, panels_of
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
@@ -235,7 +235,7 @@ def test_panels_along_the_line_show_where_contact_changes() -> None:
     positions = np.array(given.coordinates)
     positions[:, 0] = np.concatenate([flat, rise])
     data = PlotData.of_result(ContactModel(given).evaluate(positions))
-    stretch = Stretch(data)
+    stretch = DrawnStretch(data)
     low, high = stretch.limits  # 500 m lie on the seabed; the depth of element 100 is the first that differs
     assert 470.0 < low < 495.0
     assert 515.0 < high < 545.0

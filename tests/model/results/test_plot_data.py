@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.model.contact import ContactResult
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.results.plot_data import PlotData
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
@@ -32,9 +32,9 @@ def cycle() -> ContactResult:
     return series("full-cycle.keyxm", "full-cycle.csv")
 
 
-def in_parts(result: ContactResult, size: int) -> Iterator[Part]:
+def in_parts(result: ContactResult, size: int) -> Iterator[ResultPart]:
     for start in range(0, len(result.depth), size):
-        yield Part(start, result.steps(start, min(start + size, len(result.depth))))
+        yield ResultPart(start, result.steps(start, min(start + size, len(result.depth))))
 
 
 def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
@@ -53,7 +53,7 @@ def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
     short = len(cycle.depth)
     data = PlotData(cycle.known, cycle.evaluated, many, np.arange(many, dtype=np.float64), elements=[1])
     for start in range(0, many - short, short):
-        data.take(Part(start, cycle))
+        data.take(ResultPart(start, cycle))
     reaction = cycle.normal_force.sum(axis=1)
     assert len(data.bin_times) == 2000
     assert np.nanmax(data.reaction.most) == reaction.max()

@@ -7,7 +7,7 @@ import pytest
 
 from mudline import ContactWarning
 from mudline.model.contact.arrays import Positions
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.results.warnings import ContactWatch, contact_warnings, seabed_warnings
 from mudline.model.scene.numbering import Floats
@@ -391,7 +391,7 @@ def test_pieces_give_what_the_whole_series_gives() -> None:
     result = scene.contact().evaluate(places)
     watch = ContactWatch(scene, result.evaluated, places[0], "file")
     for start in range(4):
-        watch.take(Part(start, result.steps(start, start + 1)))
+        watch.take(ResultPart(start, result.steps(start, start + 1)))
     assert watch.warnings() == contact_warnings(scene, result, places)
     assert [one.elements for one in watch.warnings()] == [10]
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import FORMS, Output, Sink, contents_of, table_path, tables_of
+from mudline.model.results.forms import FORMS, ResultOutput, Sink, contents_of, table_path, tables_of
 from mudline.model.results.forms.text import text_writer
 from mudline.model.results.totals import First, StepTotal, step_totals
 
@@ -46,7 +46,7 @@ def write(evaluation: Evaluation, path: Path) -> Path:
     with ExitStack() as stack:
         paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
         streams = [stack.enter_context(one.open("wb")) for one in paths]
-        writer = stack.enter_context(Output(form, contents_of(evaluation, tables), streams, path.parent).opened())
+        writer = stack.enter_context(ResultOutput(form, contents_of(evaluation, tables), streams, path.parent).opened())
         sink = Sink(evaluation, tables, writer, form)
         for part in evaluation.parts():
             sink.take(part)

@@ -17,7 +17,7 @@ from mudline.language.diagnostics import DeckError
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.input import AssignedLaw
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 from mudline.model.results.summary import static_embedment
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import (
@@ -266,7 +266,7 @@ def test_a_trench_counts_its_own_elements() -> None:
     assert law["peak"].tolist() == [100.0] * 5
     assert (law["bottom"][0], law["upper"][0]) == (2.0, 3.0)
     assert [law[name][2] for name in ("start_y", "start_z", "end_y", "end_z")] == [0.0, 0.0, 9.0, 9.0]
-    rows = Tables(given).trench
+    rows = LawTables(given).trench
     assert rows is not None
     assert rows.nodes.tolist() == [5, 6, 7, 8, 9, 10]
     assert rows.amount.tolist() == [500.0, 1000.0, 1000.0, 1000.0, 1000.0, 500.0]
@@ -307,7 +307,7 @@ def test_beds_of_points(tmp_path: Path, keyword: str, content: str, why: str) ->
     path = tmp_path / "deck.keyxm"
     path.write_text(line_deck(METRIC, LINEAR_BED + f"*SEABED PROFILE\n {keyword}\n FILE=bed.txt\n"))
     contact = resolve(load_path(path)).contact()
-    assert why in contact.plan["floor"].why
+    assert why in contact.plan["seabed surface"].why
     assert np.isfinite(contact.evaluate().gap).any()
 
 

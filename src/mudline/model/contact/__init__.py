@@ -43,13 +43,13 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> object:
-    """Public names are imported when they are first used: to lint a deck takes the input alone."""
+    """Import a public name when it is first used: a deck is linted with the input alone."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module  # noqa: PLC0415 - as above
 
-    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES.get(name, 'input')}"), name)
-    return found
+    value = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES.get(name, 'input')}"), name)
+    return value
 
 
 def __dir__() -> list[str]:

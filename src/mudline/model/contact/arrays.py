@@ -1,4 +1,4 @@
-"""Names for the array types of this package; positions over time."""
+"""Array types of the contact model, and positions over time."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class StepReader(ABC):
     """A series (steps, nodes, 3) of real numbers that is not in memory.
 
     Attributes:
-        shape, dtype, ndim: those of the array that it stands for.
+        shape, dtype, ndim: as of a numpy array with the same values.
     """
 
     shape: tuple[int, ...]
@@ -39,17 +39,21 @@ class StepReader(ABC):
         """The number of steps."""
 
     @abstractmethod
-    def __getitem__(self, wanted: slice | int) -> NDArray[np.floating]:
-        """Some steps (steps, nodes, 3), or one (nodes, 3)."""
+    def __getitem__(self, steps: slice | int) -> NDArray[np.floating]:
+        """Return some steps (steps, nodes, 3), or a single step (nodes, 3)."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Positions:
-    """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
+    """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for nodes that the file lacks.
 
-    `present` (nodes,) says which nodes the file has; `time` (steps,) is None for a single state without a time.
-    `velocities`, where the file has them, are as the positions; `timed` says whether the file has times, else `time`
-    counts the steps; `numbered` whether it has the numbers of the nodes, else they are in ascending order.
+    Attributes:
+        values: the positions.
+        present: (nodes,) nodes that have a position in the file.
+        time: (steps,) times, or the numbers of the steps; None for a single state without a time.
+        velocities: velocities of the shape of the positions, if the file has any.
+        timed: whether the file has times.
+        numbered: whether the file has the numbers of the nodes; else they are in ascending order.
     """
 
     values: NDArray[np.floating] | StepReader
@@ -63,7 +67,7 @@ class Positions:
 
     @property
     def whole(self) -> NDArray[np.floating]:
-        """All steps at once, those of a file read into memory. Raises OSError, DeckError."""
+        """All steps in memory. Raises OSError, DeckError."""
         return self.values[:]
 
     @property
@@ -73,12 +77,12 @@ class Positions:
 
 
 def taken(values: NDArray[Item], at: Picked) -> NDArray[Item]:
-    """Return columns of values (steps, k); a view where they follow each other."""
+    """Return columns of values (steps, k); a view if `at` is a slice."""
     return values[:, at] if isinstance(at, slice) else values.take(at, axis=1)
 
 
 def put_at(values: NDArray[Item], at: Picked, new: NDArray[Item] | float) -> None:
-    """Write columns of values (steps, k); those of one step sooner than `values[:, at] = new`."""
+    """Write columns of values (steps, k); for a single step faster than `values[:, at] = new`."""
     if len(values) == 1:
         values[0][at] = new if isinstance(new, float) else new[0]
     else:
@@ -86,17 +90,17 @@ def put_at(values: NDArray[Item], at: Picked, new: NDArray[Item] | float) -> Non
 
 
 def add_at(values: FloatArray, at: Picked, more: FloatArray) -> None:
-    """Add to columns of values (steps, k), in place; sooner than `values[:, at] += more`."""
+    """Add to columns of values (steps, k), in place; faster than `values[:, at] += more`."""
     put_at(values, at, taken(values, at) + more)
 
 
 def each_at(values: NDArray[Item], steps: IndexArray, at: IndexArray) -> NDArray[Item]:
-    """Return `values[steps, at]`; of one step sooner."""
+    """Return `values[steps, at]`; faster for a single step."""
     return values[0].take(at) if len(values) == 1 else values[steps, at]
 
 
 def add_each(values: FloatArray, steps: IndexArray, at: IndexArray, more: FloatArray) -> None:
-    """Add to values at different places, in place."""
+    """Add to values at distinct places, in place."""
     if len(values) == 1:
         values[0][at] += more
     else:
@@ -104,7 +108,7 @@ def add_each(values: FloatArray, steps: IndexArray, at: IndexArray, more: FloatA
 
 
 def as_range(indices: IndexArray) -> Picked:
-    """A slice where the indices follow each other one by one: what it picks is a view and no copy."""
+    """Return consecutive indices as a slice, which picks a view; other indices unchanged."""
     if not len(indices):
         return slice(0, 0)
     first, last = int(indices[0]), int(indices[-1])
@@ -114,7 +118,7 @@ def as_range(indices: IndexArray) -> Picked:
 
 
 def zero_outside(inside: BoolArray, *values: FloatArray) -> None:
-    """Set values to 0 but for those inside, whatever they are."""
+    """Set values (steps, k) to 0 outside, NaN and infinity too, in place."""
     if inside.all():
         return
     mask = inside.astype(np.int64)
@@ -125,33 +129,33 @@ def zero_outside(inside: BoolArray, *values: FloatArray) -> None:
 
 
 def as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:
-    """Return velocities as (steps, nodes, 3), neither copied nor converted; None where there are none.
+    """Return velocities as (steps, nodes, 3), neither copied nor converted; None stays None.
 
     Raises:
-        ValueError: they are no real numbers of the shape of the positions.
+        ValueError: the velocities are not real numbers of the shape of the positions.
     """
     if velocities is None:
         return None
-    given: RealArray = as_array(velocities, "velocities")
-    same = given.shape == shape or (shape[0] == 1 and given.shape == shape[1:])
-    if given.dtype.kind not in "iuf" or not same:
-        found = f"{given.shape} of {given.dtype}"
-        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {found}")
-    return given.reshape(shape)
+    array: RealArray = as_array(velocities, "velocities")
+    same = array.shape == shape or (shape[0] == 1 and array.shape == shape[1:])
+    if array.dtype.kind not in "iuf" or not same:
+        actual = f"{array.shape} of {array.dtype}"
+        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {actual}")
+    return array.reshape(shape)
 
 
 def as_times(times: ArrayLike | None, steps: int) -> FloatArray | None:
-    """Return times as (steps,) float64; None where there are none.
+    """Return times as (steps,) float64; None stays None.
 
     Raises:
-        ValueError: they are not as many finite numbers as there are steps, each later than the one before.
+        ValueError: the times are not one finite number for each step, each later than the one before.
     """
     if times is None:
         return None
-    given = as_array(times, "times")
-    if given.dtype.kind not in "iuf":
-        raise ValueError(f"times must be real numbers, not {given.dtype}")
-    given = given.astype(np.float64)
-    if given.shape != (steps,) or not np.isfinite(given).all() or not (np.diff(given) > 0.0).all():
+    array = as_array(times, "times")
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"times must be real numbers, not {array.dtype}")
+    array = array.astype(np.float64)
+    if array.shape != (steps,) or not np.isfinite(array).all() or not (np.diff(array) > 0.0).all():
         raise ValueError(f"times must be {steps} finite numbers, each later than the one before")
-    return given
+    return array

@@ -1,4 +1,4 @@
-"""The columns of elements and nodes: one description for all formats."""
+"""Columns of elements and nodes, described once for all formats."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput
-from mudline.model.contact.result import ContactResult, Part
+from mudline.model.contact.result import ContactResult, ResultPart
 
 Values = NDArray[Any]
 
@@ -22,16 +22,16 @@ CUT = "curve-cut"
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
-    """A column for rows that are the same ones at all steps.
+class ResultColumn:
+    """A column of a table with the same rows at all steps.
 
     Attributes:
-        name: as in the contract.
+        name: name of the result quantity.
         values: (rows,), or with steps (steps, rows); a vector has one more axis of 3.
-        names: the texts of a column of texts, whose values are indices; -1 is the last one, None. Empty for numbers.
+        names: texts that the values index, the last of them None for index -1. Empty for a column of numbers.
         vector: whether a value has three components.
-        over_steps: whether the column is one that a step may change, even if nothing does in this scene.
-        blank: the whole number that stands for no value; None where every one is a value.
+        over_steps: whether a step may change the column, even if no step does in this scene.
+        blank: whole number that means "no value"; None if every number is a value.
         unit: name of the unit of the values; "" for none.
     """
 
@@ -45,40 +45,40 @@ class Column:
 
     @property
     def steady(self) -> bool:
-        """Whether the values have no axis for steps."""
+        """True if the values have no axis for steps."""
         return self.values.ndim == 1 + self.vector
 
-    def flat(self) -> list[Column]:
-        """The column itself, or the three of a vector."""
+    def flat(self) -> list[ResultColumn]:
+        """Return the column itself, or the three columns of a vector."""
         if not self.vector:
             return [self]
         axes = enumerate(("_x", "_y", "_z"))
         return [
-            Column(self.name + axis, self.values[..., i], over_steps=self.over_steps, unit=self.unit)
+            ResultColumn(self.name + axis, self.values[..., i], over_steps=self.over_steps, unit=self.unit)
             for i, axis in axes
         ]
 
     def cut(self, first: int, last: int) -> Values:
-        """The values of some steps, also of a steady column, as (steps, rows) or (steps, rows, 3)."""
+        """Return the values of some steps as (steps, rows) or (steps, rows, 3), of a steady column too."""
         if self.steady:
             return np.broadcast_to(self.values, (last - first, *self.values.shape))
         return self.values[first:last]
 
 
 NO_ELEMENT = -1
-"""Stands in a column of numbers of elements for none."""
-Others = Callable[[Part], Sequence[tuple[str, FloatArray]]]
-"""Gives further columns of elements for some steps: names, and values (steps, m)."""
+""""No element" in a column of element numbers."""
+Others = Callable[[ResultPart], Sequence[tuple[str, FloatArray]]]
+"""Function that returns additional columns of elements for some steps: names, and values (steps, m)."""
 
 
-class Table(ABC):
-    """Makes the columns of the elements or nodes with these indices for some steps."""
+class ResultTable(ABC):
+    """A table of some elements, nodes or lines, which makes the columns for some steps."""
 
     quantities: ClassVar[Mapping[str, Quantity]]
     _fixed: dict[str, Values]
-    """Values that no step changes, by the name of their column."""
+    """Values that no step changes, by column name."""
     _blanks: Mapping[str, int] = MappingProxyType({})
-    """The whole numbers that stand for no value, by the name of their column."""
+    """Whole numbers that mean "no value", by column name."""
 
     def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
         self._chosen = chosen
@@ -91,22 +91,22 @@ class Table(ABC):
         return len(self._chosen)
 
     @abstractmethod
-    def columns(self, part: Part) -> list[Column]:
-        """Return the columns of the contract, then others."""
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
+        """Return the columns of the result quantities, then additional columns."""
 
-    def facts(self) -> list[Column]:
-        """Return the columns that no step changes, and the law, also of elements whose curve is cut at some steps."""
+    def facts(self) -> list[ResultColumn]:
+        """Return the columns that no step changes, including the law of elements whose curve is cut at some steps."""
         return [
-            Column(name, values, self._names.get(name, ()), over_steps=False, unit=quantity.unit_name(self.units))
+            ResultColumn(name, values, self._names.get(name, ()), over_steps=False, unit=quantity.unit_name(self.units))
             for name, quantity in self.quantities.items()
             if (values := self._fixed.get(name)) is not None
         ]
 
-    def _columns(self, given: dict[str, Values], result: ContactResult) -> list[Column]:
-        """A column of each quantity: fixed, given, or what the result has of its name."""
-        values = self._fixed | given
+    def _columns(self, changing: dict[str, Values], result: ContactResult) -> list[ResultColumn]:
+        """Return a column of each quantity: a fixed one, one of `changing`, or the attribute of the result."""
+        values = self._fixed | changing
         return [
-            Column(
+            ResultColumn(
                 name,
                 values[name] if name in values else kept(getattr(result, name), self._chosen),
                 self._names.get(name, quantity.names),
@@ -119,10 +119,10 @@ class Table(ABC):
         ]
 
 
-class ElementTable(Table):
+class ElementResults(ResultTable):
     """The evaluated elements.
 
-    `others` are columns besides those of the contract, by name: values (m,) of all elements for each step asked for.
+    `others` returns additional columns by name: values (m,) of all elements for each step.
     """
 
     quantities = ELEMENTS
@@ -149,8 +149,8 @@ class ElementTable(Table):
             "node2": given.node_ids[self._ends[:, 1]],
         }
 
-    def columns(self, part: Part) -> list[Column]:
-        """Return the columns of the contract, then the others."""
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
+        """Return the columns of the result quantities, then the additional columns."""
         result = part.result
         ends = [_places(result, column) for column in self._ends.T]
         values: dict[str, Values] = {
@@ -159,13 +159,13 @@ class ElementTable(Table):
         }
         if self._may_cut:
             values["law"] = np.where(kept(result.cut, self._chosen), self._cut_code, self._fixed["law"])
-        found = self._columns(values, result)
+        columns = self._columns(values, result)
         others = () if self._others is None else self._others(part)
-        return found + [Column(name, kept(values, self._chosen)) for name, values in others]
+        return columns + [ResultColumn(name, kept(values, self._chosen)) for name, values in others]
 
 
-class NodeTable(Table):
-    """The nodes that have a position. Without friction its forces are 0 and its states none."""
+class NodeResults(ResultTable):
+    """The nodes that have a position. Without friction the friction forces are 0 and the states -1."""
 
     quantities = NODES
 
@@ -177,8 +177,8 @@ class NodeTable(Table):
             "line": given.lines.of_node[chosen] + 1,
         }
 
-    def columns(self, part: Part) -> list[Column]:
-        """Return the columns of the contract."""
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
+        """Return the columns of the result quantities."""
         result, chosen = part.result, self._chosen
         axial, lateral = _by_direction(result.friction)
         axial_state, lateral_state = _by_direction(result.friction_state)
@@ -194,7 +194,7 @@ class NodeTable(Table):
         return self._columns(values, result)
 
     def _normal(self, normal: Values) -> Values:
-        """One row of nodes where all points of the seabed share a normal."""
+        """Return normals (steps, k, 3), or (k, 3) if all points of the seabed share a normal."""
         return kept(normal, self._chosen) if any(normal.strides[:2]) else np.array(normal[0, self._chosen])
 
     def _force(self, force: Values | None) -> Values:
@@ -203,12 +203,12 @@ class NodeTable(Table):
 
 def by_number(given: ContactInput, present: BoolArray) -> IndexArray:
     """Return the indices of the nodes that have a position, in ascending order of their numbers."""
-    found = np.flatnonzero(present)
-    return found[given.node_ids[found].argsort(kind="stable")]
+    nodes = np.flatnonzero(present)
+    return nodes[given.node_ids[nodes].argsort(kind="stable")]
 
 
 def coded(texts: Sequence[str | None]) -> tuple[NDArray[np.int32], Names]:
-    """Texts as indices of the different ones; -1 is None, which stands at the end of the names."""
+    """Return texts as indices of distinct names; None has index -1 and is the last name."""
     number: dict[str | None, int] = {}
     for text in texts:
         if text is not None:
@@ -219,19 +219,19 @@ def coded(texts: Sequence[str | None]) -> tuple[NDArray[np.int32], Names]:
 
 
 def _places(result: ContactResult, nodes: IndexArray) -> FloatArray:
-    """The positions (steps, k, 3) of some nodes."""
+    """Return the positions (steps, k, 3) of some nodes."""
     if result.positions is None:
         return np.full((len(result.depth), len(nodes), 3), np.nan)
     return np.asarray(result.positions[:, nodes], np.float64)
 
 
 def codes_of(states: Values | None, chosen: NDArray[np.intp]) -> Values:
-    """The states of those elements or nodes; none where no law has states."""
+    """Return the states of some elements or nodes; -1 if no law has states."""
     return np.full(len(chosen), -1, np.int8) if states is None else kept(states, chosen)
 
 
 def kept(array: Values, chosen: NDArray[np.intp]) -> Values:
-    """The columns (steps, k, ...) of those elements or nodes that have a position; no copy when all have one."""
+    """Return the columns (steps, k, ...) of some elements or nodes; no copy if all are chosen."""
     return array if array.shape[1] == len(chosen) else array[:, chosen]
 
 

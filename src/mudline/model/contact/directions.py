@@ -1,4 +1,4 @@
-"""Along and across the line at its nodes, and how deep trenches lower the seabed below them."""
+"""Directions along and across the line at its nodes, and the seabed below trenches."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 from mudline.model.contact.vectors import in_plane, turned_3, units
 
 if TYPE_CHECKING:
@@ -16,12 +16,13 @@ if TYPE_CHECKING:
 
 
 class Directions(NamedTuple):
-    """Directions of nodes (n,) in one step.
+    """Directions at nodes (n,) in one step.
 
-    axes: u1 and u2, each (n, 3).
-    follows: (n,) nodes whose directions turn with the line.
-    senses: (m, 2) how the direction of each element counts at its ends.
-    size: (n,) length of the projection of the sum of the elements' directions.
+    Attributes:
+        axes: u1 and u2, each (n, 3).
+        follows: (n,) nodes whose directions turn with the line.
+        senses: (m, 2) sign of each element's direction at its two ends.
+        size: (n,) length of the projection of the sum of the elements' directions.
     """
 
     axes: tuple[FloatArray, FloatArray]
@@ -30,7 +31,7 @@ class Directions(NamedTuple):
     size: FloatArray
 
 
-def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Directions:
+def directions_of(tables: LawTables, points: FloatArray, normals: FloatArray) -> Directions:
     """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
     line, nodes = tables.line, len(points)
     with np.errstate(all="ignore"):
@@ -50,14 +51,17 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
     return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
 
 
-def lower(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
-    """Add the depth of trenches in which the seabed is lowered to gaps (steps, n) of `points` (steps, n, 3)."""
+def lower(tables: LawTables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
+    """Add the depth of trenches with a lowered seabed to gaps (steps, n) of `points` (steps, n, 3)."""
     for place, normals, height in zip(points, normal, gap, strict=True):
         np.add(height, level(tables, place, laid, normals).depth, out=height)
 
 
-def level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
-    """How trenches lower the seabed below nodes at `points` (n, 3); TypeError where none does."""
+def level(tables: LawTables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
+    """Return depth and gradient of trenches below nodes at `points` (n, 3).
+
+    Raises TypeError if no trench lowers the seabed.
+    """
     from mudline.model.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
 
     if tables.level is None:
@@ -66,14 +70,14 @@ def level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArr
     return level_at(tables.level, tables.laid_line(laid), points, lateral)
 
 
-def projected(wanted: FloatArray, normal: FloatArray) -> FloatArray:
-    """Unit vectors (k, 3) along the projections of others; the default direction for one along the normal."""
-    return np.stack(in_plane(tuple(wanted.T), tuple(normal.T)), axis=1)
+def projected(vectors: FloatArray, normal: FloatArray) -> FloatArray:
+    """Return unit vectors (k, 3) along projections of vectors; the default direction for a vector along the normal."""
+    return np.stack(in_plane(tuple(vectors.T), tuple(normal.T)), axis=1)
 
 
-def mean_normal(tables: Tables, elements: IndexArray, normal: FloatArray) -> tuple[FloatArray, ...]:
-    """Components (steps, k) of the mean of the unit normals (steps, n, 3) at both ends of elements (k,)."""
-    if normal.strides[1] == 0:  # one for all nodes
+def mean_normal(tables: LawTables, elements: IndexArray, normal: FloatArray) -> tuple[FloatArray, ...]:
+    """Return components (steps, k) of the mean unit normal at both ends of elements (k,); normals are (steps, n, 3)."""
+    if normal.strides[1] == 0:  # all nodes share a normal
         return tuple(normal[:1, :1, axis] for axis in range(3))
-    one, other = (normal[:, side[elements]] for side in (tables.line.first, tables.line.second))
-    return vectors.mean_normal(*(tuple(each[..., axis] for axis in range(3)) for each in (one, other)))
+    start, end = (normal[:, side[elements]] for side in (tables.line.first, tables.line.second))
+    return vectors.mean_normal(*(tuple(each[..., axis] for axis in range(3)) for each in (start, end)))

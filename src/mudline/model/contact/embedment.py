@@ -1,4 +1,4 @@
-"""Static embedment: the depth at which the normal law of an element carries a weight, whatever law that is."""
+"""Static embedment: the depth at which the normal law of an element, of any kind, carries a weight."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from mudline.model.contact.input import ContactInput, ElementError, LawAssignmen
 from mudline.model.contact.model import ContactModel
 
 _DEPTHS = np.geomspace(1e-7, 1e4, 160)
-"""Diameters at which the depth is looked for."""
+"""Trial depths, in diameters."""
 _HALVINGS = 60
 
 
 def static_depth(given: ContactInput, elements: IndexArray, weight: FloatArray) -> FloatArray:
     """Return the least depths (k,) at which the laws of elements carry weights per length (k,), each element alone.
 
-    0 without a law or on a rigid seabed, NaN where no depth carries the weight.
+    The depth is 0 without a law or on a rigid seabed, and NaN if no depth carries the weight.
     """
     single = _apart(given, elements)
     model, count = ContactModel(single, backend="numpy"), len(elements)
-    held = np.isin(np.arange(count), single.assigned["rigid"].rows) if "rigid" in single.assigned else np.zeros(count)
+    rigid = np.isin(np.arange(count), single.assigned["rigid"].rows) if "rigid" in single.assigned else np.zeros(count)
     size = np.where(np.isfinite(single.diameter), single.diameter, 1.0)
 
     def force(depth: FloatArray) -> FloatArray:
@@ -31,8 +31,8 @@ def static_depth(given: ContactInput, elements: IndexArray, weight: FloatArray) 
                 pushed = model.evaluate(points).normal_force
         except ElementError:  # a force that overflows carries any weight
             return np.full(count, np.inf)
-        found: FloatArray = pushed.reshape(-1, 2).sum(axis=1) / np.where(single.length > 0.0, single.length, 1.0)
-        return found
+        forces: FloatArray = pushed.reshape(-1, 2).sum(axis=1) / np.where(single.length > 0.0, single.length, 1.0)
+        return forces
 
     low, high = np.zeros(count), np.full(count, np.nan)
     for share in _DEPTHS:
@@ -45,12 +45,12 @@ def static_depth(given: ContactInput, elements: IndexArray, weight: FloatArray) 
         middle = 0.5 * (bounds[0] + bounds[1])
         over = force(middle) >= weight
         bounds = np.where(over, bounds[0], middle), np.where(over, middle, bounds[1])
-    bare = (single.law == 0) | (held > 0)
+    bare = (single.law == 0) | (rigid > 0)
     return np.where(bare, 0.0, np.where(np.isnan(high), np.nan, bounds[1]))
 
 
 def _apart(given: ContactInput, elements: IndexArray) -> ContactInput:
-    """The normal laws of elements, each with nodes of its own, which share the springs of the nodes of the deck."""
+    """Return the normal laws of elements with nodes of their own, each with its share of the springs at the nodes."""
     count = len(elements)
     ends, length = given.element_nodes[elements], given.length[elements]
     carried = np.zeros(len(given.node_ids))

@@ -1,4 +1,4 @@
-"""Results as tables of pandas and Arrow and as data sets of xarray, from the columns that result files have."""
+"""Results as tables of pandas and Arrow and as data sets of xarray, with the columns of result files."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
 from mudline.basics.short_repr import counted
-from mudline.model.contact.columns import Column, ElementTable, NodeTable, Table, Values, by_number
-from mudline.model.contact.result import ContactResult, Part, TableName
-from mudline.model.contact.touchdown import LineTable, line_summaries
+from mudline.model.contact.columns import ElementResults, NodeResults, ResultColumn, ResultTable, Values, by_number
+from mudline.model.contact.result import ContactResult, ResultPart, TableName
+from mudline.model.contact.touchdown import LineResults, line_summaries
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 FORMAT_KEY, UNITS_KEY = b"mudline.format", b"mudline.units"
 """Metadata of Arrow tables and Parquet files."""
 UNIT_KEY = b"unit"
-"""Metadata of their fields."""
+"""Metadata of the fields of Arrow tables and Parquet files."""
 
 _COORDINATES = frozenset({"set", "law", "line", "arc_length", "diameter", "length", "node1", "node2"})
-"""What tells elements and nodes apart, beside their numbers."""
+"""Columns that identify elements and nodes, next to their numbers."""
 
 _SHOWN = (
     "first_touchdown",
@@ -40,31 +40,31 @@ _SHOWN = (
     "reaction",
     "submerged_weight",
 )
-"""Quantities of lines that notebooks show."""
+"""Quantities of lines shown in notebooks."""
 
 
 def dataframe(result: ContactResult, table: TableName) -> pd.DataFrame:
-    """Return a table as `ContactResult.to_dataframe` says."""
+    """Return a table as a pandas frame, see `ContactResult.to_dataframe`."""
     pandas = _library("pandas")
-    found, columns, part = _columns(result, table)
-    data: dict[str, Any] = dict(_leading(result, found.rows))
+    rows, columns, part = _columns(result, table)
+    data: dict[str, Any] = dict(_leading(result, rows.rows))
     data |= {column.name: _series(pandas, column, part.count) for column in columns}
     frame: pd.DataFrame = pandas.DataFrame(data)
-    frame.attrs["units"] = found.units
-    frame.attrs["unit"] = {name: unit for name, unit in _units(columns, found.units).items() if name in data and unit}
+    frame.attrs["units"] = rows.units
+    frame.attrs["unit"] = {name: unit for name, unit in _units(columns, rows.units).items() if name in data and unit}
     return frame
 
 
 def arrow_table(result: ContactResult, table: TableName) -> pa.Table:
-    """Return a table as `ContactResult.to_arrow` says."""
-    found, columns, part = _columns(result, table)
-    return arrow_of(columns, part.count, dict(_leading(result, found.rows)), found.units)
+    """Return a table as an Arrow table, see `ContactResult.to_arrow`."""
+    rows, columns, part = _columns(result, table)
+    return arrow_of(columns, part.count, dict(_leading(result, rows.rows)), rows.units)
 
 
 def arrow_of(
-    columns: list[Column], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
+    columns: list[ResultColumn], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
 ) -> pa.Table:
-    """Return flat columns over some steps as an Arrow table, with others in front; raises ImportError."""
+    """Return flat columns over some steps as an Arrow table, after the `leading` columns; raises ImportError."""
     arrow = _library("pyarrow")
     arrays = {name: arrow.array(values) for name, values in leading.items()}
     arrays |= {column.name: _array(arrow, column, steps) for column in columns}
@@ -78,25 +78,25 @@ def arrow_of(
 
 
 def dataset(result: ContactResult) -> xr.Dataset:
-    """Return a result as `ContactResult.to_xarray` says."""
+    """Return a result as an xarray data set, see `ContactResult.to_xarray`."""
     xarray = _library("xarray")
     single = result.depth.ndim == 1
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {"axis": ["x", "y", "z"]}
     for which, kind in (("elements", "element"), ("nodes", "node")):
-        table, part = _table(result, which), Part(0, result.as_series())
+        table, part = _table(result, which), ResultPart(0, result.as_series())
         for column in table.columns(part):
             into = coordinates if column.name in _COORDINATES or column.name == kind else variables
             into[array_name(which, column.name)] = _variable(column, kind, None if single else part.count)
     if result.times is not None:
         about = {"units": time_unit(result.known.units)}
         coordinates["time"] = (() if single else ("time",), np.asarray(result.times), _given(about))
-    found: xr.Dataset = xarray.Dataset(variables, coordinates, {"units": result.known.units, "format": RESULT_FORMAT})
-    return found
+    data: xr.Dataset = xarray.Dataset(variables, coordinates, {"units": result.known.units, "format": RESULT_FORMAT})
+    return data
 
 
 def html(result: ContactResult) -> str:
-    """Return the touchdown of lines at the first steps as a table for notebooks."""
+    """Return the touchdown of lines at the first steps as HTML, for notebooks."""
     series = result.as_series()
     counts = [("step", len(series.depth)), ("element", series.depth.shape[1]), ("node", series.gap.shape[1])]
     summary = ", ".join(counted(number, kind) for kind, number in counts[result.depth.ndim == 1 :])
@@ -109,59 +109,59 @@ def html(result: ContactResult) -> str:
     headings += [labelled(each.label or name, each.unit_name(units)) for name, each in LINES.items() if name in _SHOWN]
     rows = (
         (
-            one.time,
-            one.line,
-            ", ".join(f"{point.arc_length:.6g}" for point in one.touchdown),
-            one.contact_length,
-            None if one.largest_force is None else one.largest_force.force,
-            None if one.largest_force is None else one.largest_force.element,
-            one.reaction,
-            one.submerged_weight,
+            line.time,
+            line.line,
+            ", ".join(f"{point.arc_length:.6g}" for point in line.touchdown),
+            line.contact_length,
+            None if line.largest_force is None else line.largest_force.force,
+            None if line.largest_force is None else line.largest_force.element,
+            line.reaction,
+            line.submerged_weight,
         )
-        for one in shown
+        for line in shown
     )
     return html_page("ContactResult", f"{summary}, {units}", html_table(headings, rows, len(series.depth) * lines))
 
 
 def array_name(table: str, column: str) -> str:
-    """The name of an array: nodes have `node_` before what elements have too, lines `summary_` before all."""
+    """Return the name of an array: `node_` before a node's name that elements have too, `summary_` before a line's."""
     if table == "summary":
         return f"summary_{column}"
     return f"node_{column}" if table == "nodes" and column in ELEMENTS else column
 
 
-def spelled(column: Column) -> Values:
-    """The values of a column, texts as numpy has them; no text is ""."""
+def spelled(column: ResultColumn) -> Values:
+    """Return the values of a column, with texts as numpy strings; "" for no text."""
     if not column.names:
         return column.values
     return np.array([name or "" for name in column.names], dtype=np.str_)[column.values]
 
 
-def _table(result: ContactResult, name: str) -> Table:
+def _table(result: ContactResult, name: str) -> ResultTable:
     given = result.known
     elements = np.flatnonzero(result.evaluated)
     if name == "nodes":
-        return NodeTable(given, by_number(given, result.present))
-    return ElementTable(given, elements) if name == "elements" else LineTable(given, elements)
+        return NodeResults(given, by_number(given, result.present))
+    return ElementResults(given, elements) if name == "elements" else LineResults(given, elements)
 
 
-def _columns(result: ContactResult, name: TableName) -> tuple[Table, list[Column], Part]:
-    """A table and its flat columns over all steps."""
+def _columns(result: ContactResult, name: TableName) -> tuple[ResultTable, list[ResultColumn], ResultPart]:
+    """Return a table, its flat columns and its part over all steps."""
     expect_word(name, "table", get_args(TableName), f"one of {', '.join(get_args(TableName))}")
-    table, part = _table(result, name), Part(0, result.as_series())
+    table, part = _table(result, name), ResultPart(0, result.as_series())
     return table, [flat for column in table.columns(part) for flat in column.flat()], part
 
 
 def _leading(result: ContactResult, rows: int) -> Iterator[tuple[str, Values]]:
-    """What tells the steps apart: their times, else their numbers from 0; nothing for a single state without a time."""
+    """Yield the columns that identify the steps: times or numbers from 0; none for a single state without a time."""
     if result.times is not None:
         yield "time", np.repeat(result.times, rows)
     elif result.depth.ndim == 2:
         yield "step", np.repeat(np.arange(len(result.depth)), rows)
 
 
-def _units(columns: list[Column], units: str) -> dict[str, str]:
-    """The unit of each column by its name; "" for none."""
+def _units(columns: list[ResultColumn], units: str) -> dict[str, str]:
+    """Return the unit of each column by name; "" for none."""
     return {"time": time_unit(units), **{column.name: column.unit for column in columns}}
 
 
@@ -169,7 +169,7 @@ def _given(about: Mapping[str, str]) -> dict[str, str]:
     return {name: value for name, value in about.items() if value}
 
 
-def _series(pandas: ModuleType, column: Column, steps: int) -> Any:  # noqa: ANN401 - pandas takes arrays of many kinds
+def _series(pandas: ModuleType, column: ResultColumn, steps: int) -> Any:  # noqa: ANN401 - pandas takes arrays of many kinds
     values = column.cut(0, steps).ravel()
     if column.names:
         return pandas.Categorical.from_codes(values, categories=list(column.names[:-1]))
@@ -178,7 +178,7 @@ def _series(pandas: ModuleType, column: Column, steps: int) -> Any:  # noqa: ANN
     return pandas.arrays.IntegerArray(values.astype(np.int64), values == column.blank)
 
 
-def _array(arrow: ModuleType, column: Column, steps: int) -> pa.Array:
+def _array(arrow: ModuleType, column: ResultColumn, steps: int) -> pa.Array:
     values = column.cut(0, steps).ravel()
     if column.blank is not None:
         return arrow.array(values, mask=values == column.blank)
@@ -188,8 +188,8 @@ def _array(arrow: ModuleType, column: Column, steps: int) -> pa.Array:
     return arrow.DictionaryArray.from_arrays(codes, arrow.array(column.names[:-1], arrow.string()))
 
 
-def _variable(column: Column, kind: str, steps: int | None) -> tuple[tuple[str, ...], Values, dict[str, str]]:
-    """A column as xarray takes a variable: its dimensions, values and attributes; `steps` None for a single state."""
+def _variable(column: ResultColumn, kind: str, steps: int | None) -> tuple[tuple[str, ...], Values, dict[str, str]]:
+    """Return dimensions, values and attributes of a variable of xarray; `steps` is None for a single state."""
     values = spelled(column)
     dimensions = (kind, "axis") if column.vector else (kind,)
     if steps is None:
@@ -201,7 +201,7 @@ def _variable(column: Column, kind: str, steps: int | None) -> tuple[tuple[str, 
 
 
 def _library(name: str) -> ModuleType:
-    """An optional library, imported now; raises ImportError with what installs it."""
+    """Return an optional library; raise ImportError with the command that installs it."""
     try:
         return import_module(name)
     except ImportError as error:

@@ -1,4 +1,4 @@
-"""What the evaluator is given: nodes, elements, and the laws of each, as plain arrays; errors that name them."""
+"""Input of the evaluator: nodes, elements and their laws as plain arrays; errors that name an element or a node."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Tension = Literal["keep", "cut"]
 
 
 class PositionError(ValueError):
-    """A node's position or velocity is not finite, or what follows from it there overflows.
+    """A position or a velocity is not finite, or a value computed from it overflows.
 
     Attributes:
         node: the node's id.
@@ -41,11 +41,11 @@ class PositionError(ValueError):
 
 
 class ElementError(ValueError):
-    """An element has no usable law, or a value of it overflows.
+    """An element has no usable law, or a value of the element overflows.
 
     Attributes:
         element: the element's id.
-        step: the time step, from 0; None when it is the input that is wrong.
+        step: the time step, from 0; None if the input is wrong.
     """
 
     def __init__(self, message: str, element: int, step: int | None = None) -> None:
@@ -58,14 +58,14 @@ class ElementError(ValueError):
 
 
 class LawKind(IntEnum):
-    """The normal law of an element, as results name it."""
+    """The normal law of an element, as named in results."""
 
     NONE = 0
     """No restraint."""
     CURVE = 1
     """Force per unit length over embedment ratio."""
     LINEAR = 2
-    """Force per unit length proportional to penetration, maybe with a quadratic zone."""
+    """Force per unit length proportional to penetration, optionally with a quadratic zone."""
     RIGID = 3
     """A constraint, not a spring."""
     NODAL = 4
@@ -73,17 +73,17 @@ class LawKind(IntEnum):
     SOIL = 6
     """A hysteretic soil, whose force follows a path."""
     OTHER = 5
-    """A law that was registered."""
+    """A registered law."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LawAssignment:
-    """A law of some elements or nodes.
+    """A law and the elements or nodes that follow it.
 
     Attributes:
         law: name of the law, see `mudline.model.contact.laws`.
         rows: (k,) indices of elements, or of nodes for a law of nodes.
-        parameters: value of each parameter, a number or an array (k,); those left out have their defaults.
+        parameters: value of each parameter, a number or an array (k,); a missing parameter has its default.
     """
 
     law: str
@@ -95,7 +95,7 @@ class LawAssignment:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AssignedLaw:
-    """All rows of an input that have a law, ascending, with every parameter as an array (k,) of floats."""
+    """All rows of an input that follow a law, ascending, with every parameter as an array (k,) of floats."""
 
     law: Law
     rows: IndexArray
@@ -113,7 +113,7 @@ class AssignedLaw:
 
     @property
     def planned(self) -> str:
-        """What the plan says of it."""
+        """Return the text of the plan about this law."""
         plan = self.law.plan or f"with {self.law.summary}"
         return (
             f"{counted(len(self.rows), self.law.acts_on[:-1])} {plan}"
@@ -122,14 +122,14 @@ class AssignedLaw:
         )
 
     def spread(self, name: str, count: int, otherwise: float = np.nan) -> FloatArray:
-        """Return a parameter for all of `count` elements or nodes, `otherwise` where there is no such law."""
-        found = np.full(count, otherwise)
-        found[self.rows] = self.parameters[name]
-        return found
+        """Return a parameter for all of `count` elements or nodes, `otherwise` where the law does not apply."""
+        values = np.full(count, otherwise)
+        values[self.rows] = self.parameters[name]
+        return values
 
 
-class Names(Protocol):
-    """What the laws of elements are called, and in which units all is: what tables of results say beside numbers."""
+class InputNames(Protocol):
+    """Names of the laws of elements, and the unit system, for tables of results."""
 
     @property
     def units(self) -> str:
@@ -137,7 +137,7 @@ class Names(Protocol):
 
     @property
     def source(self) -> str:
-        """The deck."""
+        """Name of the deck."""
 
     @property
     def law_names(self) -> Sequence[str]:
@@ -145,7 +145,7 @@ class Names(Protocol):
 
     @property
     def law_sets(self) -> Sequence[str | None]:
-        """(m,) the set through which each element got its law."""
+        """(m,) the set that assigned each element's law."""
 
 
 _WEIGHTS = ("weight", "empty_weight")
@@ -157,25 +157,25 @@ class ContactInput:
 
     Attributes:
         node_ids: (n,) numbers of the nodes, for messages.
-        coordinates: (n, 3) positions evaluated when no others are given, X up.
+        coordinates: (n, 3) positions evaluated when `evaluate` is called without positions, X up.
         element_ids: (m,) numbers of the elements, for messages.
         element_nodes: (m, 2) indices of each element's nodes in `node_ids`.
         length: (m,) unstretched lengths, >= 0.
-        diameter: (m,) external diameters, > 0, or NaN where there is none.
-        laws: which elements and nodes have which laws, with which parameters; an element has one normal law at most.
-        curves: what the parameter of the law "curve" points to.
-        tables: what that of the law "trench table" points to: (rows, 2) distance from the centreline, ascending, and
-            lateral resistance per unit length; maybe a third column, see `laws.trench`.
-        tension: what happens where a curve pulls: "keep" its negative force, or "cut" force and stiffness to 0.
-        seabed: its shape; None for a flat one at X = 0.
-        weight: (m,) submerged weights per unit length, NaN where unknown; None when none is. Forces do without them.
-        empty_weight: (m,) the same without contents and without masses at nodes; None where that is the same.
-        left_out: reasons, by stage of the plan, why something the scene asks for is not evaluated.
-        names: what the laws, sets and units are called; None where nobody said.
+        diameter: (m,) external diameters, > 0, or NaN if unknown.
+        laws: laws of elements and nodes with their parameters; an element has at most one normal law.
+        curves: curves that the parameter of the law "curve" indexes.
+        tables: tables that the parameter of the law "trench table" indexes: (rows, 2) distance from the centreline,
+            ascending, and lateral resistance per unit length; optionally a third column, see `laws.trench`.
+        tension: "keep" a curve's negative force, or "cut" force and stiffness to 0 there.
+        seabed: shape of the seabed; None for a flat seabed at X = 0.
+        weight: (m,) submerged weights per unit length, NaN where unknown; None if all are. Forces do not need them.
+        empty_weight: (m,) weights without contents and without masses at nodes; None if these equal `weight`.
+        left_out: reasons, by stage of the plan, why a law of the scene is not evaluated.
+        names: names of laws and sets, and the unit system; None if unknown.
 
     Raises:
-        ValueError: an array has the wrong shape or kind, an index points nowhere, or there is no law of a name.
-        ElementError: an element's law lacks what it needs, or has a parameter out of its range.
+        ValueError: an array has the wrong shape or type, an index is out of range, or a law does not exist.
+        ElementError: a parameter of an element's law is missing or out of range.
     """
 
     node_ids: IdArray
@@ -192,10 +192,10 @@ class ContactInput:
     weight: FloatArray | None = None
     empty_weight: FloatArray | None = None
     left_out: Mapping[str, str] = field(default_factory=dict)
-    names: Names | None = None
+    names: InputNames | None = None
     _lines: list[Lines] = field(init=False, repr=False, default_factory=list)
     assigned: dict[str, AssignedLaw] = field(init=False, repr=False)
-    """The laws that some element or node has, by name."""
+    """The laws of the elements and nodes, by name."""
 
     __repr__ = short_repr
 
@@ -217,18 +217,18 @@ class ContactInput:
         for name in ("length", "diameter"):
             _expect(getattr(self, name), name, "f", (elements,))
         for name in _WEIGHTS:
-            if (given := getattr(self, name)) is not None:
-                _expect(given, name, "f", (elements,))
+            if (weights := getattr(self, name)) is not None:
+                _expect(weights, name, "f", (elements,))
         expect_word(self.tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         self._check_elements(nodes)
         names = dict.fromkeys(assignment.law for assignment in self.laws)
-        found = {name: self._assigned(name) for name in names}
-        object.__setattr__(self, "assigned", {name: given for name, given in found.items() if len(given.rows)})
+        assigned = {name: self._assigned(name) for name in names}
+        object.__setattr__(self, "assigned", {name: law for name, law in assigned.items() if len(law.rows)})
         self._check_normal()
 
     @property
     def lines(self) -> Lines:
-        """The lines that the elements form; found when they are first asked for."""
+        """The lines that the elements form, computed at the first use."""
         if not self._lines:
             from mudline.model.contact.lines import lines_of  # noqa: PLC0415 - forces alone do without it
 
@@ -254,77 +254,77 @@ class ContactInput:
 
     @property
     def law_sets(self) -> Sequence[str | None]:
-        """The set (m,) through which each element got its law; None where nobody said."""
+        """The set (m,) that assigned each element's law; None where unknown."""
         return [None] * len(self.element_ids) if self.names is None else self.names.law_sets
 
     def has(self, *names: str) -> bool:
-        """Whether some element or node has one of these laws."""
+        """Return True if an element or node follows one of these laws."""
         return any(name in self.assigned for name in names)
 
     @property
     def needs_velocities(self) -> list[str]:
-        """Names of the laws that ask for velocities along the normals."""
-        return [name for name, given in self.assigned.items() if given.law.velocities]
+        """Names of the laws that need velocities along the normals."""
+        return [name for name, assigned in self.assigned.items() if assigned.law.velocities]
 
     @property
     def normal_laws(self) -> list[AssignedLaw]:
-        """The normal laws of elements that are there, a rigid seabed left out."""
-        return [given for given in self.assigned.values() if _is_normal(given, "elements")]
+        """The normal laws of elements, without the rigid seabed."""
+        return [assigned for assigned in self.assigned.values() if _is_normal(assigned, "elements")]
 
     @property
     def _restrained(self) -> list[AssignedLaw]:
         """Normal laws of elements, a rigid seabed included."""
-        return [*self.normal_laws, *(given for name, given in self.assigned.items() if name == "rigid")]
+        return [*self.normal_laws, *(assigned for name, assigned in self.assigned.items() if name == "rigid")]
 
     @property
     def nodal_laws(self) -> list[AssignedLaw]:
-        """The normal laws of nodes that are there."""
-        return [given for given in self.assigned.values() if _is_normal(given, "nodes")]
+        """The normal laws of nodes."""
+        return [assigned for assigned in self.assigned.values() if _is_normal(assigned, "nodes")]
 
     @property
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
-        found = np.zeros(len(self.element_ids), np.int8)
-        found[self._nodal_elements()] = LawKind.NODAL
-        for given in self._restrained:
-            found[given.rows] = _kind(given.law.name)
-        return found
+        kinds = np.zeros(len(self.element_ids), np.int8)
+        kinds[self._nodal_elements()] = LawKind.NODAL
+        for assigned in self._restrained:
+            kinds[assigned.rows] = _kind(assigned.law.name)
+        return kinds
 
     @property
     def curve_index(self) -> IndexArray:
-        """Curve of each element (m,), -1 for those that have none."""
-        found = np.full(len(self.element_ids), -1, np.intp)
-        if (given := self.assigned.get("curve")) is not None:
-            found[given.rows] = given["curve"].astype(np.intp)
-        return found
+        """Curve of each element (m,), -1 for an element without a curve."""
+        curves = np.full(len(self.element_ids), -1, np.intp)
+        if (assigned := self.assigned.get("curve")) is not None:
+            curves[assigned.rows] = assigned["curve"].astype(np.intp)
+        return curves
 
     def onset(self) -> FloatArray:
-        """Return the penetration (m,) from which on each element is in contact: 0, or where its zone begins.
+        """Return the penetration (m,) at which each element comes into contact: 0, or the onset of its quadratic zone.
 
-        An element whose law is that of its nodes begins where the first of their zones does.
+        An element with springs at its nodes has the smaller onset of its two nodes.
         """
-        found = np.zeros(len(self.element_ids))
+        onsets = np.zeros(len(self.element_ids))
         at_nodes = np.zeros(len(self.node_ids))
-        for given in self.nodal_laws:
-            at_nodes[given.rows] = _onset(given)
+        for assigned in self.nodal_laws:
+            at_nodes[assigned.rows] = _onset(assigned)
         nodal = self._nodal_elements()
-        found[nodal] = at_nodes[self.element_nodes[nodal]].min(axis=1, initial=0.0)
-        for given in self.normal_laws:
-            found[given.rows] = _onset(given)
-        return found
+        onsets[nodal] = at_nodes[self.element_nodes[nodal]].min(axis=1, initial=0.0)
+        for assigned in self.normal_laws:
+            onsets[assigned.rows] = _onset(assigned)
+        return onsets
 
     def _nodal_elements(self) -> IndexArray:
-        """Elements without a normal law of their own whose two nodes have one."""
+        """Return the elements without a normal law of their own whose two nodes have springs."""
         sprung = np.zeros(len(self.node_ids), np.bool_)
-        for given in self.nodal_laws:
-            sprung[given.rows] = True
+        for assigned in self.nodal_laws:
+            sprung[assigned.rows] = True
         held = np.logical_and(*sprung[self.element_nodes].T)
-        for given in self._restrained:
-            held[given.rows] = False
+        for assigned in self._restrained:
+            held[assigned.rows] = False
         return np.flatnonzero(held)
 
     def _assigned(self, name: str) -> AssignedLaw:
-        """All rows of a law, checked."""
+        """Return all rows of a law with their checked parameters; raise ValueError or ElementError."""
         law = law_named(name)
         parts = [assignment for assignment in self.laws if assignment.law == name]
         count = len(self.element_ids if law.acts_on == "elements" else self.node_ids)
@@ -333,22 +333,22 @@ class ContactInput:
         rows = rows[order]
         self._refuse_first(law, rows[1:], rows[1:] == rows[:-1], f"has two {name} laws")
         columns = [_columns(law, part) for part in parts]
-        found = {each.name: np.concatenate([part[each.name] for part in columns])[order] for each in law.parameters}
+        values = {each.name: np.concatenate([part[each.name] for part in columns])[order] for each in law.parameters}
         for each in law.parameters:
-            wrong = each.invalid(found[each.name])
-            value = float(found[each.name][np.argmax(wrong)]) if wrong.any() else 0.0
+            wrong = each.invalid(values[each.name])
+            value = float(values[each.name][np.argmax(wrong)]) if wrong.any() else 0.0
             what = f"has a {name} law whose {each.name.replace('_', ' ')} is {value!r}; expected {each.valid_range}"
             self._refuse_first(law, rows, wrong, what)
         if law.check is not None:
-            bad, what = law.check(found)
+            bad, what = law.check(values)
             self._refuse_first(law, rows, bad, f"has a {name} law: {what}")
         if law.tables:
-            index, held = ("curve", len(self.curves)) if isinstance(law, NormalLaw) else ("table", len(self.tables))
-            missing = (found[index] >= held) | (found[index] % 1.0 != 0.0)
+            index, size = ("curve", len(self.curves)) if isinstance(law, NormalLaw) else ("table", len(self.tables))
+            missing = (values[index] >= size) | (values[index] % 1.0 != 0.0)
             self._refuse_first(law, rows, missing, f"has a {index} that does not exist")
         if law.needs_diameter:
             self._refuse_first(law, rows, np.isnan(self.diameter[rows]), f"has a {name} law and no diameter")
-        return AssignedLaw(law, rows, found)
+        return AssignedLaw(law, rows, values)
 
     def _check_elements(self, nodes: int) -> None:
         first, second = ((ends >= 0) & (ends < nodes) for ends in self.element_nodes.T)
@@ -360,14 +360,14 @@ class ContactInput:
     def _check_normal(self) -> None:
         for laws in (self._restrained, self.nodal_laws):
             if len(laws) > 1:
-                rows = np.sort(np.concatenate([given.rows for given in laws]))
+                rows = np.sort(np.concatenate([assigned.rows for assigned in laws]))
                 self._refuse_first(laws[0].law, rows[1:], rows[1:] == rows[:-1], "has two normal laws")
 
-        for given in self.normal_laws:
-            for name in ("unloading", "suction") if isinstance(given.law, PathLaw) else ():
-                beside = self.assigned[name].rows if name in self.assigned else np.zeros(0, np.intp)
-                what = f"has a {given.law.name} law, which has its own {name}, and a law of {name} beside it"
-                self._refuse_first(given.law, given.rows, np.isin(given.rows, beside), what)
+        for assigned in self.normal_laws:
+            for name in ("unloading", "suction") if isinstance(assigned.law, PathLaw) else ():
+                also = self.assigned[name].rows if name in self.assigned else np.zeros(0, np.intp)
+                what = f"has a {assigned.law.name} law, which has its own {name}, and an additional {name} law"
+                self._refuse_first(assigned.law, assigned.rows, np.isin(assigned.rows, also), what)
 
     def _require(self, holds: BoolArray, otherwise: str) -> None:
         broken = np.flatnonzero(~holds)
@@ -376,7 +376,7 @@ class ContactInput:
             raise ElementError(f"element {element} {otherwise}", element)
 
     def _refuse_first(self, law: Law, rows: IndexArray, wrong: BoolArray, what: str) -> None:
-        """Raise for the first of the rows of a law that is wrong, if there is one."""
+        """Raise ElementError or ValueError for the first wrong row of a law, if any."""
         if not wrong.any():
             return
         row = rows[np.argmax(wrong)]
@@ -391,13 +391,13 @@ def _kind(name: str) -> LawKind:
     return LawKind.LINEAR if name == "smoothed" else known.get(name.upper(), LawKind.OTHER)
 
 
-def _is_normal(given: AssignedLaw, acts_on: str) -> bool:
-    return isinstance(given.law, NormalLaw) and given.law.acts_on == acts_on
+def _is_normal(assigned: AssignedLaw, acts_on: str) -> bool:
+    return isinstance(assigned.law, NormalLaw) and assigned.law.acts_on == acts_on
 
 
-def _onset(given: AssignedLaw) -> FloatArray:
-    law = given.law
-    return np.asarray(law.onset(*given.columns)) if isinstance(law, NormalLaw) else np.zeros(len(given.rows))
+def _onset(assigned: AssignedLaw) -> FloatArray:
+    law = assigned.law
+    return np.asarray(law.onset(*assigned.columns)) if isinstance(law, NormalLaw) else np.zeros(len(assigned.rows))
 
 
 def _rows(assignment: LawAssignment, count: int) -> IndexArray:
@@ -408,22 +408,22 @@ def _rows(assignment: LawAssignment, count: int) -> IndexArray:
 
 
 def _columns(law: Law, assignment: LawAssignment) -> dict[str, FloatArray]:
-    """The parameters of an assignment as arrays (k,); a value of -0.0 is 0.0."""
+    """Return the parameters of an assignment as arrays (k,); -0.0 becomes 0.0."""
     unknown = set(assignment.parameters) - {each.name for each in law.parameters}
     if unknown:
         expected = ", ".join(each.name for each in law.parameters) or "none"
         raise ValueError(f"the law {law.name!r} has no parameter {min(unknown)!r}; it has {expected}")
-    found = {}
+    columns = {}
     for each in law.parameters:
         value = assignment.parameters.get(each.name, each.default)
         if value is None:
             raise ValueError(f"the law {law.name!r} needs the parameter {each.name!r}")
-        given = np.asarray(value)
-        if given.dtype.kind not in "biuf" or given.shape not in ((), (len(assignment.rows),)):
+        array = np.asarray(value)
+        if array.dtype.kind not in "biuf" or array.shape not in ((), (len(assignment.rows),)):
             shape = f"({len(assignment.rows)},)"
-            raise ValueError(f"{each.name} of the law {law.name!r} must be numbers of shape {shape}, not {given.shape}")
-        found[each.name] = np.broadcast_to(given, (len(assignment.rows),)) + 0.0
-    return found
+            raise ValueError(f"{each.name} of the law {law.name!r} must be numbers of shape {shape}, not {array.shape}")
+        columns[each.name] = np.broadcast_to(array, (len(assignment.rows),)) + 0.0
+    return columns
 
 
 def _expect(array: NDArray[np.generic], name: str, kinds: str, shape: tuple[int, ...]) -> None:

@@ -1,4 +1,4 @@
-"""The lines that elements form, arc length along them from one end, junction or free, to the other; how one lies."""
+"""Lines formed by elements, with arc length between their ends, free or at a junction; summary of a line."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from mudline.model.contact.arrays import FloatArray, IndexArray
 class Lines(NamedTuple):
     """The lines of an input with nodes (n) and elements (m).
 
-    A line goes on through every node of two elements, and ends where there is one or where more than two meet. It is
-    followed in the direction of the first of its elements in the deck; arc length is the sum of the elements' lengths
-    from its first node.
+    A line passes every node of two elements, and ends at a node with one element or more than two. Its direction is
+    that of its first element in the deck. Arc length is the sum of the elements' lengths from the first node of the
+    line.
 
     Attributes:
-        of_element: (m,) the number of each element's line, from 0 in the order of their first elements.
-        of_node: (n,) that of each node, -1 for a node without elements; a junction is one of the first line there.
+        of_element: (m,) number of each element's line, from 0 in the order of the lines' first elements.
+        of_node: (n,) number of each node's line, -1 for a node without elements; a junction belongs to its first line.
         element_arc: (m,) arc length at the middle of each element.
         node_arc: (n,) arc length of each node on its line; NaN for a node without elements.
-        elements: for each line its elements (k,) along it.
-        nodes: for each line its nodes (k + 1,) along it; a closed line ends with the node that it begins with.
+        elements: for each line its elements (k,) along the line.
+        nodes: for each line its nodes (k + 1,) along the line; the last node of a closed line is its first.
     """
 
     of_element: IndexArray
@@ -39,33 +39,33 @@ class Lines(NamedTuple):
         return short_repr(self)
 
     def node_arcs(self, line: int, length: FloatArray) -> FloatArray:
-        """Arc lengths (k + 1,) of the nodes along a line, from the lengths (m,) of all elements; inf beyond numbers."""
+        """Return arc lengths (k + 1,) of the nodes along a line, from all elements' lengths (m,); inf on overflow."""
         with np.errstate(over="ignore"):
             arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
         return arcs
 
 
 def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines:
-    """Return the lines that elements (m, 2) of some lengths (m,) form among so many nodes."""
+    """Return the lines that elements (m, 2) with lengths (m,) form among `nodes` nodes."""
     ends = np.ascontiguousarray(element_nodes, np.intp)
     elements = len(ends)
-    found = _in_order(ends, nodes) or _followed(ends, nodes)
+    parts = _in_order(ends, nodes) or _followed(ends, nodes)
     of_element, of_node = np.zeros(elements, np.intp), np.full(nodes, -1, np.intp)
     element_arc, node_arc = np.zeros(elements), np.full(nodes, np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        for number in range(len(found) - 1, -1, -1):  # a junction keeps the first of its lines
-            along, through = found[number]
+        for number in range(len(parts) - 1, -1, -1):  # a junction keeps the first of its lines
+            along, through = parts[number]
             arc = np.append(0.0, np.cumsum(length[along]))
             of_element[along], element_arc[along] = number, 0.5 * (arc[:-1] + arc[1:])
             closed = through[0] == through[-1]
             of_node[through], node_arc[through] = number, arc
             if closed:
                 node_arc[through[0]] = 0.0
-    return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in found], [each for _, each in found])
+    return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in parts], [each for _, each in parts])
 
 
 def _in_order(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]] | None:
-    """The elements and nodes of each line, where the elements of each stand one behind the other; None elsewhere."""
+    """Return elements and nodes of each line if the elements of each are consecutive in the deck; else None."""
     if not len(ends):
         return []
     first, second = ends.T
@@ -85,19 +85,19 @@ def _in_order(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray
 
 
 def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]]:
-    """The elements and nodes of each line, found by going from element to element."""
+    """Return elements and nodes of each line, found by going from element to element."""
     joined: list[list[int]] = [[] for _ in range(nodes)]
     pairs: list[list[int]] = ends.tolist()
-    for element, (one, other) in enumerate(pairs):
-        joined[one].append(element)
-        joined[other].append(element)
+    for element, (start, end) in enumerate(pairs):
+        joined[start].append(element)
+        joined[end].append(element)
 
     def follow(element: int, node: int) -> tuple[list[int], list[int]]:
-        """The elements from one on, away from a node of it, and the nodes behind each."""
+        """Return the elements from `element` on, leading away from its node `node`, and the node behind each."""
         along, through = [element], []
         while True:
-            one, other = pairs[along[-1]]
-            node = other if node == one else one
+            start, end = pairs[along[-1]]
+            node = end if node == start else start
             through.append(node)
             beside = joined[node]
             if len(beside) != 2:
@@ -108,25 +108,25 @@ def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray
             along.append(following)
 
     left = bytearray(b"\1") * len(pairs)
-    found = []
-    for element, (one, other) in enumerate(pairs):
+    lines = []
+    for element, (first, second) in enumerate(pairs):
         if not left[element]:
             continue
-        back, behind = follow(element, other)
+        back, behind = follow(element, second)
         start = behind[-1]
-        closed = start == other and len(back) > 1 and len(joined[start]) == 2
-        along, through = follow(element, one) if closed else follow(back[-1], start)
-        nodes_along = [one if closed else start, *through]
+        closed = start == second and len(back) > 1 and len(joined[start]) == 2
+        along, through = follow(element, first) if closed else follow(back[-1], start)
+        nodes_along = [first if closed else start, *through]
         for each in along:
             left[each] = 0
-        found.append((np.array(along, np.intp), np.array(nodes_along, np.intp)))
-    return found
+        lines.append((np.array(along, np.intp), np.array(nodes_along, np.intp)))
+    return lines
 
 
 class TouchdownPoint(NamedTuple):
-    """A point of a line where the gap of its nodes changes sign, found between two of them by interpolation.
+    """A point of a line where the gap of its nodes changes sign, interpolated between two nodes.
 
-    `contact` says on which side, in the direction of arc length, the line lies on the seabed.
+    `contact` is the side, in the direction of arc length, on which the line lies on the seabed.
     """
 
     arc_length: float
@@ -137,7 +137,7 @@ class TouchdownPoint(NamedTuple):
 
 
 class ElementForce(NamedTuple):
-    """A force per unit length, and the element that has it: its number, and arc length and place of its middle."""
+    """A force per unit length and its element: number, arc length and coordinates of the middle."""
 
     force: float
     element: int
@@ -149,20 +149,23 @@ class ElementForce(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class LineSummary:
-    """A line at a step.
+    """Summary of a line at a step.
 
     Attributes:
-        time: of the step; None for a single state without a time.
-        line: its number, from 1; first_element, last_element: the ends of it; length: all of it.
-        touchdown: the points where it leaves the seabed or comes down on it, along the line.
-        contact_length: how much of it lies below the seabed, between the touchdown points.
-        largest_force: where the seabed pushes most; None where it does not push.
-        largest_uplift: where the seabed pulls most, by suction or a curve; its force is negative. None without a pull.
-        reaction: total normal force on its nodes; a node of several lines counts for the first of them. None on a rigid
-            seabed, whose force is not known.
-        submerged_weight: of its elements in contact with a law that carries, with contents and masses at nodes; None
-            where it is not known. empty_weight: the same without these.
-        ratio: reaction / submerged weight; None where that is not above 0.
+        time: time of the step; None for a single state without a time.
+        line: number of the line, from 1.
+        first_element, last_element: numbers of the elements at its ends.
+        length: length of the line.
+        touchdown: points where the line leaves the seabed or touches down, along the line.
+        contact_length: length below the seabed, between the touchdown points.
+        largest_force: largest force out of the seabed; None if there is none.
+        largest_uplift: largest pull by suction or a curve, a negative force; None if there is none.
+        reaction: total normal force on its nodes; a junction counts for its first line only. None on a rigid seabed,
+            whose force is not known.
+        submerged_weight: weight of its elements in contact that have a law, with contents and masses at nodes; None if
+            unknown.
+        empty_weight: that weight without contents and masses at nodes.
+        ratio: reaction / submerged weight; None if the weight is not above 0.
     """
 
     time: float | None
@@ -180,6 +183,6 @@ class LineSummary:
     ratio: float | None
 
     def row(self) -> dict[str, object]:
-        """The line as JSON has it."""
-        found: dict[str, object] = as_json({name: getattr(self, name) for name in self.__slots__})
-        return found
+        """Return the line as JSON."""
+        row: dict[str, object] = as_json({name: getattr(self, name) for name in self.__slots__})
+        return row

@@ -1,4 +1,4 @@
-"""The evaluator: from positions to contact forces, with only the laws that an input has."""
+"""The evaluator: contact forces from positions, with only the laws of an input."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from mudline.model.contact.numpy_driver import NumpyDriver
 from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
 from mudline.model.contact.result import (
     ContactResult,
-    Part,
+    ResultPart,
     blank_absent,
     blank_result,
     is_finite,
@@ -37,7 +37,7 @@ from mudline.model.contact.result import (
     refuse_pulling,
 )
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import Batch, ContactState, Tables
+from mudline.model.contact.tables import ContactState, LawTables, StepBatch
 
 if TYPE_CHECKING:
     from mudline.model.contact.compiled.driver import CompiledDriver
@@ -46,44 +46,44 @@ if TYPE_CHECKING:
 
 
 Stepped = tuple[ContactResult, ContactState]
-"""A result, and the state behind it."""
+"""A result, and the state after the step."""
 
 
 class ContactModel:
     """Contact of the elements of an input with the seabed. Holds no state; may be shared by threads.
 
-    Laws per unit length act on an element: depth is the mean of its two nodes' depths, and each node takes half of the
-    force. (So a line whose nodes lie alternately by the same distance above and below their mean feels no change.)
-    Nodal springs, friction and trenches act on the node's own position.
+    Laws per unit length act on an element at the mean depth of its two nodes; each node takes half of the force.
+    (A line whose nodes lie alternately the same distance above and below their mean therefore feels no change.)
+    Nodal springs, friction and trenches act at the node's own position.
 
     Attributes:
-        input: what it was made from.
-        plan: which parts of the evaluation the input needs, which it does not, and why.
+        input: the input of the model.
+        plan: stages of the evaluation, active or not, with reasons.
     """
 
     def __init__(self, given: ContactInput, *, backend: Backend = "auto", threads: int | None = None) -> None:
         """Prepare the laws of an input.
 
-        `backend` says how steps are evaluated: "numpy", "fast" (compiled loops) or "auto": "fast" for long series if
-        the extra `mudline[fast]` is installed. Both give the same bits. What the compiled loops do not cover runs with
-        numpy, and the plan says so. `threads` is the largest number of threads of compiled loops; None: one for each
-        processor.
+        Args:
+            given: the input.
+            backend: "numpy", "fast" (compiled loops) or "auto": "fast" for long series if the extra `mudline[fast]` is
+                installed. Both give the same bits. Laws without compiled loops run with numpy, and the plan says so.
+            threads: largest number of threads of compiled loops; None: one for each processor.
 
         Raises:
             ImportError: `backend` is "fast", but the extra is not installed.
-            ValueError: there is no such backend.
-            TypeError: `given` is not a ContactInput.
+            ValueError, TypeError: the backend does not exist, or `given` is not a ContactInput.
         """
         expect(given, "given", ContactInput, "a ContactInput")
         self.input = given
         self._seabed: Seabed = given.seabed or FlatSeabed()
-        with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
-            self._tables = Tables(given)
+        with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
+            self._tables = LawTables(given)
             self._choice = BackendChoice(backend, threads, self._tables)
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
-        # of the result of a step: the series of one step that it is a view of, and the state
+        # for the result of a step: the series of one step that it is a view of, and the state
         self._made: WeakKeyDictionary[ContactResult, Stepped] = WeakKeyDictionary()
         self._everywhere = np.ones(len(given.node_ids), np.bool_)
         self._everywhere.flags.writeable = False
@@ -91,7 +91,7 @@ class ContactModel:
         self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
     def __getstate__(self) -> dict[str, object]:
-        """What a copy or another process is given: not the results that steps of this model may write again."""
+        """Return the state for a copy or another process, without the results whose arrays this model may reuse."""
         return {name: value for name, value in vars(self).items() if name not in ("_made", "_own")}
 
     def __setstate__(self, state: dict[str, object]) -> None:
@@ -103,7 +103,7 @@ class ContactModel:
         return outline("ContactModel", size, stages, self.plan.steps)
 
     def _repr_html_(self) -> str:
-        """Its size and its plan, for notebooks."""
+        """Return size and plan as HTML, for notebooks."""
         nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
         return self.plan.html("ContactModel", f"{counted(nodes, 'node')}, {counted(elements, 'element')}")
 
@@ -115,35 +115,35 @@ class ContactModel:
         velocities: ArrayLike | None = None,
         times: ArrayLike | None = None,
     ) -> ContactResult:
-        """Evaluate positions (n, 3), or a series (steps, n, 3); None stands for the input's coordinates.
+        """Evaluate positions (n, 3), or a series (steps, n, 3), by default the input's coordinates.
 
-        `Positions`, as files hold them, bring what else they say: which nodes are present, velocities, times.
-
-        Positions are real numbers of any type, in the input's length unit, X up; a memory-mapped series is read a few
-        steps at a time. `present` (n,) says which nodes have a position: what stands at the others is not looked at,
-        elements with one of them are left out, and a node's reaction is that of the elements that are evaluated.
-
-        A scene with history begins it at the first step. `velocities` are of the shape of the positions; without them
-        they are differences over `times` (steps,), 0 at the first step. Only suction and damping ask for them.
+        Args:
+            positions: real numbers of any type, in the input's length unit, X up; a memory-mapped series is read a few
+                steps at a time. `Positions` read from a file also bring `present`, `velocities` and `times`.
+            present: (n,) nodes that have a position. Values of absent nodes are ignored, and their elements are not
+                evaluated; the reaction of a node is that of its evaluated elements.
+            velocities: of the shape of the positions, used only by suction and damping. By default they are differences
+                of positions over `times`, 0 at the first step.
+            times: (steps,) times of the steps. A scene with history starts at the first step.
 
         Raises:
             PositionError: a position is NaN or infinite.
             ElementError: a value of an element overflows.
-            ValueError: an argument does not have the shape or type it should, or a series with suction or damping has
-                neither velocities nor times.
+            ValueError: an argument has the wrong shape or type, or a series with suction or damping has neither
+                velocities nor times.
         """
-        given = self.input.coordinates if positions is None else positions
-        if isinstance(given, Positions):
-            present = given.present if present is None else present
-            velocities = given.velocities if velocities is None else velocities
-            times = given.time if times is None and given.timed else times
-            given = given.values if len(given.values) > 1 or given.time is not None else given.values[0]
+        series = self.input.coordinates if positions is None else positions
+        if isinstance(series, Positions):
+            present = series.present if present is None else present
+            velocities = series.velocities if velocities is None else velocities
+            times = series.time if times is None and series.timed else times
+            series = series.values if len(series.values) > 1 or series.time is not None else series.values[0]
         single = False
-        if not isinstance(given, StepReader):
-            given = as_array(given, "positions")
-            single = given.ndim == 2
-            given = given.copy() if single else given  # the result keeps it: the caller may write the next into theirs
-        part = next(self.stream(given, present=present, velocities=velocities, times=times, together=True))
+        if not isinstance(series, StepReader):
+            series = as_array(series, "positions")
+            single = series.ndim == 2
+            series = series.copy() if single else series  # the result keeps the array, which the caller may overwrite
+        part = next(self.stream(series, present=present, velocities=velocities, times=times, together=True))
         return part.result.step(0) if single else part.result
 
     def stream(
@@ -154,10 +154,10 @@ class ContactModel:
         velocities: ArrayLike | None = None,
         times: ArrayLike | None = None,
         together: bool = False,
-    ) -> Iterator[Part]:
-        """Evaluate a series a few steps at a time, with memory for those; `together`: all steps in one result.
+    ) -> Iterator[ResultPart]:
+        """Evaluate a series a few steps at a time, in bounded memory; with `together` all steps in one result.
 
-        Takes and raises what `evaluate` does.
+        Arguments and exceptions are those of `evaluate`.
         """
         expect(together, "together", (bool, np.bool_), "True or False")
         series = _as_series(positions, self._nodes)
@@ -183,12 +183,12 @@ class ContactModel:
                 state = self._advance(driver, points, rates, spans, part, state, start, spare if driver else state)
                 spare = before
             if whole is None:
-                yield Part(start, part)
+                yield ResultPart(start, part)
         if whole is not None:
-            yield Part(0, whole)
+            yield ResultPart(0, whole)
 
     def initial_state(self) -> ContactState:
-        """Return the state before the first step: nothing has touched the seabed."""
+        """Return the state before the first step, without any contact yet."""
         return self._tables.initial_state()
 
     def step(
@@ -200,16 +200,20 @@ class ContactModel:
         *,
         out: Stepped | None = None,
     ) -> Stepped:
-        """Evaluate one step (n, 3) behind `state`; return its result and the state behind it.
+        """Evaluate one step (n, 3) after `state`; return its result and the new state.
 
-        Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step. `out` is what
-        an earlier step of this model returned and nobody needs any more: its arrays are written again and returned, in
-        less time than new ones take. It may not hold `state`; if the step raises, what is in it is lost.
+        Args:
+            positions: (n, 3) positions of the step.
+            velocities: (n, 3); None: differences to the positions in `state` over `dt`, 0 at the first step.
+            state: state after the step before, or `initial_state()`.
+            dt: time since the step before.
+            out: return value of an earlier step of this model that is no longer needed. Its arrays are reused, which is
+                faster. It must not hold `state`; if the step raises, its contents are lost.
 
         Raises:
             PositionError, ElementError: as `evaluate`.
-            ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed, or `state`
-                is that of another model, or `out` is not what a step of this model returned, or holds `state`.
+            ValueError: as `evaluate`; `dt` is not finite and above 0, or missing; `state` belongs to another model; or
+                `out` was not returned by a step of this model, or holds `state`.
         """
         expect(state, "state", ContactState, "a ContactState")
         if state not in self._own and (
@@ -226,15 +230,15 @@ class ContactModel:
         if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
-            given = _read_steps(series, range(1), self.input.node_ids, None)
+            places = _read_steps(series, range(1), self.input.node_ids, None)
             if out is None:
-                part, spare = self._blank(np.empty(given.shape), self._everywhere, None), None
+                part, spare = self._blank(np.empty(places.shape), self._everywhere, None), None
             else:
                 part, spare = self._again(out, state)
-            # a copy: state and result keep it, and whoever steps may write the next positions into the same array
+            # a copy, which state and result keep: the caller may write the next positions into the same array
             points = np.asarray(part.positions)
             points.flags.writeable = True
-            points[...] = given
+            points[...] = places
             points.flags.writeable = False
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
@@ -255,10 +259,10 @@ class ContactModel:
         *,
         back: bool = False,
     ) -> Tangent:
-        """Return d reactions / d positions and d reactions / d velocities of one step behind `state`, as triples.
+        """Return d reactions / d positions and d reactions / d velocities of one step after `state`, as triples.
 
-        Where the force follows a path (the law "soil"), it is that of going on as the step went, and `back` that of
-        turning round. Over curved seabeds the normal is held. Raises what `step` does.
+        For a force that follows a path (the law "soil") it is the tangent of continued motion, with `back` that of a
+        reversal. Over curved seabeds the normal is held. Raises the exceptions of `step`.
         """
         from mudline.model.contact.tangent import assemble  # noqa: PLC0415 - forces alone do without it
 
@@ -274,11 +278,11 @@ class ContactModel:
             )
 
     def stiffest(self, positions: ArrayLike | None = None, velocities: ArrayLike | None = None) -> Stiffest:
-        """Return for each law and element the largest stiffness and the largest damping: what a time step resolves.
+        """Return the largest stiffness and damping of each law on each element, which a time step must resolve.
 
-        Without positions those that the laws can reach under the static normal force (`input.weight`) and at the worst
-        velocity; with positions (n, 3) or (steps, n, 3), and velocities of their shape, those that occur there. See
-        `mudline.model.contact.stiffest`.
+        Without positions they are the largest that the laws can reach under the static normal force (`input.weight`)
+        and at the worst velocity. With positions and velocities, each (n, 3) or (steps, n, 3), they are the largest
+        there. See `mudline.model.contact.stiffest`.
         """
         from mudline.model.contact.stiffest import stiffest  # noqa: PLC0415 - forces alone do without it
 
@@ -291,7 +295,7 @@ class ContactModel:
         return stiffest(self._tables, result, speed)
 
     def _driver(self, steps: int) -> CompiledDriver | None:
-        """The compiled loops, if they are to evaluate so many steps."""
+        """Return the compiled loops if they are to evaluate so many steps, else None."""
         if not self._choice.compiles(steps):
             return None
         if self._compiled is None:
@@ -314,13 +318,13 @@ class ContactModel:
         first_step: int,
         spare: ContactState | None,
     ) -> ContactState:
-        """Evaluate a batch into `part`; return the state behind it: `spare`, written again, if there is one."""
+        """Evaluate a batch into `part`; return the new state, in the arrays of `spare` if given."""
         laid = state.laid
         if laid is None:  # a copy: the positions of a step may be written again
             laid = points[0].copy() if self.plan.history else points[0]
         self._numpy.locate(points, part)
         complete = part.present is self._everywhere or bool(part.present.all())
-        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
+        batch = StepBatch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
             from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
 
@@ -337,18 +341,18 @@ class ContactModel:
         return after
 
     def _again(self, out: Stepped, state: ContactState) -> Stepped:
-        """Return a series of one step and the state behind it whose arrays are to be written again."""
+        """Return the series of one step and the state whose arrays are to be reused."""
         expect(out, "out", tuple, "a result and a state")
-        found = self._made.get(out[0])
-        if found is None or found[1] not in out[1:]:
+        made = self._made.get(out[0])
+        if made is None or made[1] not in out[1:]:
             raise ValueError("out must be the result and the state that a step of this model returned")
-        part, after = found
+        part, after = made
         if after is state and self.plan.history:
             raise ValueError("out holds the state that the step begins with: its arrays cannot be written yet")
-        for marks in (part.cut, part.regularised):  # steps set them, and leave the others as they are
+        for marks in (part.cut, part.regularised):  # steps set marks, and never clear them
             if marks is not None and marks.flags.writeable:
                 marks[...] = False
-        return found
+        return made
 
     def _speed(
         self,
@@ -359,10 +363,10 @@ class ContactModel:
         state: ContactState,
         heights: FloatArray,
     ) -> FloatArray | None:
-        """Velocities (steps, n) along the normals, where a law asks for them.
+        """Return velocities (steps, n) along the normals; None if no law needs them.
 
-        Those given, else differences over `spans`, the times since the steps before: 0 at the first step of a series.
-        `heights` (steps, n) are those over X = 0, which a horizontal seabed needs alone.
+        Without given velocities they are differences over `spans`, the times since the steps before: 0 at the first
+        step of a series. `heights` (steps, n) are heights above X = 0, sufficient over a horizontal seabed.
         """
         if not self._tables.velocities:
             return None
@@ -382,13 +386,13 @@ class ContactModel:
 
 
 def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArray | None) -> FloatArray:
-    """Velocities of places (steps, ...) over the times since the steps before: 0 at the first step of a series.
+    """Return velocities of places (steps, ...) over the times since the steps before: 0 at the first step of a series.
 
-    `before` (...) are those of the step before the first.
+    `before` (...) are the places at the step before the first.
     """
     first = 1
     if before is not None and spans is not None and len(spans) == len(places):
-        if len(places) == 1:  # as time-domain programs ask for at each of their steps
+        if len(places) == 1:  # the usual call of time-domain programs
             return (places - before) / spans
         first = 0
     rates = np.empty(places.shape)
@@ -403,26 +407,22 @@ def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArra
 
 
 def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | StepReader:
-    """Return (nodes, 3) or (steps, nodes, 3) positions as (steps, nodes, 3), neither copied nor converted.
+    """Return positions (nodes, 3) or (steps, nodes, 3) as (steps, nodes, 3), neither copied nor converted.
 
     Raises:
-        ValueError: the shape or the kind of number is not one of these.
+        ValueError: the positions have another shape, or are not real numbers.
     """
-    given: RealArray | StepReader = positions if isinstance(positions, StepReader) else as_array(positions, "positions")
-    if given.dtype.kind not in "iuf":
-        raise ValueError(f"positions must be real numbers, not {given.dtype}")
-    if given.ndim not in {2, 3} or given.shape[-2:] != (nodes, 3):
+    array: RealArray | StepReader = positions if isinstance(positions, StepReader) else as_array(positions, "positions")
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"positions must be real numbers, not {array.dtype}")
+    if array.ndim not in {2, 3} or array.shape[-2:] != (nodes, 3):
         expected = f"({nodes}, 3) or (steps, {nodes}, 3)"
-        raise ValueError(f"positions must have the shape {expected}, not {given.shape}")
-    return given if isinstance(given, StepReader) or given.ndim == 3 else given[np.newaxis]
+        raise ValueError(f"positions must have the shape {expected}, not {array.shape}")
+    return array if isinstance(array, StepReader) or array.ndim == 3 else array[np.newaxis]
 
 
 def _as_mask(present: ArrayLike, nodes: int) -> BoolArray:
-    """Return which nodes have a position.
-
-    Raises:
-        ValueError: `present` is not an array (nodes,) of booleans.
-    """
+    """Return which nodes have a position; raise ValueError if `present` is not an array (nodes,) of booleans."""
     mask = as_array(present, "present").copy()
     if mask.dtype != np.bool_ or mask.shape != (nodes,):
         raise ValueError(f"present must be booleans of shape ({nodes},), not {mask.dtype} of shape {mask.shape}")
@@ -432,15 +432,15 @@ def _as_mask(present: ArrayLike, nodes: int) -> BoolArray:
 def _read_steps(
     series: RealArray | StepReader, steps: range, node_ids: IdArray, present: BoolArray | None
 ) -> FloatArray:
-    """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for nodes that are not present, if any.
+    """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for absent nodes.
 
     Raises:
-        PositionError: a position of a node that is present is NaN, infinite or too large for a float64.
+        PositionError: a position of a present node is NaN, infinite or too large for a float64.
     """
     points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
-    # a finite sum has finite terms only, and is sooner had than a look at each of them
-    able = True if present is None else present
-    if not math.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & able)).size:
+    # a finite sum has only finite terms, and is faster than a check of each term
+    checked = True if present is None else present
+    if not math.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & checked)).size:
         row, column = bad[0].tolist()
         step, node = steps.start + row, int(node_ids[column])
         place = tuple(points[row, column].tolist())

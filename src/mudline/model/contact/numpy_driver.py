@@ -1,8 +1,8 @@
-"""The laws driven by numpy: ranges of elements and of nodes, batches of steps at a time.
+"""The laws driven by numpy: ranges of elements and of nodes, batches of steps.
 
-Positions are given, so all that knows no history is computed for a batch of steps at once; only the states of suction,
-stick points and touchdown points go from step to step. Nothing is checked here: `contact.result` says whether
-everything came out finite, and what did not.
+Positions are given, so everything without history is computed for a batch of steps at once. Only the states of suction,
+stick points and touchdown points go from step to step. Nothing is checked here: `contact.result` refuses results that
+are not finite.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import numpy as np
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
 from mudline.model.contact.laws import law_module
-from mudline.model.contact.numpy_elements import Elements, Work
+from mudline.model.contact.numpy_elements import ElementRange, Work
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import Batch, ContactState, Tables, rows_within
+from mudline.model.contact.tables import ContactState, LawTables, StepBatch, rows_within
 from mudline.model.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
@@ -27,36 +27,35 @@ if TYPE_CHECKING:
     from mudline.model.contact.trenches import LaidCentreline
 
 BLOCK = 32768
-"""Elements or nodes, times steps, at a time."""
+"""Elements or nodes, times steps, evaluated at a time."""
 _WIDTH = 4096
-"""Elements or nodes in a range of a long line, at least: over a few steps what belongs to them stays in caches."""
+"""Least number of elements or nodes in a range of a long line: their values over a few steps stay in caches."""
 _BATCH = 2**20
-"""Nodes times steps of a batch, at most."""
+"""Largest number of nodes times steps of a batch."""
 _NONE = np.empty(0, np.intp)
 _KEPT = {-3: 2**25, -1: 2**29}
-"""By the number of an option of `mallopt`: arrays that are kept at most (M_MMAP_THRESHOLD, which takes no more), and
-freed memory at the end of the heap (M_TRIM_THRESHOLD): the results of five million nodes."""
+"""Options of `mallopt`: largest kept array (M_MMAP_THRESHOLD), kept memory of the heap (M_TRIM_THRESHOLD)."""
 
 
 class NumpyDriver:
-    """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
+    """Evaluator of batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed) -> None:
+    def __init__(self, tables: LawTables, seabed: Seabed) -> None:
         _keep_freed_memory()
         self._tables, self._seabed = tables, seabed
         elements, nodes = len(tables.half), len(tables.given.node_ids)
         longest = max(elements, nodes, 1)
         narrow = min(_WIDTH if tables.history else BLOCK, longest)
         self.steps = max(1, min(BLOCK // narrow, _BATCH // longest))
-        """How many steps at a time are fastest."""
+        """Number of steps at a time that is fastest."""
         width = BLOCK // self.steps
         flat = isinstance(seabed, FlatSeabed)
         slides = tables.friction is not None or tables.lateral is not None
         self._components = (2 if flat else 3) if slides else 0
         starts = range(0, elements, width)
-        self._elements = [Elements(tables, start, min(start + width, elements), flat=flat) for start in starts]
+        self._elements = [ElementRange(tables, start, min(start + width, elements), flat=flat) for start in starts]
         starts = range(0, nodes, width)
-        self._nodes = [Nodes(tables, start, min(start + width, nodes), flat=flat) for start in starts]
+        self._nodes = [NodeRange(tables, start, min(start + width, nodes), flat=flat) for start in starts]
 
     def locate(self, points: FloatArray, part: ContactResult) -> None:
         """Write gaps and normals of `part` (steps, n)."""
@@ -65,8 +64,8 @@ class NumpyDriver:
         else:
             self._seabed.gaps(points, part.gap)
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState) -> None:
-        """Write a batch to `part`, but for gaps and normals, which are there; `state` is moved on in place."""
+    def run(self, batch: StepBatch, part: ContactResult, state: ContactState) -> None:
+        """Write a batch to `part` except gaps and normals, which are there already; `state` is updated in place."""
         steps, elements = len(batch.points), len(self._tables.half)
         lateral = self._components if self._tables.lateral is not None else 0
         work = Work(
@@ -76,18 +75,18 @@ class NumpyDriver:
             np.zeros((lateral, steps, elements + 2)),
             np.zeros((steps, elements + 2)) if self._tables.embeds else np.empty((0, 0)),
         )
-        for some in self._elements:
-            some.run(batch, part, state, work)
+        for elements_here in self._elements:
+            elements_here.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
-        for some_nodes in self._nodes:
-            some_nodes.run(batch.speed, part, state, work, laid)
+        for nodes_here in self._nodes:
+            nodes_here.run(batch.speed, part, state, work, laid)
 
 
 def _keep_freed_memory() -> None:
-    """Have the C library keep the arrays of a batch for those of the next, where it is that of GNU.
+    """Let the GNU C library keep the arrays of a batch for the next batch.
 
-    It gives large arrays back to the system as soon as they are freed, and touching new memory costs more than what is
-    computed in it: a fifth of the time of a million nodes.
+    By default it returns large arrays to the system as soon as they are freed. Touching new memory costs more than the
+    computations in it: a fifth of the time of a million nodes.
     """
     set_option = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux" else None
     if set_option is not None:
@@ -99,9 +98,12 @@ class _Breakout(NamedTuple):
     """Nodes of a range with a breakout, over the steps of a batch.
 
     Attributes:
-        rows: those in the arrays of the law. at: columns in the range. law: parameters. share: 1 over elements.
-        embedment: their ratios z/D (steps, k), or one for all.
-        held: (5, k) what they remember, written in place.
+        rows: their rows in the arrays of the law.
+        at: their columns in the range.
+        law: parameters.
+        share: 1 over their numbers of elements.
+        embedment: their ratios z/D (steps, k), or (steps, 1) equal for all.
+        held: (5, k) their history, written in place.
     """
 
     rows: slice
@@ -124,20 +126,20 @@ class _Breakout(NamedTuple):
             values[at] *= factor
 
     def begin(self, points: FloatArray, on: BoolArray) -> None:
-        """Forget what nodes remember that were not in contact."""
+        """Reset the history of nodes that were not in contact."""
         on = on[self.at]
         self.held[:3] = np.where(on, self.held[:3], points[:, self.at])
         self.held[3:] = np.where(on, self.held[3:], 0.0)
 
     def end(self, held: BoolArray) -> None:
-        """Forget what nodes remember that are out of contact."""
+        """Clear the history of nodes that are out of contact."""
         self.held[...] = np.where(held[self.at], self.held, [[np.nan]] * 3 + [[0.0]] * 2)
 
 
-class Nodes:
-    """Nodes begin <= i < end."""
+class NodeRange:
+    """Range of nodes begin <= i < end."""
 
-    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+    def __init__(self, tables: LawTables, begin: int, end: int, *, flat: bool) -> None:
         self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
         self._here = here = slice(begin, end)
         self._plane = vectors.PLANES[2 if flat else 3]
@@ -190,7 +192,7 @@ class Nodes:
         if self._damping is not None and speed is not None:
             total += law_module("linear").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
-        if part.normal.strides[1] == 0:  # one for all nodes
+        if part.normal.strides[1] == 0:  # all nodes share a normal
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
         else:
             normal = tuple(np.ascontiguousarray(part.normal[:, here, axis]) for axis in range(3))
@@ -202,19 +204,19 @@ class Nodes:
                 # a negative force times a zero component is -0, which is no reaction of its own
                 np.add(total * normal[axis], 0.0, out=reaction_here[..., axis])
             return
-        wanted = self._sums(work.tangent, directed=True)
-        along = self._turned_axes(in_plane(wanted, normal), normal)
+        direction = self._sums(work.tangent, directed=True)
+        along = self._turned_axes(in_plane(direction, normal), normal)
         sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
         for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
             reaction_here[..., axis] = component
 
     def _sums(self, values: FloatArray, *, directed: bool) -> Components:
-        """Sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
-        found = self._tables.line.sums(values.reshape(-1, values.shape[2]), self.begin, self.end, directed=directed)
-        return tuple(found.reshape(len(values), -1, self.end - self.begin))
+        """Return sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
+        sums = self._tables.line.sums(values.reshape(-1, values.shape[2]), self.begin, self.end, directed=directed)
+        return tuple(sums.reshape(len(values), -1, self.end - self.begin))
 
     def _turned_axes(self, along: Components, normal: Components) -> Components:
-        """Put in u1 of the nodes that have it at an angle to +Y."""
+        """Set u1 of nodes with an angle to +Y."""
         if self._tables.friction is None or not self._turned.size:
             return along
         there = normal if normal[0].shape[1] == 1 else tuple(axis[:, self._turned] for axis in normal)
@@ -230,20 +232,20 @@ class Nodes:
         axes: tuple[Components, Components],
         laid: LaidCentreline | None,
     ) -> Components:
-        """Components of the tangential reaction: friction and lateral springs."""
+        """Return components of the tangential reaction: friction and lateral springs."""
         along, across = axes
-        found: Components = tuple(np.zeros(along[0].shape) for _ in along)
-        one = other = np.zeros(along[0].shape)
+        force: Components = tuple(np.zeros(along[0].shape) for _ in along)
+        axial = sideways = np.zeros(along[0].shape)
         if state.friction is not None:
-            one, other = self._friction_forces(part, state, work, axes, laid)
-            found = self._plane.blend(along, across, one, other)
+            axial, sideways = self._friction_forces(part, state, work, axes, laid)
+            force = self._plane.blend(along, across, axial, sideways)
         if len(work.lateral):
             push = self._sums(work.lateral, directed=False)
-            found = self._plane.added(found, push)
-            one, other = one + self._plane.dot(along, push), other + self._plane.dot(across, push)
+            force = self._plane.added(force, push)
+            axial, sideways = axial + self._plane.dot(along, push), sideways + self._plane.dot(across, push)
         if part.friction is not None:
-            part.friction[:, self._here, 0], part.friction[:, self._here, 1] = one, other
-        return found
+            part.friction[:, self._here, 0], part.friction[:, self._here, 1] = axial, sideways
+        return force
 
     def _friction_forces(
         self,
@@ -253,7 +255,7 @@ class Nodes:
         axes: tuple[Components, Components],
         laid: LaidCentreline | None,
     ) -> tuple[FloatArray, FloatArray]:
-        """Friction along u1 and u2 (steps, k); the stick points go from step to step."""
+        """Return friction along u1 and u2 (steps, k); update the stick points from step to step."""
         history = cast("FrictionHistory", state.friction)
         along, across = axes
         plane, here, first = self._plane, self._here, 3 - len(along)
@@ -302,17 +304,17 @@ class Nodes:
         return forces[0], forces[1]
 
     def _bounded(self, trial: FloatArray, limit: FloatArray, closed: BoolArray) -> tuple[FloatArray, BoolArray]:
-        """Forces (2, k) in the springs and whether they slip."""
+        """Return forces (2, k) in the springs and whether they slip."""
         law = law_module("friction")
         force, slip = law.in_box(trial, limit)
         (curved,) = (self._elliptic & closed).nonzero() if self._curved else (_NONE,)
         if curved.size:
-            wanted, most = trial.take(curved, axis=1), limit.take(curved, axis=1)
-            mapped = law.on_ellipse if (most > 0.0).all() else law.in_ellipse
-            # forces, and whether both directions slip, or each
-            found = mapped(wanted[0], wanted[1], most[0], most[1])
-            for side, slipping in enumerate((found[2], found[-1])):
-                force[side][curved], slip[side][curved] = found[side], slipping
+            trials, limits = trial.take(curved, axis=1), limit.take(curved, axis=1)
+            mapped = law.on_ellipse if (limits > 0.0).all() else law.in_ellipse
+            # forces, then whether both directions slip, or each
+            mapped_forces = mapped(trials[0], trials[1], limits[0], limits[1])
+            for side, slipping in enumerate((mapped_forces[2], mapped_forces[-1])):
+                force[side][curved], slip[side][curved] = mapped_forces[side], slipping
         return force, slip
 
     def _softening(self, state: ContactState, work: Work) -> _Breakout | None:
@@ -327,7 +329,7 @@ class Nodes:
     def _walls(
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline
     ) -> tuple[FloatArray, BoolArray, BoolArray]:
-        """What trenches add to the lateral limits (steps, k), against motion along +u2, or along -u2."""
+        """Return the resistance of trenches (steps, k), and whether it acts against motion along +u2, or along -u2."""
         from mudline.model.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
 
         at = self._in_trench
@@ -338,9 +340,9 @@ class Nodes:
         return resistance(self._trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
 
     def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:
-        """What they add at nodes (k,) with these trial forces."""
+        """Return the resistance of trenches at nodes (k,) with these trial forces."""
         share = np.where(np.where((trial > 0.0)[self._in_trench], forward, back), added, 0.0)
-        found = np.zeros(len(trial))
+        total = np.zeros(len(trial))
         for rows, nodes in self._ranks:
-            found[nodes] += share.take(rows)
-        return found
+            total[nodes] += share.take(rows)
+        return total

@@ -26,31 +26,31 @@ from mudline.model.contact.directions import mean_normal
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.laws import PathLaw, law_module
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import ContactState, NormalRows, Tables, arrays_of, rows_within
+from mudline.model.contact.tables import ContactState, LawTables, NormalRows, arrays_of, rows_within
 from mudline.model.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.suction import SuctionHistory
     from mudline.model.contact.laws.unloading import UnloadingHistory
-    from mudline.model.contact.tables import Batch
+    from mudline.model.contact.tables import StepBatch
 
 Values = tuple[FloatArray, FloatArray, FloatArray]
 """Force, slope and stiffness (steps, k)."""
 
 _Pulled = tuple[IndexArray, IndexArray, FloatArray, FloatArray]
-"""Where there is suction: steps, columns, uplifts at breakout and cyclic factors."""
+"""Steps, columns, uplifts at breakout and cyclic factors of elements in suction."""
 
 
 class Work(NamedTuple):
-    """What elements leave for nodes: values (steps, m + 2), between two columns of zeros.
+    """Values of elements for the nodes (steps, m + 2), between two columns of zeros.
 
     Attributes:
-        planes: (3, steps, n) coordinates; none where nothing moves sideways.
+        planes: (3, steps, n) coordinates; empty if nothing moves sideways.
         load: half of the force of each element.
-        tangent: (c, steps, m + 2) components of the unit direction of each element, those in the plane of a horizontal
-            seabed alone.
-        lateral: the same of the lateral force on each of its nodes.
-        ratio: z/D of each element; none where no node asks for it.
+        tangent: (c, steps, m + 2) components of the unit direction of each element; over a horizontal seabed only those
+            in its plane.
+        lateral: components of the lateral force of each element on each of its nodes.
+        ratio: z/D of each element; empty if no node needs it.
     """
 
     planes: FloatArray
@@ -60,10 +60,14 @@ class Work(NamedTuple):
     ratio: FloatArray
 
 
-class _Group(NamedTuple):
-    """Elements of a range with one normal law: their columns there, parameters and diameters, each (1, k).
+class _LawGroup(NamedTuple):
+    """Elements of a range with one normal law.
 
-    `held` are their rows in what elements on a path remember.
+    Attributes:
+        rows: the law and all its rows.
+        at: columns of the elements in the range.
+        columns, diameter: parameters and diameters, each (1, k).
+        held: rows in the memory of elements on a path.
     """
 
     rows: NormalRows
@@ -74,7 +78,7 @@ class _Group(NamedTuple):
 
 
 class _Subset(NamedTuple):
-    """Elements of a range with another law: rows in the law's own arrays, columns in the range, parameters (1, k)."""
+    """Elements of a range with another law: rows in the law's arrays, columns in the range, parameters (1, k)."""
 
     rows: slice
     at: Picked
@@ -85,17 +89,17 @@ class _Subset(NamedTuple):
 
 
 _Trench = tuple[FloatArray, BoolArray]
-"""Of elements that unload, uplift from their trench bottom, and whether they are below it."""
+"""Uplift of elements with an unloading law from their trench bottom, and whether they are below it."""
 
 
-class Elements:
-    """Elements begin <= e < end."""
+class ElementRange:
+    """Range of elements begin <= e < end."""
 
-    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+    def __init__(self, tables: LawTables, begin: int, end: int, *, flat: bool) -> None:
         self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
         here = slice(begin, end)
         self._here, self._inner = here, slice(begin + 1, end + 1)
-        # one row, which arrays of one step meet sooner than a flat array
+        # a single row: arrays of one step combine with it faster than with a flat array
         self._diameter, self._half = tables.diameter[None, here], tables.half[None, here]
         self._unsized = np.flatnonzero(np.isnan(self._diameter))
         self._onset: FloatArray | float = 0.0 if tables.onset is None else tables.onset[None, here]
@@ -118,29 +122,29 @@ class Elements:
         self._in_trench: tuple[IndexArray, IndexArray] | None = None
         if self._suction is not None and self._unloading is not None:
             pulls, unloads = (np.arange(end - begin)[some.at] for some in (self._suction, self._unloading))
-            _, one, other = np.intersect1d(pulls, unloads, assume_unique=True, return_indices=True)
-            self._in_trench = one, other
+            _, of_suction, of_unloading = np.intersect1d(pulls, unloads, assume_unique=True, return_indices=True)
+            self._in_trench = of_suction, of_unloading
 
-    def _group(self, rows: NormalRows) -> _Group | None:
+    def _group(self, rows: NormalRows) -> _LawGroup | None:
         cut = rows_within(rows.rows, self.begin, self.end)
         at = rows.rows[cut]
         columns = tuple(column[None, cut] for column in rows.columns)
         held = slice(rows.path + cut.start, rows.path + cut.stop)
-        return _Group(rows, at - self.begin, columns, self._tables.diameter[None, at], held) if len(at) else None
+        return _LawGroup(rows, at - self.begin, columns, self._tables.diameter[None, at], held) if len(at) else None
 
-    def _subset(self, given: AssignedLaw | None) -> _Subset | None:
-        if given is None:
+    def _subset(self, assigned: AssignedLaw | None) -> _Subset | None:
+        if assigned is None:
             return None
-        rows = rows_within(given.rows, self.begin, self.end)
+        rows = rows_within(assigned.rows, self.begin, self.end)
         if rows.start == rows.stop:
             return None
-        at = as_range(given.rows[rows] - self.begin)
+        at = as_range(assigned.rows[rows] - self.begin)
         onset = self._onset[:, at] if isinstance(self._onset, np.ndarray) else self._onset
-        columns = tuple(column[None, rows] for column in given.columns)
-        return _Subset(rows, at, given.rows[rows], columns, self._diameter[:, at], onset)
+        columns = tuple(column[None, rows] for column in assigned.columns)
+        return _Subset(rows, at, assigned.rows[rows], columns, self._diameter[:, at], onset)
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState, work: Work) -> None:
-        """Write the elements of a batch, and what they leave for nodes."""
+    def run(self, batch: StepBatch, part: ContactResult, state: ContactState, work: Work) -> None:
+        """Write the elements of a batch, and their values for the nodes."""
         depth, contact = self._write_depths(part)
         values = part.force[:, self._here], part.slope[:, self._here], part.stiffness[:, self._here]
         trench = None
@@ -186,25 +190,25 @@ class Elements:
         part: ContactResult,
         paths: FloatArray | None,
     ) -> None:
-        """Write what the normal laws give at a depth, 0 where an element does not touch.
+        """Write the values of the normal laws at a depth, 0 where an element does not touch.
 
-        Elements are put in the order of their laws and back, so that each law has its own in one piece. `ratio` is
-        depth / diameter where that is at hand already.
+        Elements are sorted by law and back, so that each law works on contiguous columns. `ratio` is depth / diameter
+        if already known.
         """
         if self._back is None and len(self._groups) == 1 and not self._bare:
             self._apply_normal_law(self._groups[0], depth, ratio, touches, values, part, paths)
             zero_outside(touches, *values)
             return
         z, on = depth.take(self._order, axis=1), touches.take(self._order, axis=1)
-        found, start = np.empty((3, *depth.shape)), 0
+        sorted_values, start = np.empty((3, *depth.shape)), 0
         for group in self._groups:
-            some = slice(start, start + len(group.at))
-            ours = found[0][:, some], found[1][:, some], found[2][:, some]
-            self._apply_normal_law(group, z[:, some], None, on[:, some], ours, part, paths)
-            start = some.stop
-        found[..., start:] = 0.0
-        zero_outside(on, found)
-        for target, source in zip(values, found, strict=True):
+            columns = slice(start, start + len(group.at))
+            own = sorted_values[0][:, columns], sorted_values[1][:, columns], sorted_values[2][:, columns]
+            self._apply_normal_law(group, z[:, columns], None, on[:, columns], own, part, paths)
+            start = columns.stop
+        sorted_values[..., start:] = 0.0
+        zero_outside(on, sorted_values)
+        for target, source in zip(values, sorted_values, strict=True):
             if self._back is None:
                 target[...] = source
             else:
@@ -212,7 +216,7 @@ class Elements:
 
     def _apply_normal_law(  # noqa: PLR0913, PLR0917 - as above, for a group
         self,
-        group: _Group,
+        group: _LawGroup,
         depth: FloatArray,
         ratio: FloatArray | None,
         touches: BoolArray,
@@ -220,7 +224,7 @@ class Elements:
         part: ContactResult,
         paths: FloatArray | None,
     ) -> None:
-        """Write what one law gives on its elements, whether or not they touch."""
+        """Write the values of one law on its elements, touching or not."""
         force, slope, stiffness = values
         if group.rows.curve >= 0:
             curve = self._tables.given.curves[group.rows.curve]
@@ -228,9 +232,9 @@ class Elements:
             if all(array.flags.c_contiguous for array in (at, force, slope)):
                 curve.fill(at.reshape(-1), force.reshape(-1), slope.reshape(-1))
             else:
-                found = np.empty((2, at.size))
-                curve.fill(np.ascontiguousarray(at).reshape(-1), found[0], found[1])
-                force[...], slope[...] = found.reshape(2, *at.shape)
+                curve_values = np.empty((2, at.size))
+                curve.fill(np.ascontiguousarray(at).reshape(-1), curve_values[0], curve_values[1])
+                force[...], slope[...] = curve_values.reshape(2, *at.shape)
             np.divide(slope, group.diameter, out=stiffness)
         else:
             if paths is not None and isinstance(group.rows.law, PathLaw):
@@ -254,13 +258,13 @@ class Elements:
         history: UnloadingHistory,
         paths: FloatArray | None,
     ) -> _Trench:
-        """Write the virgin path at the largest penetrations so far, or the lines to there."""
+        """Write the virgin path at new largest penetrations, and the unloading line elsewhere."""
         law = law_module("unloading")
         z = np.fmax(taken(depth, some.at), 0.0)
         so_far = np.concatenate([history.z_max[None, some.rows], z])
         if len(z) > z.shape[1]:
             np.maximum.accumulate(so_far, axis=0, out=so_far)
-        else:  # along the steps of each element in turn is slow
+        else:  # np.maximum.accumulate is slow over the steps of each element in turn
             for before, now in itertools.pairwise(so_far):
                 np.maximum(before, now, out=now)
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
@@ -275,7 +279,7 @@ class Elements:
                 steepest[:, mine] = np.maximum(steepest[:, mine], self._slope(group, deepest[:, mine], theirs))
         line = law.line_stiffness(steepest, deepest, force_max)
         never = deepest == 0.0
-        if never.any():  # a smoothed law has a force at the mudline, its line none
+        if never.any():  # a smoothed law has a force at the mudline, its line has none
             force_max[never] = 0.0
             np.copyto(line, some.columns[0], where=never)
         bottom = law.trench_bottom(line, deepest, force_max)
@@ -289,20 +293,20 @@ class Elements:
             kept[some.rows] = moved[-1]
         return bottom - taken(depth, some.at), z > bottom
 
-    def _may_steepen(self, some: _Subset) -> list[tuple[_Group, IndexArray, IndexArray]]:
-        """Elements whose normal law may be steeper than their line: group, places among those that unload and in it."""
+    def _may_steepen(self, some: _Subset) -> list[tuple[_LawGroup, IndexArray, IndexArray]]:
+        """Return elements whose normal law may be steeper than their line: group, places in subset and group."""
         at = np.arange(self.end - self.begin)[some.at]
-        found = []
+        groups = []
         for group in self._groups:
             _, mine, theirs = np.intersect1d(at, group.at, assume_unique=True, return_indices=True)
             steepest = self._slope(group, np.full((1, len(theirs)), np.inf), theirs)
             (steeper,) = (steepest[0] > some.columns[0][0, mine]).nonzero()
             if steeper.size:
-                found.append((group, mine[steeper], theirs[steeper]))
-        return found
+                groups.append((group, mine[steeper], theirs[steeper]))
+        return groups
 
-    def _slope(self, group: _Group, z: FloatArray, rows: IndexArray) -> FloatArray:
-        """The steepest slope of a normal law between the mudline and penetrations (steps, k) of some elements."""
+    def _slope(self, group: _LawGroup, z: FloatArray, rows: IndexArray) -> FloatArray:
+        """Return the steepest slope of a normal law between the mudline and penetrations (steps, k) of elements."""
         diameter = group.diameter[:, rows]
         if group.rows.curve >= 0:
             from mudline.model.contact.laws.curve import steepest_slope  # noqa: PLC0415 - only now is it needed
@@ -357,9 +361,9 @@ class Elements:
     def _suction_states(
         self, rows: slice, motion: tuple[FloatArray, FloatArray, BoolArray], history: SuctionHistory
     ) -> tuple[StateArray, _Pulled | None]:
-        """States (steps, k) by uplift, velocity and compression, step by step; and where there is suction.
+        """Return states (steps, k) by uplift, velocity and compression, step by step, and the elements in suction.
 
-        Only elements that are off the seabed and not at rest need more than a look.
+        Most elements are on the seabed or at rest, and take the short way.
         """
         suction, law, least, counts = law_module("suction"), self._law, self._least, self._counts
         uplift, v, pressed = motion
@@ -404,15 +408,15 @@ class Elements:
         return every, (steps, columns, reaches, factors)
 
     def _ends(self, work: Work) -> tuple[FloatArray, FloatArray]:
-        """Coordinates (3 steps, k) of both ends of the elements."""
+        """Return coordinates (3 steps, k) of both ends of the elements."""
         return self._tables.line.at(work.planes.reshape(-1, work.planes.shape[2]), self.begin, self.end)
 
     def _write_directions(self, work: Work) -> FloatArray:
-        """Write the unit directions of the elements; return those components that `work` has."""
+        """Write the unit directions of the elements; return the components that `work` has."""
         first, second = self._ends(work)
-        found = units((second - first).reshape(3, -1, self.end - self.begin))[3 - len(work.tangent) :]
-        work.tangent[..., self._inner] = found
-        return found
+        directions = units((second - first).reshape(3, -1, self.end - self.begin))[3 - len(work.tangent) :]
+        work.tangent[..., self._inner] = directions
+        return directions
 
     def _apply_lateral(
         self,
@@ -423,13 +427,13 @@ class Elements:
         touchdown: FloatArray,
         work: Work,
     ) -> None:
-        """Write the forces of lateral springs; their touchdown points go from step to step."""
+        """Write the forces of lateral springs; update their touchdown points from step to step."""
         plane = vectors.PLANES[len(along)]
         normal = mean_normal(self._tables, some.elements, part.normal)
         across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
-        one, other = self._ends(work)
-        middle = (0.5 * taken(one, some.at) + 0.5 * taken(other, some.at)).reshape(3, *touches.shape)
+        start, end = self._ends(work)
+        middle = (0.5 * taken(start, some.at) + 0.5 * taken(end, some.at)).reshape(3, *touches.shape)
         held, kept = np.empty(middle.shape), touchdown[some.rows].T
         down = ~np.isnan(kept[0])
         for step, touch in enumerate(touches):

@@ -1,4 +1,4 @@
-"""What an input needs of the evaluator, and what is left out, with the reason."""
+"""Stages of the evaluation that an input needs, and why other stages are left out."""
 
 from __future__ import annotations
 
@@ -15,12 +15,18 @@ from mudline.basics.short_repr import UnknownNameError, counted, outline
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.laws import known_laws
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """A part of the evaluation: its name, whether the input needs it, and why or why not."""
+    """A stage of the evaluation.
+
+    Attributes:
+        stage: name of the stage.
+        active: whether the input needs it.
+        why: reason for `active`.
+    """
 
     stage: str
     active: bool
@@ -32,8 +38,8 @@ class Plan:
     """The stages in the order in which they are evaluated.
 
     Attributes:
-        stages: floor, normal law, smoothing, unloading, suction, friction, lateral, trench, assembly.
-        history: whether a step's result depends on the steps before it.
+        stages: seabed surface, normal law, smoothing, unloading, suction, friction, lateral, trench, assembly.
+        history: whether the result of a step depends on earlier steps.
     """
 
     stages: tuple[Stage, ...]
@@ -41,7 +47,7 @@ class Plan:
 
     @property
     def steps(self) -> str:
-        """How time steps are taken."""
+        """Order in which time steps are evaluated."""
         return "one step after the other" if self.history else "all steps at once"
 
     def __repr__(self) -> str:
@@ -54,14 +60,14 @@ class Plan:
         )
 
     def _repr_html_(self) -> str:
-        """The stages with their reasons, for notebooks."""
+        """Return the stages with their reasons as HTML, for notebooks."""
         return self.html("Plan", "")
 
     def html(self, title: str, size: str) -> str:
-        """Return a table of the stages below a title."""
+        """Return the stages as an HTML table below a title."""
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
-        rows = [(one.stage, "yes" if one.active else "no", one.why) for one in self.stages]
+        rows = [(stage.stage, "yes" if stage.active else "no", stage.why) for stage in self.stages]
         summary = "; ".join(filter(None, [size, self.steps]))
         return html_page(title, summary, html_table(("stage", "active", "why"), rows, len(rows)))
 
@@ -76,15 +82,15 @@ class Plan:
         raise UnknownNameError.among("stage", name, [stage.stage for stage in self.stages])
 
     def __str__(self) -> str:
-        lines = [f"{stage.stage:<10} {'yes' if stage.active else 'no':<3} {stage.why}" for stage in self.stages]
-        return "\n".join([*lines, f"{'history':<10} {'yes' if self.history else 'no':<3} {self.steps}"])
+        lines = [f"{stage.stage:<14} {'yes' if stage.active else 'no':<3} {stage.why}" for stage in self.stages]
+        return "\n".join([*lines, f"{'history':<14} {'yes' if self.history else 'no':<3} {self.steps}"])
 
 
-def make_plan(given: ContactInput, tables: Tables, choice: BackendChoice) -> Plan:
-    """Return the stages that an input needs and those it does not."""
+def make_plan(given: ContactInput, tables: LawTables, choice: BackendChoice) -> Plan:
+    """Return all stages of the evaluation, active or not, with reasons."""
     forces = bool(tables.normal or tables.nodal or _beside(given, "suction"))
     stages = (
-        Stage("floor", active=True, why=_seabed(given)),
+        Stage("seabed surface", active=True, why=_seabed(given)),
         Stage("normal law", bool(tables.normal or tables.nodal), _normal_law(given, tables, choice)),
         Stage("smoothing", *_smoothing(tables)),
         _stage(given, "unloading", "no element has an unloading stiffness"),
@@ -113,7 +119,7 @@ def _seabed(given: ContactInput) -> str:
     return given.seabed.describe() + held
 
 
-def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> str:
+def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -> str:
     parts = []
     curves = [rows for rows in tables.normal if rows.curve >= 0]
     if curves:
@@ -145,7 +151,7 @@ def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> s
     return "; ".join(parts)
 
 
-def _smoothing(tables: Tables) -> tuple[bool, str]:
+def _smoothing(tables: LawTables) -> tuple[bool, str]:
     widths: list[FloatArray] = [
         rows.columns[1] for rows in (*tables.normal, *tables.nodal) if rows.law.name in {"smoothed", "nodal"}
     ]
@@ -156,9 +162,9 @@ def _smoothing(tables: Tables) -> tuple[bool, str]:
 
 
 def _beside(given: ContactInput, stage: str) -> list[str]:
-    """What the plan says of each law of a stage beside the normal ones, those without a force left out."""
-    found = (given.assigned[name] for name in known_laws() if name in given.assigned)
-    return [law.planned for law in found if law.law.stage == stage and law.law.plan is not None]
+    """Return the plan's text of each law of a stage next to the normal laws; a law without a force has none."""
+    laws = (given.assigned[name] for name in known_laws() if name in given.assigned)
+    return [assigned.planned for assigned in laws if assigned.law.stage == stage and assigned.law.plan is not None]
 
 
 def _stage(given: ContactInput, stage: str, otherwise: str) -> Stage:
@@ -166,7 +172,7 @@ def _stage(given: ContactInput, stage: str, otherwise: str) -> Stage:
     return Stage(stage, bool(parts), "; ".join(parts) or otherwise)
 
 
-def _trench(given: ContactInput, tables: Tables) -> Stage:
+def _trench(given: ContactInput, tables: LawTables) -> Stage:
     stage = _stage(given, "trench", "no node lies in a trench")
     if not stage.active:
         return stage
@@ -180,21 +186,20 @@ def _trench(given: ContactInput, tables: Tables) -> Stage:
 Backend = Literal["auto", "numpy", "fast"]
 
 MOST_PARAMETERS = 9
-"""Parameters of a normal law with an equation up to which there are compiled loops for it."""
+"""Largest number of parameters of a normal law that compiled loops support."""
 _WORTH_COMPILING, _WORTH_COMPILING_PLAIN = 5_000_000, 50_000_000
-"""Nodes times steps from which on compiled loops are worth loading, and at the first time compiling: where a law has a
-history, and where none has, which numpy does nearly as fast."""
+"""Nodes times steps that make compiled loops worthwhile, first compilation included: with history, and without."""
 
 
 class BackendChoice:
-    """How a model evaluates its series.
+    """Choice between numpy and compiled loops for the series of a model.
 
     Attributes:
         threads: largest number of threads of compiled loops.
-        uncovered: why there are no compiled loops for the laws; empty where there are.
+        uncovered: why the laws have no compiled loops; empty if they have.
     """
 
-    def __init__(self, backend: Backend, threads: int | None, tables: Tables) -> None:
+    def __init__(self, backend: Backend, threads: int | None, tables: LawTables) -> None:
         expect_word(backend, "backend", ("auto", "numpy", "fast"), "auto, numpy or fast")
         if backend == "fast":
             import_module("numba")
@@ -209,7 +214,7 @@ class BackendChoice:
         self.uncovered = f"the law {rich[0].name!r} has more than {MOST_PARAMETERS} parameters" if rich else ""
 
     def compiles(self, steps: int) -> bool:
-        """Return whether a series of so many steps is for the compiled loops."""
+        """Return True if compiled loops evaluate a series of so many steps."""
         if self._backend == "numpy" or self.uncovered:
             return False
         if self._backend == "fast":

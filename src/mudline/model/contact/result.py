@@ -1,4 +1,4 @@
-"""What an evaluation gives, and what is refused in it: who, at which step, and why."""
+"""Results of an evaluation, and the errors for values that are refused: element or node, step, reason."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mudline.basics.installed import install_hint
 from mudline.basics.short_repr import counted, outline, short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
 from mudline.model.contact.input import ContactInput, ElementError, PositionError
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.tables import LawTables
 
 if TYPE_CHECKING:  # each is imported when it is asked for
     import pandas as pd
@@ -37,32 +37,32 @@ TableName = Literal["elements", "nodes", "summary"]
 class ContactResult:
     """Arrays over elements (m) and nodes (n); over (steps, m) and (steps, n) for a series of positions.
 
-    NaN stands for "none": `ratio` and `slope` of an element without diameter, and everything of elements and nodes
+    NaN means "no value": `ratio` and `slope` of an element without diameter, and every value of elements and nodes
     without a position.
 
     Attributes:
-        depth: mean distance of the element's two nodes below the seabed; negative above it.
+        depth: mean depth of the element's two nodes below the seabed; negative above it.
         ratio: embedment ratio, depth / diameter.
         contact: depth > 0, or > -h in a centred zone.
-        force: normal force per unit length, positive pushing out of the seabed.
+        force: normal force per unit length, positive out of the seabed.
         slope: d force / d ratio, per unit length.
-        stiffness: d force / d penetration, per unit length and length of penetration.
-        cut: where a pulling curve was cut; such an element is in contact with force, slope and stiffness 0.
+        stiffness: d force / d penetration, per unit length.
+        cut: elements with a curve cut in tension; they are in contact with force, slope and stiffness 0.
         gap: distance of the node above the seabed, along its normal.
         normal: (..., n, 3) unit normal of the seabed at the node, out of the soil; may be a read-only view.
         reaction: (..., n, 3) total force of the seabed on the node.
-        normal_force: the reaction along the normal, positive pushing out of the seabed.
-        state: (..., m) `SuctionState` of the elements, -1 without suction; None where no element has it.
-        regularised: (..., m) suction at a velocity below v_r, where the force is less than the power law gives; None
-            without suction.
+        normal_force: the reaction along the normal, positive out of the seabed.
+        state: (..., m) `SuctionState` of the elements, -1 without suction; None if no element has suction.
+        regularised: (..., m) elements with suction at a velocity below v_r, where the force is less than the power law
+            gives; None if no element has suction.
         friction: (..., n, 2) force of friction and lateral springs on the pipe along u1 and u2; None without any.
         friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
         evaluated: (m,) elements whose two nodes have positions.
         present: (n,) nodes that have a position.
-        rigid: (n,) nodes of elements on a rigid seabed, a constraint and no force; None where there are none.
-        given: nodes, elements, laws and names that were evaluated.
-        positions: (..., n, 3) what was evaluated, in any type of number; a series is the caller's own array.
-        times: (steps,) the times of a series, () of one of its steps; None where there are none.
+        rigid: (n,) nodes of elements on a rigid seabed, which is a constraint and no force; None without any.
+        given: the input: nodes, elements, laws and names.
+        positions: (..., n, 3) evaluated positions, of any type of number; for a series the caller's own array.
+        times: (steps,) the times of a series, () for one of its steps; None without times.
     """
 
     depth: FloatArray
@@ -94,13 +94,13 @@ class ContactResult:
         return outline("ContactResult", shapes, f"with {present}" if present else "")
 
     def _repr_html_(self) -> str:
-        """How large it is, and the touchdown of its lines at the first steps, for notebooks."""
-        found: str = import_module("mudline.model.contact.frames").html(self)
-        return found
+        """Return size and touchdown of the lines at the first steps as HTML, for notebooks."""
+        page: str = import_module("mudline.model.contact.frames").html(self)
+        return page
 
     @property
     def restrained(self) -> BoolArray | None:
-        """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""
+        """Nodes (..., n) at or below a rigid seabed, which restrains them along their `normal`; None without any."""
         return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
 
     def friction_state_of(self, side: int) -> StateArray:
@@ -118,53 +118,55 @@ class ContactResult:
     def to_dataframe(self, table: TableName = "elements") -> pd.DataFrame:
         """Return the elements, nodes or lines ("summary") as a pandas frame, a row for each at each step.
 
-        Columns are those of result files; in front `time`, or `step` for a series without times. `attrs` has `units`,
-        the unit system, and `unit`, the unit of each column that has one. No value is NaN, NA or None.
+        The columns are those of result files after `time`, or after `step` for a series without times. `attrs` has
+        `units`, the unit system, and `unit`, the unit of each column that has one. A missing value is NaN, NA or None.
 
         Raises:
             ImportError: pandas is not installed; the extra `frames` brings it.
-            ValueError: there is no such table, or the result does not know what was evaluated.
+            ValueError: the table does not exist, or the result has no input.
         """
         return import_module("mudline.model.contact.frames").dataframe(self, table)
 
     def to_arrow(self, table: TableName = "elements") -> pa.Table:
         """Return the elements, nodes or lines ("summary") as a pyarrow table with the columns of `to_dataframe`.
 
-        Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
-        what `to_dataframe` does, ImportError for want of pyarrow.
+        The metadata of a field has its `unit`, that of the table `mudline.format` and `mudline.units`; a missing value
+        is null. Raises the exceptions of `to_dataframe`, ImportError without pyarrow.
         """
         return import_module("mudline.model.contact.frames").arrow_table(self, table)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        """The elements for whatever takes Arrow streams: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.
+        """Return the elements as an Arrow stream: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.
 
-        Raises what `to_arrow` does.
+        Raises the exceptions of `to_arrow`.
         """
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_xarray(self) -> xr.Dataset:
         """Return all elements and nodes as an xarray data set with the dimensions `time`, `element` and `node`.
 
-        Variables are named as the arrays of NPZ files, `node_` before what elements have too; vectors have a dimension
-        `axis`. Numbers, sets, laws, lines and arc lengths are coordinates. The unit of each is its attribute `units`. A
-        single state has no `time`, except as a number where it is one of a series. Raises what `to_dataframe` does,
-        ImportError for want of xarray.
+        Variables have the names of the arrays in NPZ files: nodes have `node_` before a name that elements have too.
+        Vectors have a dimension `axis`. Numbers, sets, laws, lines and arc lengths are coordinates; the attribute
+        `units` is the unit of a variable. A single state has no dimension `time`, and a scalar `time` if it is a step
+        of a series.
+
+        Raises the exceptions of `to_dataframe`, ImportError without xarray.
         """
-        found: xr.Dataset = import_module("mudline.model.contact.frames").dataset(self)
-        return found
+        data: xr.Dataset = import_module("mudline.model.contact.frames").dataset(self)
+        return data
 
     @property
     def known(self) -> ContactInput:
-        """What was evaluated.
+        """The input of the result.
 
-        Raises ValueError for a result that does not know it.
+        Raises ValueError for a result without an input.
         """
         if self.given is None:
             raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
         return self.given
 
     def as_series(self) -> ContactResult:
-        """Return a single state as a series of one step, as views; a series as it is."""
+        """Return a single state as a series of one step, as views; return a series unchanged."""
         return self if self.depth.ndim == 2 else self._each(lambda values: np.asarray(values)[None])
 
     def steps(self, start: int, stop: int) -> ContactResult:
@@ -206,20 +208,20 @@ class ContactResult:
             raise ImportError(f"a plot needs matplotlib: {install_hint('plot')}") from error
         if ax is not None and not hasattr(ax, "plot"):
             raise ValueError("ax must be axes of matplotlib")
-        found: Figure | Axes = (
+        drawn: Figure | Axes = (
             plots.plot_result(self, path, elements=elements)
             if ax is None
             else plots.plot_panel(self, ax, panel, elements=elements)
         )
-        return found
+        return drawn
 
     def summary(self) -> list[LineSummary]:
-        """Return every line at each step: touchdown points, length in contact, largest forces, total reaction.
+        """Return each line at each step: touchdown points, length in contact, largest forces, total reaction.
 
-        Raises ValueError for a result that does not know what was evaluated.
+        Raises ValueError for a result without an input.
         """
-        found: list[LineSummary] = import_module("mudline.model.contact.touchdown").line_summaries(self)
-        return found
+        lines: list[LineSummary] = import_module("mudline.model.contact.touchdown").line_summaries(self)
+        return lines
 
     def _cut(self, key: int | slice) -> ContactResult:
         if self.depth.ndim != 2:
@@ -239,7 +241,7 @@ def _whole(value: int, name: str) -> int:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Part:
+class ResultPart:
     """Steps `start` and on of a series, with their results (steps, ...)."""
 
     start: int
@@ -254,14 +256,15 @@ class Part:
 
     @property
     def steps(self) -> slice:
-        """Where the steps stand among all steps."""
+        """Range of the steps among all steps."""
         return slice(self.start, self.start + self.count)
 
 
 def total_normal_force(result: ContactResult, nodes: IndexArray | BoolArray) -> FloatArray:
-    """Return the total normal force (...) on some nodes; NaN where a rigid seabed may hold one of them.
+    """Return the total normal force (...) on some nodes; NaN if a rigid seabed may restrain one of these nodes.
 
-    Its force follows from the equilibrium of the line, which is not known here. Nodes without a position count 0.
+    The force of a rigid seabed follows from the equilibrium of the line, which is not known here. A node without a
+    position adds 0.
     """
     if result.rigid is not None and result.rigid[nodes].any():
         return np.full(result.gap.shape[:-1], np.nan)
@@ -276,14 +279,14 @@ _get_by_step, _get_rest = attrgetter(*_BY_STEP), attrgetter(*_OF_ALL_STEPS)
 def blank_result(
     positions: NDArray[Any],
     present: BoolArray,
-    tables: Tables,
+    tables: LawTables,
     same_normal: FloatArray | None,
     times: FloatArray | None,
 ) -> ContactResult:
-    """Return the results of a series of positions (steps, n, 3), to be filled in.
+    """Return empty results for a series of positions (steps, n, 3).
 
-    Arrays for laws that are not there are left out. Where all points of the seabed share a normal, it is a view, and so
-    is `cut` where nothing is ever cut.
+    Arrays of absent laws are None. If all points of the seabed share a normal, `normal` is a view; so is `cut` if no
+    curve is cut.
     """
     evaluated = present[tables.line.first] & present[tables.line.second]
     on_elements, on_nodes = (len(positions), len(evaluated)), (len(positions), len(present))
@@ -315,7 +318,7 @@ def blank_result(
 
 
 def blank_absent(part: ContactResult) -> None:
-    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
+    """Set values without a position to NaN; depth, ratio and gap are NaN already."""
     for on_elements in (part.force, part.slope, part.stiffness):
         on_elements[:, ~part.evaluated] = np.nan
     part.normal_force[:, ~part.present] = np.nan
@@ -325,24 +328,24 @@ def blank_absent(part: ContactResult) -> None:
 
 
 def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
-    """The same values everywhere, as a view that may not be written; what np.broadcast_to does, sooner."""
-    found: NDArray[Any] = np.ndarray((*shape, *values.shape), values.dtype, values.data, 0, (0, 0, *values.strides))
-    found.setflags(write=False)
-    return found
+    """Return equal values everywhere as a read-only view; faster than np.broadcast_to."""
+    view: NDArray[Any] = np.ndarray((*shape, *values.shape), values.dtype, values.data, 0, (0, 0, *values.strides))
+    view.setflags(write=False)
+    return view
 
 
 def is_finite(part: ContactResult, speed: FloatArray | None) -> bool:
-    """Whether nothing needs to be looked at: every value of a batch is finite.
+    """Return True if every value of a batch is finite.
 
-    A sum of finite values may overflow, and values are NaN where there is no position; then this is False too.
+    Return False also if a sum of finite values overflows, or if a value is NaN for want of a position.
     """
     at_nodes = part.normal_force if part.friction is None and part.normal.strides[1] == 0 else part.reaction
     every = [part.ratio, part.slope, part.stiffness, at_nodes, *([] if speed is None else [speed])]
     return math.isfinite(sum(float(values.sum()) for values in every))
 
 
-def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, tables: Tables) -> None:
-    """Raise for the first step of a batch with a value that must not be, if there is one.
+def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, tables: LawTables) -> None:
+    """Raise an error for the first step of a batch with a value that is not finite, if any.
 
     Raises:
         PositionError: the velocity or the distance of a node, or the reaction there, is not finite.
@@ -354,7 +357,7 @@ def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, table
         refuse_pulling(part.steps(step, step + 1), first_step + step, tables)
 
 
-def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: Tables) -> None:
+def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: LawTables) -> None:
     given = tables.given
     _refuse_node(np.isinf(part.gap), given.node_ids, step, "its distance to the seabed overflows")
     if speed is not None:
@@ -379,12 +382,8 @@ def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, table
     _refuse_node(wrong, given.node_ids, step, "the reaction there overflows")
 
 
-def refuse_pulling(part: ContactResult, first_step: int, tables: Tables) -> None:
-    """Raise where the curve of an element with suction pulls, if it does.
-
-    Raises:
-        ElementError: it does so, and is neither cut nor without suction.
-    """
+def refuse_pulling(part: ContactResult, first_step: int, tables: LawTables) -> None:
+    """Raise ElementError for the first element with suction whose curve pulls, uncut, if any."""
     if tables.pulling is None:
         return
     elements = tables.pulling
@@ -396,7 +395,7 @@ def refuse_pulling(part: ContactResult, first_step: int, tables: Tables) -> None
         raise ElementError(f"element {element} at step {step}: {what}", element, step)
 
 
-def _refuse_force(part: ContactResult, element: int, step: int, tables: Tables) -> NoReturn:
+def _refuse_force(part: ContactResult, element: int, step: int, tables: LawTables) -> NoReturn:
     number, why = int(tables.given.element_ids[element]), "its force overflows"
     index = int(tables.given.curve_index[element])
     if index >= 0 and part.contact[element]:

@@ -1,18 +1,18 @@
-"""The largest stiffness and the largest damping of each law on each element, which a time step has to resolve.
+"""The largest stiffness and damping of each law on each element, which a time step must resolve.
 
-Both are facts of the laws. Without positions they are the largest that a law can reach:
+Without positions they are the largest that a law can reach:
 
 * normal laws: the steepest slope at any penetration; unloading lines: their own stiffness, or the steepest slope of the
-  virgin path where that is steeper;
-* friction: the spring of a node that sticks; one with a mobilisation length has mu N / length under the static normal
-  force, the submerged weight of half of each of the node's elements;
-* breakout: the fall to the residual under that normal force, as an amount: it softens;
+  virgin path if larger;
+* friction: the spring of a node that sticks; a spring with a mobilisation length has mu N / length under the static
+  normal force, the submerged weight of half of each of the node's elements;
+* breakout: the fall to the residual under the static normal force, as an amount: it softens;
 * lateral springs and springs against uplift: their stiffness;
 * suction: F_max / (xc1 Delta_B) while it is mobilised, and dF_max/dv, both at the pull-out velocity that makes them
   largest: with the exponents of Bridge et al. v_r for the stiffness and rest for the damping. Infinite where a law has
   no largest value: without a regularisation, or with exponents that grow with the velocity.
 
-With positions they are those that occur there.
+With positions they are the largest that occur there.
 """
 
 from __future__ import annotations
@@ -26,15 +26,18 @@ from mudline.basics.short_repr import UnknownNameError, outline, short_repr
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.laws import Law, Reached, known_laws
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
+from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
 
 
 class LawStiffness(NamedTuple):
-    """One law on the elements (m,) of a model; NaN for elements without it, or where something is not known.
+    """One law on the elements (m,) of a model; NaN for elements without the law, and for unknown values.
 
-    law: its name. stiffness: force per length, largest. damping: force per velocity, largest; 0 for laws without.
-    per: what both are for: a "length" of the element, or its stiffer "node".
-    at_nodes: stiffness of the nodes (n,), NaN for nodes without the law; None for laws of elements.
+    Attributes:
+        law: name of the law.
+        stiffness: largest force per displacement.
+        damping: largest force per velocity; 0 for laws without damping.
+        per: reference of both: unit "length" of the element, or its stiffer "node".
+        at_nodes: stiffness of the nodes (n,), NaN for nodes without the law; None for laws of elements.
     """
 
     law: str
@@ -48,7 +51,7 @@ class LawStiffness(NamedTuple):
 
 
 class Stiffest(NamedTuple):
-    """All laws of a model."""
+    """The largest stiffness and damping of all laws of a model."""
 
     laws: tuple[LawStiffness, ...]
 
@@ -56,11 +59,11 @@ class Stiffest(NamedTuple):
         return outline("Stiffest", ", ".join(law.law for law in self.laws) or "no laws")
 
     def __getitem__(self, law: str | int | slice) -> LawStiffness:  # type: ignore[override]
-        """Return a law by its name; UnknownNameError, a KeyError, when the model does not have it."""
-        for found in self.laws:
-            if found.law == law:
-                return found
-        raise UnknownNameError.among("law", law, [found.law for found in self.laws])
+        """Return a law by its name; UnknownNameError, a KeyError, if the model does not have it."""
+        for entry in self.laws:
+            if entry.law == law:
+                return entry
+        raise UnknownNameError.among("law", law, [entry.law for entry in self.laws])
 
     def per_length(self, tables_length: FloatArray) -> FloatArray:
         """Return the largest stiffness (m,) of laws per unit length and of nodes over `tables_length` (m,)."""
@@ -68,49 +71,49 @@ class Stiffest(NamedTuple):
         return np.fmax.reduce(columns) if columns else np.full(len(tables_length), np.nan)
 
 
-def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Stiffest:
+def stiffest(tables: LawTables, result: ContactResult | None, speed: FloatArray | None) -> Stiffest:
     """Return the largest stiffness and damping of each law.
 
     `result` has the forces at some positions, and `speed` (..., n) the velocities along the normals there; None for the
     largest values that the laws can reach.
     """
-    found = []
+    laws = []
     with np.errstate(all="ignore"):
         normal = [*tables.normal, *tables.nodal]
         for name in dict.fromkeys(rows.law.name for rows in sorted(normal, key=lambda rows: rows.curve)):
             same = [rows for rows in normal if rows.law.name == name]
             slopes = np.concatenate([_slope(tables, rows, result) for rows in same])
-            found.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
+            laws.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
         reached = _reached(tables, result, speed)
         for name in known_laws():
-            given = tables.given.assigned.get(name)
-            if given is not None and given.law.largest is not None:
-                own = reached.of_rows(given.rows, given.law.acts_on)
-                found.append(_of_law(tables, given.law, given.rows, *given.law.largest(own, given.parameters)))
-    return Stiffest(tuple(found))
+            entry = tables.given.assigned.get(name)
+            if entry is not None and entry.law.largest is not None:
+                own = reached.of_rows(entry.rows, entry.law.acts_on)
+                laws.append(_of_law(tables, entry.law, entry.rows, *entry.law.largest(own, entry.parameters)))
+    return Stiffest(tuple(laws))
 
 
 def _of_law(
-    tables: Tables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
+    tables: LawTables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
 ) -> LawStiffness:
-    """A law of some rows; where these are nodes, an element has what the node with more of it has."""
+    """Return the values of a law on some rows; for rows of nodes an element has the larger value of its two nodes."""
     ends, of_nodes = tables.given.element_nodes, law.acts_on == "nodes"
-    found = np.full((2, len(tables.given.node_ids) if of_nodes else len(ends)), np.nan)
-    found[0, rows] = stiffness
-    found[1, rows] = np.where(np.isnan(stiffness), np.nan, 0.0) if damping is None else damping
+    values = np.full((2, len(tables.given.node_ids) if of_nodes else len(ends)), np.nan)
+    values[0, rows] = stiffness
+    values[1, rows] = np.where(np.isnan(stiffness), np.nan, 0.0) if damping is None else damping
     if not of_nodes:
-        return LawStiffness(law.name, found[0], found[1], "length")
-    of_elements = np.fmax(found[:, ends[:, 0]], found[:, ends[:, 1]])
-    return LawStiffness(law.name, of_elements[0], of_elements[1], "node", found[0])
+        return LawStiffness(law.name, values[0], values[1], "length")
+    of_elements = np.fmax(values[:, ends[:, 0]], values[:, ends[:, 1]])
+    return LawStiffness(law.name, of_elements[0], of_elements[1], "node", values[0])
 
 
 def _largest(values: FloatArray) -> FloatArray:
-    """The largest over all steps."""
+    """Return the largest value over all steps."""
     return values if values.ndim == 1 else np.fmax.reduce(values, axis=0)
 
 
-def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
-    """The largest stiffness (k,) of a normal law; at positions that of its own path, whatever else acts there."""
+def _slope(tables: LawTables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
+    """Return the largest stiffness (k,) of a normal law, with a result that of its own path at the positions."""
     if result is None:
         return steepest_anywhere(tables, rows)
     at: FloatArray | float = 0.0
@@ -121,15 +124,15 @@ def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> Fl
         z, at, touches = result.depth[..., rows.rows], tables.diameter[rows.rows], result.contact[..., rows.rows]
     if rows.curve >= 0:
         slope = tables.given.curves[rows.curve].evaluate(np.nan_to_num(z / at))[1] / at
-    elif rows.path >= 0:  # that of turning round there, whatever came before
+    elif rows.path >= 0:  # the stiffness of a reversal there, after any path
         slope = rows.law.steepest(z, at, *rows.columns)
     else:
         slope = rows.law.reaction(z, at, *rows.columns)[1]
     return _largest(np.where(touches, slope, 0.0))
 
 
-def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
-    """What all elements and nodes come to."""
+def _reached(tables: LawTables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
+    """Return the extremes of all elements and nodes that the laws' largest stiffness and damping depend on."""
     virgin, ends = np.zeros(len(tables.half)), tables.given.element_nodes
     for rows in tables.normal:
         virgin[rows.rows] = steepest_anywhere(tables, rows)
@@ -139,8 +142,8 @@ def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     return Reached(virgin, pull_out, pressing, lateral, walls=tables.trench is not None)
 
 
-def _static_normal_force(tables: Tables) -> FloatArray:
-    """The normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
+def _static_normal_force(tables: LawTables) -> FloatArray:
+    """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
     weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
     if weight is None:
         return np.full(len(total), np.nan)
@@ -153,9 +156,9 @@ def _static_normal_force(tables: Tables) -> FloatArray:
 _THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
 
 ADVISED_OMEGA_DT = 0.5
-"""Up to here a landing gains up to 3 % of its speed, or loses 3.5 %, in the usual implicit schemes of second order."""
+"""Largest advised product of frequency and step: a landing gains up to 3 % of its speed, or loses 3.5 %."""
 
 
 def rounded_down(step: float) -> float:
-    """Return a step > 0 with three digits that are not above it: who gives them keeps to the step."""
+    """Return a step > 0 rounded down to three significant digits."""
     return float(_THREE_DIGITS.create_decimal_from_float(step))

@@ -1,4 +1,4 @@
-"""Stretch of a line cut out of an input: the laws across the seabed of some elements, on a flat seabed of their own."""
+"""Stretch of a line cut out of an input: some elements with their laws normal to the seabed, on a flat seabed."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput, LawAssignment
 
 _ACROSS = ("unloading", "suction", "suction spring", "damping", "nodal damping", "nodal", "rigid")
-"""Laws that act across the seabed, next to the normal ones of elements."""
+"""Laws that act normal to the seabed, next to the normal laws of elements."""
 
 
 def cut_out(given: ContactInput, elements: IndexArray, nodes: IndexArray, parts: int = 1) -> ContactInput:
-    """Return the laws across the mudline of a stretch of a line on a flat seabed, each element cut into equal parts.
+    """Return a stretch of a line with its laws normal to the flat seabed, each element cut into equal parts.
 
     `elements` (m,) and `nodes` (m + 1,) are indices, from left to right.
     """
@@ -54,10 +54,10 @@ def cut_out(given: ContactInput, elements: IndexArray, nodes: IndexArray, parts:
 
 
 def _between(rows: IndexArray, columns: dict[str, FloatArray], parts: int) -> tuple[IndexArray, dict[str, FloatArray]]:
-    """Springs of nodes spread over the new nodes between them, each with its share."""
+    """Return nodal springs spread over the new nodes between their nodes, each with its share."""
     order = np.argsort(rows)
     rows, columns = rows[order], {name: value[order] for name, value in columns.items()}
-    wanted = np.arange(rows[0], rows[-1] + 1) if len(rows) else rows
-    nearest = np.clip(np.searchsorted(rows, wanted, side="right") - 1, 0, max(len(rows) - 1, 0))
+    nodes = np.arange(rows[0], rows[-1] + 1) if len(rows) else rows
+    nearest = np.clip(np.searchsorted(rows, nodes, side="right") - 1, 0, max(len(rows) - 1, 0))
     shared = ("stiffness", "damping")
-    return wanted, {name: value[nearest] / (parts if name in shared else 1) for name, value in columns.items()}
+    return nodes, {name: value[nearest] / (parts if name in shared else 1) for name, value in columns.items()}

@@ -1,4 +1,4 @@
-"""An input as the drivers want it, made once for each model, and what a scene with history remembers between steps."""
+"""Input prepared for the drivers, once for each model, and the state of a scene with history between steps."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
 from mudline.model.contact.laws import NormalLaw, PathLaw
-from mudline.model.contact.line import Line
+from mudline.model.contact.line import Incidence
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:
@@ -23,25 +23,25 @@ if TYPE_CHECKING:
 
 
 _Part = Any
-"""What a law remembers: an array, or a dataclass of arrays, with slots."""
+"""History of a law: an array, or a dataclass of arrays, with slots."""
 REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
 IN_PLACE = ("breakout", "paths")
-"""What the compiled loops move on from what it is."""
+"""Histories that the compiled loops update in place."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False, weakref_slot=True)
 class ContactState:
-    """The state behind a step. It is never changed: a step gives a new one, or writes the one that it gets for `out`.
+    """The state after a step. It is never changed: a step returns a new state, or rewrites the state passed in `out`.
 
     Attributes:
-        positions: (n, 3) of the step, for velocities by backward difference; None before the first step.
-        laid: (n, 3) of the first step, along which trenches run; None before it.
-        unloading: largest penetrations and trench bottoms of the elements that unload on a line of their own (k,).
+        positions: (n, 3) positions of the step, for velocities by backward difference; None before the first step.
+        laid: (n, 3) positions of the first step, along which trenches run; None before it.
+        unloading: largest penetrations and trench bottoms of the elements with an unloading law (k,).
         suction: states of the elements with suction (k,).
         friction: stick points of the nodes (n,).
         touchdown: (k, 3) midpoints of the elements with lateral springs when they touched down; NaN out of contact.
         breakout: (5, k) of the nodes with a breakout: the place of first contact (NaN out of contact), s and w.
-        paths: (k, c) what the elements remember whose force follows a path.
+        paths: (k, c) memory of the elements whose force follows a path.
     """
 
     positions: FloatArray | None = None
@@ -60,24 +60,24 @@ class ContactState:
 
     @property
     def shapes(self) -> tuple[object, ...]:
-        """The shapes of all that is remembered beside positions, by which states of different models differ."""
+        """The shapes of all histories, which differ between the states of different models."""
         return tuple((name, *(array.shape for array in arrays_of(part))) for name, part in self._parts())
 
     def _parts(self) -> list[tuple[str, _Part]]:
-        """What the laws that are there remember, by the names of the fields."""
+        """Return the histories of the laws with their field names."""
         return [(name, part) for name in REMEMBERED if (part := getattr(self, name)) is not None]
 
     def following(self, spare: ContactState | None, positions: FloatArray, laid: FloatArray) -> ContactState:
-        """Return a state behind this one, whose arrays are to be written: those of `spare`, if there is one."""
-        found = spare
-        if found is None:
-            found = ContactState(**{name: _like(part) for name, part in self._parts()})
-        object.__setattr__(found, "positions", positions)
-        object.__setattr__(found, "laid", laid)
-        return found
+        """Return a state after this one with arrays to be written, those of `spare` if given."""
+        state = spare
+        if state is None:
+            state = ContactState(**{name: _like(part) for name, part in self._parts()})
+        object.__setattr__(state, "positions", positions)
+        object.__setattr__(state, "laid", laid)
+        return state
 
     def remember(self, before: ContactState, names: tuple[str, ...] = REMEMBERED) -> None:
-        """Write what the state before this one remembers into the arrays of this one."""
+        """Copy the histories of the state before into the arrays of this state."""
         for name in names if self is not before else ():
             if (part := getattr(self, name)) is not None:
                 for new, old in zip(arrays_of(part), arrays_of(getattr(before, name)), strict=True):
@@ -85,22 +85,22 @@ class ContactState:
 
 
 def arrays_of(part: _Part) -> list[NDArray[Any]]:
-    """Return the arrays of what a law remembers."""
+    """Return the arrays of a history."""
     return [part] if isinstance(part, np.ndarray) else [getattr(part, name) for name in part.__slots__]
 
 
 def _like(part: _Part) -> _Part:
-    """The same with arrays of its own, in the same order in memory, which are not filled in."""
-    made = [np.empty_like(array) for array in arrays_of(part)]
-    return made[0] if isinstance(part, np.ndarray) else type(part)(*made)
+    """Return a history of the same shape and memory order, not filled in."""
+    arrays = [np.empty_like(array) for array in arrays_of(part)]
+    return arrays[0] if isinstance(part, np.ndarray) else type(part)(*arrays)
 
 
-class Batch(NamedTuple):
+class StepBatch(NamedTuple):
     """Steps to be evaluated.
 
     Attributes:
-        points: (steps, n, 3) positions, NaN for nodes without one.
-        speed: (steps, n) velocities along the normals; None where nothing asks for them.
+        points: (steps, n, 3) positions, NaN for nodes without a position.
+        speed: (steps, n) velocities along the normals; None if no law needs them.
         laid: (n, 3) positions of the first step of the series.
         complete: whether all nodes have a position.
     """
@@ -112,10 +112,14 @@ class Batch(NamedTuple):
 
 
 class NormalRows(NamedTuple):
-    """Elements, or nodes, with one normal law: their rows (k,) ascending, and its parameters, each (k,).
+    """Elements, or nodes, with one normal law.
 
-    `curve` is the index of the curve of a law with curves, else -1; `path` the first of its rows in what elements on a
-    path remember, -1 for a law without.
+    Attributes:
+        law: the law.
+        rows: (k,) indices of elements or nodes, ascending.
+        columns: its parameters, each (k,).
+        curve: index of the curve of a law with curves, else -1.
+        path: first of its rows in the memory of elements on a path, -1 for a law without.
     """
 
     law: NormalLaw
@@ -125,30 +129,36 @@ class NormalRows(NamedTuple):
     path: int = -1
 
 
-class Tables:
-    """The laws of an input. Attributes of laws that nothing has are None.
+class LawTables:
+    """The laws of an input as arrays. The attribute of an absent law is None.
 
     Attributes:
-        line: how elements join nodes.
-        half: (m,) half of the lengths. diameter: (m,).
-        onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
-        normal: normal laws of elements. nodal: those of nodes.
-        unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
-        friction: that of all nodes, whose arrays (n, 2) have each direction in one piece.
-        breakout: nodes with it. shares: 1 over their numbers of elements (k,). embeds: whether it asks for z/D.
-        damping, nodal_damping: coefficients of elements (m,), of nodes (n,), 0 where there is none; None without any.
+        line: incidence of elements and nodes.
+        half: (m,) half of the lengths.
+        diameter: (m,) external diameters.
+        onset: (m,) penetration at which contact begins; None if it is 0 everywhere.
+        normal: normal laws of elements.
+        nodal: normal laws of nodes.
+        unloading: stiffness of unloading lines.
+        springs: stiffness and extent of suction springs.
+        lateral: stiffness of lateral springs times half length.
+        friction: friction of all nodes; the arrays (n, 2) are contiguous along each direction.
+        breakout: nodes with a breakout.
+        shares: (k,) 1 over the numbers of elements of the nodes with a breakout.
+        embeds: whether a breakout depends on z/D.
+        damping, nodal_damping: coefficients of elements (m,) and of nodes (n,), 0 without damping.
         suction: parameters of `suction.SuctionLaw`, in its order.
-        level: trenches in which the seabed is lowered.
-        pulling: elements with suction whose curve pulls somewhere; None when there are none.
+        level: trenches with a lowered seabed.
+        pulling: elements with suction whose curve pulls somewhere; None if there are none.
         cuts: whether curves that pull are cut to 0.
-        rigid: (n,) nodes of elements on a rigid seabed; None when there are none.
-        velocities: whether a law asks for velocities along the normals.
-        history: whether a step's result depends on the steps before it.
+        rigid: (n,) nodes of elements on a rigid seabed; None if there are none.
+        velocities: whether a law needs velocities along the normals.
+        history: whether the result of a step depends on earlier steps.
     """
 
     def __init__(self, given: ContactInput) -> None:
         self.given = given
-        self.line = Line(given.element_nodes, len(given.node_ids))
+        self.line = Incidence(given.element_nodes, len(given.node_ids))
         self.half: FloatArray = 0.5 * given.length
         self.diameter = given.diameter
         onset = given.onset()
@@ -160,8 +170,8 @@ class Tables:
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
         self.lateral = _lateral(given)
         self.friction: FrictionLaw | None = None
-        if (found := given.assigned.get("friction")) is not None:
-            self.friction = _friction_law(found, len(given.node_ids))
+        if (friction := given.assigned.get("friction")) is not None:
+            self.friction = _friction_law(friction, len(given.node_ids))
         self.trench = None
         if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
             from mudline.model.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
@@ -186,8 +196,8 @@ class Tables:
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
             self.rigid.flags.writeable = False  # results have it too
         self.velocities = bool(given.needs_velocities)
-        # velocities are differences to the step before where none are given
-        laws = [found.law for found in given.assigned.values()]
+        # velocities default to differences to the step before
+        laws = [assigned.law for assigned in given.assigned.values()]
         self.history = self.velocities or self.level is not None or any(law.history for law in laws)
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
@@ -196,105 +206,105 @@ class Tables:
 
         kept = self._laid
         if kept is None or kept[0] is not laid:
-            # in one assignment, so that threads which share the model see pairs that belong together
+            # in one assignment, so that threads which share the model see matching pairs
             self._laid = kept = (laid, LaidCentreline(laid, self.line))
         return kept[1]
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
-        found = {
-            given.law.state: given.law.initial(len(given.rows), given.parameters)
-            for given in self.given.assigned.values()
-            if given.law.initial is not None
+        histories = {
+            assigned.law.state: assigned.law.initial(len(assigned.rows), assigned.parameters)
+            for assigned in self.given.assigned.values()
+            if assigned.law.initial is not None
         }
         if self.friction is not None:
             from mudline.model.contact.laws.friction import FrictionHistory  # noqa: PLC0415 - only now is it needed
 
-            found["friction"] = FrictionHistory.initial(self.friction.active)
-        return ContactState(paths=None if self._paths is None else self._paths.copy(), **found)
+            histories["friction"] = FrictionHistory.initial(self.friction.active)
+        return ContactState(paths=None if self._paths is None else self._paths.copy(), **histories)
 
 
 def rows_within(rows: IndexArray, begin: int, end: int) -> slice:
-    """Return which of ascending rows lie in a range."""
+    """Return the slice of ascending rows that lie in a range."""
     low, high = np.searchsorted(rows, [begin, end]).tolist()
     return slice(low, high)
 
 
-def _normal_rows(given: AssignedLaw) -> list[NormalRows]:
-    """The rows of a normal law; a law with curves has one for each curve."""
-    law = given.law
+def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:
+    """Return the rows of a normal law; a law with curves has one entry for each curve."""
+    law = assigned.law
     if not isinstance(law, NormalLaw):
         return []
     if not law.tables:
-        return [NormalRows(law, given.rows, given.columns)]
-    index = given.columns[-1].astype(np.intp)
-    return [NormalRows(law, given.rows[index == each], (), each) for each in np.unique(index).tolist()]
+        return [NormalRows(law, assigned.rows, assigned.columns)]
+    index = assigned.columns[-1].astype(np.intp)
+    return [NormalRows(law, assigned.rows[index == each], (), each) for each in np.unique(index).tolist()]
 
 
 def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray | None]:
-    """The same with their places in what elements on a path remember, and that before the first step, (k, c)."""
+    """Return normal laws with their places in the memory of elements on a path, and its initial values (k, c)."""
     starts = [rows.law.start for rows in normal if isinstance(rows.law, PathLaw) for _ in rows.rows]
     if not starts:
         return normal, None
-    found, placed, first = np.zeros((len(starts), max(map(len, starts)))), [], 0
+    memory, placed, first = np.zeros((len(starts), max(map(len, starts)))), [], 0
     for rows in normal:
         if isinstance(rows.law, PathLaw):
-            found[first : first + len(rows.rows), : len(rows.law.start)] = rows.law.start
+            memory[first : first + len(rows.rows), : len(rows.law.start)] = rows.law.start
             placed.append(rows._replace(path=first))
             first += len(rows.rows)
         else:
             placed.append(rows)
-    return placed, found
+    return placed, memory
 
 
 def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
-    """The damping of all of `count` elements or nodes."""
-    found = given.assigned.get(name)
-    return None if found is None else found.spread("damping", count, 0.0)
+    """Return the damping of all of `count` elements or nodes."""
+    damping = given.assigned.get(name)
+    return None if damping is None else damping.spread("damping", count, 0.0)
 
 
 def _lateral(given: ContactInput) -> AssignedLaw | None:
-    found = given.assigned.get("lateral")
-    if found is None:
+    springs = given.assigned.get("lateral")
+    if springs is None:
         return None
     with np.errstate(over="ignore"):  # a step refuses the reaction
-        return replace(found, parameters={"stiffness": found["stiffness"] * (0.5 * given.length[found.rows])})
+        return replace(springs, parameters={"stiffness": springs["stiffness"] * (0.5 * given.length[springs.rows])})
 
 
-def _breakout(given: ContactInput, tables: Tables) -> AssignedLaw | None:
-    """The breakout of nodes that have it; ValueError for a node without friction in a box."""
-    found = given.assigned.get("breakout")
-    if found is None:
+def _breakout(given: ContactInput, tables: LawTables) -> AssignedLaw | None:
+    """Return the breakout of nodes; ValueError for a node without friction in a box."""
+    breakout = given.assigned.get("breakout")
+    if breakout is None:
         return None
-    able = np.zeros(len(given.node_ids), np.bool_)
+    in_box = np.zeros(len(given.node_ids), np.bool_)
     if tables.friction is not None:
-        able = tables.friction.active & ~tables.friction.ellipse
-    if not able[found.rows].all():
-        node = given.node_ids[found.rows[~able[found.rows]][0]]
+        in_box = tables.friction.active & ~tables.friction.ellipse
+    if not in_box[breakout.rows].all():
+        node = given.node_ids[breakout.rows[~in_box[breakout.rows]][0]]
         raise ValueError(f"node {node} has a breakout law, which needs friction in a box")
-    return found
+    return breakout
 
 
-def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
-    """The friction of all nodes as arrays by direction."""
+def _friction_law(assigned: AssignedLaw, nodes: int) -> FrictionLaw:
+    """Return the friction of all nodes as arrays by direction."""
     from mudline.model.contact.laws.friction import FrictionLaw  # noqa: PLC0415 - only now is it needed
 
     active = np.zeros(nodes, np.bool_)
-    active[given.rows] = True
+    active[assigned.rows] = True
     coefficients, stiffness, mobilisation = (
-        np.stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")]).T
+        np.stack([assigned.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")]).T
         for name, otherwise in (("coefficient", 0.0), ("stiffness", np.nan), ("mobilisation", np.nan))
     )
     mobilisation[np.isnan(mobilisation) & (coefficients == 0.0)] = 1.0
-    angle = given.spread("angle", nodes)
+    angle = assigned.spread("angle", nodes)
     turned = np.flatnonzero(~np.isnan(angle))
     turn = np.array([heading(degrees) for degrees in angle[turned].tolist()]).reshape(-1, 2).T
-    ellipse = given.spread("elliptic", nodes, 0.0) > 0.0
+    ellipse = assigned.spread("elliptic", nodes, 0.0) > 0.0
     return FrictionLaw(coefficients, stiffness, mobilisation, ellipse, active, turned, turn[0], turn[1])
 
 
 def _pulling(given: ContactInput) -> IndexArray | None:
-    """Elements with suction on a curve that is kept where it pulls, and pulls somewhere below the seabed."""
+    """Return elements with suction on an uncut curve that pulls somewhere below the seabed; None if there are none."""
     if given.tension == "cut" or not given.has("suction") or not given.has("curve"):
         return None
     pulls = [
@@ -302,18 +312,18 @@ def _pulling(given: ContactInput) -> IndexArray | None:
         for curve in given.curves
     ]
     on_pulling = np.array([*pulls, False])[given.curve_index]
-    found = np.intersect1d(np.flatnonzero(on_pulling), given.assigned["suction"].rows)
-    return found if found.size else None
+    elements = np.intersect1d(np.flatnonzero(on_pulling), given.assigned["suction"].rows)
+    return elements if elements.size else None
 
 
-def steepest_anywhere(tables: Tables, rows: NormalRows) -> FloatArray:
-    """Return the largest stiffness (k,) that a normal law can reach on its elements, or nodes."""
-    with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
+def steepest_anywhere(tables: LawTables, rows: NormalRows) -> FloatArray:
+    """Return the largest stiffness (k,) that a normal law can reach on its elements or nodes."""
+    with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
         if rows.curve >= 0:
             from mudline.model.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
 
             slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
             return slopes
         diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
-        found = rows.law.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
-    return np.broadcast_to(found, len(rows.rows)).copy()
+        stiffness = rows.law.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
+    return np.broadcast_to(stiffness, len(rows.rows)).copy()

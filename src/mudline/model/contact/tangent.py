@@ -1,9 +1,9 @@
 """The tangent of the nodal reactions: one row and column for each of the 3 n coordinates, as sparse triples.
 
-    d R = A d x + B d v,   R reactions, x positions, v velocities, each (n, 3) in the order of its rows.
+    d R = A d x + B d v,   R reactions, x positions, v velocities, each (n, 3) row by row.
 
-Inside a facet of the seabed A is the exact derivative of the step with what it remembers held fixed; over a curved
-seabed the normal is held too. Friction makes A unsymmetric. B holds the velocity of the suction law.
+Inside a facet of the seabed A is the exact derivative of the step, with the history held fixed; over a curved seabed
+the normal is held too. Friction makes A unsymmetric. B is the derivative by velocity of suction and damping.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.directions import Directions, directions_of, level, projected
 from mudline.model.contact.laws import Moving, PathLaw
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.tables import ContactState, Tables
+from mudline.model.contact.tables import ContactState, LawTables
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.friction import ExtraLimit, FrictionForce, FrictionLaw
@@ -36,14 +36,14 @@ class Triples(NamedTuple):
         return short_repr(self)
 
     def dense(self) -> FloatArray:
-        """Return the matrix as an array, for small ones."""
+        """Return the matrix as a dense array; for small matrices."""
         matrix = np.zeros((self.size, self.size))
         np.add.at(matrix, (self.rows, self.columns), self.values)
         return matrix
 
 
 class Tangent(NamedTuple):
-    """Derivatives of the reactions by positions, and by velocities."""
+    """Derivatives of the reactions by positions and by velocities."""
 
     by_position: Triples
     by_velocity: Triples
@@ -52,8 +52,8 @@ class Tangent(NamedTuple):
         return short_repr(self)
 
 
-class _Blocks:
-    """Collects 3 x 3 blocks d R_a / d x_b."""
+class _BlockSum:
+    """Collector of 3 x 3 blocks d R_a / d x_b."""
 
     def __init__(self, nodes: int) -> None:
         self._size = 3 * nodes
@@ -62,7 +62,7 @@ class _Blocks:
         self._values: list[FloatArray] = []
 
     def add(self, at: IndexArray, by: IndexArray, blocks: FloatArray) -> None:
-        """Add blocks (k, 3, 3) of the nodes `at` (k,) by the nodes `by` (k,)."""
+        """Add the derivatives (k, 3, 3) of the reactions of nodes `at` (k,) by the positions of nodes `by` (k,)."""
         axes = np.arange(3)
         shape = blocks.shape
         self._rows.append(np.broadcast_to((3 * at[:, None] + axes)[:, :, None], shape).reshape(-1))
@@ -70,7 +70,7 @@ class _Blocks:
         self._values.append(blocks.reshape(-1))
 
     def triples(self) -> Triples:
-        """Return all of them."""
+        """Return all blocks as triples."""
         nothing: IndexArray = np.zeros(0, dtype=np.intp)
         return Triples(
             np.concatenate([nothing, *self._rows]),
@@ -81,13 +81,17 @@ class _Blocks:
 
 
 class _Step(NamedTuple):
-    """What the parts of a tangent share.
+    """Common data of the parts of a tangent.
 
-    points, normal: (n, 3). slope: (n, 3) gradient of the height above the seabed, `normal` outside of trenches.
-    ends: (m, 2) nodes of the elements. half: (m,) half lengths. before, after: the states.
+    Attributes:
+        points, normal: (n, 3).
+        slope: (n, 3) gradient of the height above the seabed, `normal` outside of trenches.
+        ends: (m, 2) nodes of the elements.
+        half: (m,) half lengths.
+        before, after: states before and after the step.
     """
 
-    tables: Tables
+    tables: LawTables
     points: FloatArray
     normal: FloatArray
     slope: FloatArray
@@ -99,7 +103,7 @@ class _Step(NamedTuple):
 
 
 def assemble(
-    tables: Tables,
+    tables: LawTables,
     points: FloatArray,
     speed: FloatArray | None,
     result: ContactResult,
@@ -109,7 +113,7 @@ def assemble(
 ) -> Tangent:
     """Return the tangent of one step at `points` (n, 3) with velocities (n,) along the normals.
 
-    `states` are those before and behind the step, `result` what it gave. `back`: elements on a path turn round.
+    `states` are those before and after the step, `result` is its result. `back`: elements on a path reverse.
     """
     nodes = len(points)
     normal = np.asarray(result.normal)
@@ -118,7 +122,7 @@ def assemble(
         slope = normal + level(tables, points, laid, normal).gradient
     step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
-    by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
+    by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)
     _add_normal(step, (stiffness, own), step.slope, by_position)
     damping, own_damping = np.zeros(len(stiffness)), np.zeros(nodes)
     if speed is not None:
@@ -139,37 +143,37 @@ def assemble(
 
 
 _AWAY = 2.0**-40
-"""Share of the penetration of an increment: small for the stiffness, large for the rounding of forces."""
+"""Relative size of a test increment of the penetration: small for the stiffness, large against rounding of forces."""
 
 
 def _turned_round(step: _Step) -> FloatArray:
-    """Stiffness (m,) of an increment against the one before, for elements whose force follows a path."""
-    found, paths = step.result.stiffness.copy(), step.after.paths
+    """Return the stiffness (m,) of an increment opposite to the last, for elements whose force follows a path."""
+    stiffness, paths = step.result.stiffness.copy(), step.after.paths
     for rows in step.tables.normal:
         law = rows.law
         if paths is None or not isinstance(law, PathLaw):
             continue
         count = len(law.start)
         now = tuple(paths[rows.path : rows.path + len(rows.rows), :count].T)
-        turns = law.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper is the other way
+        turns = law.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper would be a reversal
         z = now[0] * np.where(turns, 1.0 + _AWAY, 1.0 - _AWAY)
         turned = law.advance(z, step.tables.diameter[rows.rows], law.begin(z, now), rows.columns)[1]
-        found[rows.rows] = np.where(step.result.contact[rows.rows], turned, found[rows.rows])
-    return found
+        stiffness[rows.rows] = np.where(step.result.contact[rows.rows], turned, stiffness[rows.rows])
+    return stiffness
 
 
 def _nodal_stiffness(step: _Step) -> FloatArray:
-    """Stiffness (n,) of the springs of nodes."""
-    found = np.zeros(len(step.points))
+    """Return the stiffness (n,) of the springs of nodes."""
+    stiffness = np.zeros(len(step.points))
     for rows in step.tables.nodal:
         z = 0.0 - step.result.gap[rows.rows]
         slope = rows.law.reaction(z, 0.0, *rows.columns)[1]
-        found[rows.rows] = np.where(z > rows.law.onset(*rows.columns), slope, 0.0)
-    return found
+        stiffness[rows.rows] = np.where(z > rows.law.onset(*rows.columns), slope, 0.0)
+    return stiffness
 
 
 def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
+    """Return minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
     tables, depth = step.tables, step.result.depth
     uplift = (0.0 if tables.onset is None else tables.onset) - depth
     if tables.unloading is not None and step.after.unloading is not None:
@@ -178,16 +182,16 @@ def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
     of_elements = depth, 0.5 * speed[ends[:, 0]] + 0.5 * speed[ends[:, 1]], uplift
     of_nodes = 0.0 - step.result.gap, speed, step.result.gap
     damping, own = np.zeros(len(depth)), np.zeros(len(speed))
-    for given in tables.given.assigned.values():
-        if given.law.damping is not None:
-            found, values = (own, of_nodes) if given.law.acts_on == "nodes" else (damping, of_elements)
-            z, v, height = (value[given.rows] for value in values)
-            found[given.rows] += given.law.damping(Moving(z, v, height, *states), given.parameters)
+    for assigned in tables.given.assigned.values():
+        if assigned.law.damping is not None:
+            target, values = (own, of_nodes) if assigned.law.acts_on == "nodes" else (damping, of_elements)
+            z, v, height = (value[assigned.rows] for value in values)
+            target[assigned.rows] += assigned.law.damping(Moving(z, v, height, *states), assigned.parameters)
     return damping, own
 
 
-def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _Blocks) -> None:
-    """Normal forces along fixed normals: by the height of the elements (m,), and of nodes (n,), which has a `slope`."""
+def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _BlockSum) -> None:
+    """Add normal forces along fixed normals, from derivatives by the heights of elements (m,) and of nodes (n,)."""
     stiffness, own = by_height
     used = np.flatnonzero(stiffness)
     share = -0.5 * step.half[used] * stiffness[used]
@@ -198,14 +202,14 @@ def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: Fl
     blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], slope[nodes]))
 
 
-def _add_lateral(step: _Step, blocks: _Blocks) -> None:
-    """Lateral springs: along their direction, which turns with the element."""
+def _add_lateral(step: _Step, blocks: _BlockSum) -> None:
+    """Add lateral springs along their direction, which turns with the element."""
     lateral, before, after = step.tables.lateral, step.before.touchdown, step.after.touchdown
     if lateral is None or before is None or after is None:
         return
     rows = np.flatnonzero(step.result.contact[lateral.rows])
     new = np.isnan(before[rows, 0])
-    stiffness = np.where(new, 0.0, lateral.columns[0][rows])  # where it touches down there is no force yet
+    stiffness = np.where(new, 0.0, lateral.columns[0][rows])  # at touchdown there is no force yet
     first, second = step.ends[lateral.rows[rows]].T
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
@@ -223,11 +227,11 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
 
 
 def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
-    """Derivative (k, 3, 3) by the end of `span` (k, 3) of the unit vector n x t, t the projection of the span."""
+    """Return the derivative (k, 3, 3) by the end of `span` (k, 3) of the unit vector n x t, t the projected span."""
     flat = span - np.einsum("ki,ki->k", span, normal)[:, None] * normal
     along, size = _unit(flat)
-    # an element without direction takes one that does not turn
-    # d t = (I - t t - n n) d span / |flat|, and of it only n x t is left in the plane: n x (that) = -t (n x t . d span)
+    # an element without direction has the default direction, which does not turn
+    # d t = (I - t t - n n) d span / |flat|, whose part along n x t alone gives n x d t = -t (n x t . d span) / |flat|
     across = np.cross(normal, along)
     return 0.0 - _outer(along, across) / np.where(size > 0.0, size, 1.0)[:, None, None]
 
@@ -235,8 +239,10 @@ def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
 class _Sliding(NamedTuple):
     """Friction of one step at nodes (n,).
 
-    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. extra: what trenches and
-    breakouts change of the lateral limit; None without them.
+    Attributes:
+        directions: u1, u2 and how they turn.
+        friction: forces along u1 and u2 with derivatives.
+        extra: changes of the lateral limit by trenches and breakouts; None without them.
     """
 
     directions: Directions
@@ -277,7 +283,7 @@ def _breaking_out(
     compression: FloatArray,
     extra: ExtraLimit | None,
 ) -> tuple[FrictionLaw, ExtraLimit]:
-    """What a breakout leaves of springs and limits, as less of a limit; embedments are held."""
+    """Return the law with softened springs, and the breakout as a negative extra limit; embedments are held."""
     from mudline.model.contact.laws.breakout import shares  # noqa: PLC0415 - most friction has no breakout
     from mudline.model.contact.laws.friction import ExtraLimit  # noqa: PLC0415 - only now is it needed
 
@@ -302,8 +308,8 @@ def _breaking_out(
     return replace(law, mobilisation=mobilisation), extra
 
 
-def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
-    """Springs, and limits that follow the offset in a trench, along u1 and u2."""
+def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _BlockSum) -> None:
+    """Add springs along u1 and u2, and limits that depend on the offset in a trench."""
     along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
     if sliding.extra is not None:
         along += sliding.friction.by_offset[:, :, None] * sliding.extra.gradient[:, None, :]
@@ -317,9 +323,9 @@ def _add_compression(
     closed: IndexArray,
     stiffness: tuple[FloatArray, FloatArray],
     slope: FloatArray,
-    blocks: _Blocks,
+    blocks: _BlockSum,
 ) -> None:
-    """The limits follow the normal force: `push` (n, 3) is d friction / d N."""
+    """Add the dependence of the limits on the normal force: `push` (n, 3) is d friction / d N."""
     elements, own = stiffness
     blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], slope[closed]))
     held = _marked(closed, len(own))
@@ -330,8 +336,8 @@ def _add_compression(
             blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
 
 
-def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
-    """What changes as u1 and u2 follow the line: the directions of the forces, elongations and offsets.
+def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _BlockSum) -> None:
+    """Add the turning of u1 and u2 with the line: directions of forces, elongations and offsets.
 
     A turn by an angle a about the normal makes d u1 = a u2, d u2 = -a u1.
     """
@@ -358,13 +364,13 @@ def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Bl
 
 
 def _marked(rows: IndexArray, count: int) -> BoolArray:
-    found = np.zeros(count, np.bool_)
-    found[rows] = True
-    return found
+    marked = np.zeros(count, np.bool_)
+    marked[rows] = True
+    return marked
 
 
-def _outer(one: FloatArray, other: FloatArray) -> FloatArray:
-    return one[:, :, None] * other[:, None, :]
+def _outer(a: FloatArray, b: FloatArray) -> FloatArray:
+    return a[:, :, None] * b[:, None, :]
 
 
 def _size(vectors: FloatArray) -> FloatArray:
@@ -373,6 +379,6 @@ def _size(vectors: FloatArray) -> FloatArray:
 
 
 def _unit(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors, 0 for those without length, and the lengths (k,)."""
+    """Return unit vectors, 0 for vectors without length, and the lengths (k,)."""
     size = _size(vectors)
     return np.divide(vectors, size[:, None], out=np.zeros_like(vectors), where=size[:, None] > 0.0), size

@@ -1,4 +1,4 @@
-"""Touchdown of lines: where they meet the seabed, how much of them lies on it, and what carries them there."""
+"""Touchdown of lines: touchdown points, length on the seabed, and the forces there."""
 
 from __future__ import annotations
 
@@ -11,17 +11,24 @@ import numpy as np
 
 from mudline.basics.quantities import LINES, finite
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.columns import NO_ELEMENT, Column, Table, Values
+from mudline.model.contact.columns import NO_ELEMENT, ResultColumn, ResultTable, Values
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.lines import ElementForce, LineSummary, TouchdownPoint
-from mudline.model.contact.result import ContactResult, Part, total_normal_force
+from mudline.model.contact.result import ContactResult, ResultPart, total_normal_force
 
 _NOWHERE = (math.nan, math.nan, math.nan)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Points:
-    """Touchdown points of a line: step, segment of the line, part of the segment, and whether contact lies behind."""
+class _TouchdownPoints:
+    """Touchdown points of a line.
+
+    Attributes:
+        step: step of each point.
+        segment: segment of the line.
+        part: share of the segment before the point.
+        after: whether contact lies behind the point.
+    """
 
     step: IndexArray
     segment: IndexArray
@@ -31,15 +38,16 @@ class _Points:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineSeries:
-    """A line over some steps (s,); NaN and -1 stand for none.
+    """A line over some steps (s,); NaN and -1 mean "none".
 
     Attributes:
-        number: of the line, from 0.
-        points: how many touchdown points each step has.
-        first, last: arc length of the first and the last of them.
-        contact_length, reaction, weight: as in `LineSummary`.
-        force, uplift: the largest push and the largest pull, an element's force per unit length with its sign; and
-            `force_at`, `uplift_at`: the indices of the elements.
+        number: number of the line, from 0.
+        points: number of touchdown points at each step.
+        first, last: arc length of the first and the last touchdown point.
+        contact_length, reaction, weight, empty: as in `LineSummary`.
+        force, uplift: largest force out of the seabed and largest pull, per unit length and with their signs.
+        force_at, uplift_at: indices of the elements with these forces.
+        found: the touchdown points.
     """
 
     number: int
@@ -54,11 +62,11 @@ class LineSeries:
     force_at: IndexArray
     uplift: FloatArray
     uplift_at: IndexArray
-    found: _Points
+    found: _TouchdownPoints
 
 
 class Touchdown:
-    """Finds the touchdown of every line of an input."""
+    """Finder of the touchdown of every line of an input."""
 
     def __init__(self, given: ContactInput) -> None:
         self.given = given
@@ -74,8 +82,8 @@ class Touchdown:
         """Length of a line; infinite where it overflows."""
         return float(self._arcs[line][-1])
 
-    def series(self, part: Part) -> list[LineSeries]:
-        """Return what each line does over some steps; lines without an evaluated element are left out."""
+    def series(self, part: ResultPart) -> list[LineSeries]:
+        """Return each line over some steps, without lines that have no evaluated element."""
         result = part.result
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             return [
@@ -97,7 +105,7 @@ class Touchdown:
         before, behind = gap[step, segment], gap[step, segment + 1]
         portion = np.clip(before / (before - behind), 0.0, 1.0)
         portion = np.where(np.isnan(portion), 0.5, portion)
-        points = _Points(step, segment, portion, touches[step, segment + 1])
+        points = _TouchdownPoints(step, segment, portion, touches[step, segment + 1])
         steps = len(gap)
         both = touches[:, :-1] & touches[:, 1:] & between
         length = np.diff(arc)
@@ -129,52 +137,52 @@ class Touchdown:
             points,
         )
 
-    def places(self, one: LineSeries, result: ContactResult, row: IndexArray, there: BoolArray) -> FloatArray:
-        """Coordinates (s, 3) of a touchdown point of each step, by its row among the points; NaN for none."""
-        found = np.full((len(there), 3), np.nan)
+    def places(self, line: LineSeries, result: ContactResult, row: IndexArray, there: BoolArray) -> FloatArray:
+        """Return coordinates (s, 3) of a touchdown point of each step, by its row among the points; NaN for none."""
+        coordinates = np.full((len(there), 3), np.nan)
         if result.positions is None or not there.any():
-            return found
+            return coordinates
         row, steps = row[there], np.flatnonzero(there)
-        segment, part = one.found.segment[row], one.found.part[row, np.newaxis]
-        nodes = self.lines.nodes[one.number]
+        segment, part = line.found.segment[row], line.found.part[row, np.newaxis]
+        nodes = self.lines.nodes[line.number]
         begin, end = (np.asarray(result.positions[steps, nodes[segment + i]], np.float64) for i in (0, 1))
-        found[there] = begin + part * (end - begin)
-        return found
+        coordinates[there] = begin + part * (end - begin)
+        return coordinates
 
-    def summaries(self, part: Part, found: Sequence[LineSeries]) -> Iterator[LineSummary]:
-        """Yield every line at each of some steps, from its `series`: those of a step follow each other."""
-        ends = [np.searchsorted(one.found.step, np.arange(part.count + 1)).tolist() for one in found]
+    def summaries(self, part: ResultPart, lines: Sequence[LineSeries]) -> Iterator[LineSummary]:
+        """Yield every line at each of some steps, from its `series`: one step after the other."""
+        ends = [np.searchsorted(line.found.step, np.arange(part.count + 1)).tolist() for line in lines]
         for step in range(part.count):
-            for one, cuts in zip(found, ends, strict=True):
+            for line, cuts in zip(lines, ends, strict=True):
                 with np.errstate(over="ignore", invalid="ignore"):
-                    row = self._summary(one, part.result, step, slice(cuts[step], cuts[step + 1]))
+                    row = self._summary(line, part.result, step, slice(cuts[step], cuts[step + 1]))
                 yield row
 
-    def _summary(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> LineSummary:
-        elements = self.lines.elements[one.number]
-        reaction, weight = float(one.reaction[step]), float(one.weight[step])
+    def _summary(self, line: LineSeries, result: ContactResult, step: int, cut: slice) -> LineSummary:
+        elements = self.lines.elements[line.number]
+        reaction, weight = float(line.reaction[step]), float(line.weight[step])
         ids = self.given.element_ids
         ratio = reaction / weight if weight > 0.0 else math.nan
         return LineSummary(
             time=None if result.times is None else float(result.times[step]),
-            line=one.number + 1,
+            line=line.number + 1,
             first_element=int(ids[elements[0]]),
             last_element=int(ids[elements[-1]]),
-            length=self.length(one.number),
-            touchdown=tuple(self._points(one, result, step, cut)),
-            contact_length=float(one.contact_length[step]),
-            largest_force=self._place(float(one.force[step]), int(one.force_at[step]), result, step),
-            largest_uplift=self._place(float(one.uplift[step]), int(one.uplift_at[step]), result, step),
+            length=self.length(line.number),
+            touchdown=tuple(self._points(line, result, step, cut)),
+            contact_length=float(line.contact_length[step]),
+            largest_force=self._place(float(line.force[step]), int(line.force_at[step]), result, step),
+            largest_uplift=self._place(float(line.uplift[step]), int(line.uplift_at[step]), result, step),
             reaction=finite(reaction),
             submerged_weight=finite(weight),
-            empty_weight=finite(float(one.empty[step])),
+            empty_weight=finite(float(line.empty[step])),
             ratio=finite(ratio),
         )
 
-    def _points(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> Iterator[TouchdownPoint]:
-        nodes, arc, found = self.lines.nodes[one.number], self._arcs[one.number], one.found
+    def _points(self, line: LineSeries, result: ContactResult, step: int, cut: slice) -> Iterator[TouchdownPoint]:
+        nodes, arc, points = self.lines.nodes[line.number], self._arcs[line.number], line.found
         for segment, part, after in zip(
-            found.segment[cut].tolist(), found.part[cut].tolist(), found.after[cut].tolist(), strict=True
+            points.segment[cut].tolist(), points.part[cut].tolist(), points.after[cut].tolist(), strict=True
         ):
             x, y, z = _NOWHERE
             if result.positions is not None:
@@ -194,7 +202,7 @@ class Touchdown:
         return ElementForce(force, number, arc, x, y, z)
 
 
-class LineTable(Table):
+class LineResults(ResultTable):
     """The lines with an evaluated element."""
 
     quantities = LINES
@@ -212,60 +220,60 @@ class LineTable(Table):
             "length": np.array([self.finder.length(line) for line in lines.tolist()], np.float64),
         }
 
-    def columns(self, part: Part) -> list[Column]:
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
         """Return the columns of `LINES`."""
         with np.errstate(over="ignore", invalid="ignore"):
-            found = [self._values(one, part.result) for one in self.finder.series(part)]
-        given = {
-            name: np.stack([each[name] for each in found], axis=1) if found else np.zeros((part.count, 0))
+            values = [self._values(line, part.result) for line in self.finder.series(part)]
+        figures = {
+            name: np.stack([each[name] for each in values], axis=1) if values else np.zeros((part.count, 0))
             for name in LINES
             if name not in self._fixed
         }
-        return self._columns(given, part.result)
+        return self._columns(figures, part.result)
 
-    def _values(self, one: LineSeries, result: ContactResult) -> dict[str, Values]:
+    def _values(self, line: LineSeries, result: ContactResult) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines
         ids = np.append(given.element_ids, NO_ELEMENT)
         arcs = np.append(lines.element_arc, np.nan)
-        found: dict[str, Values] = {
-            "touchdown_points": one.points,
-            "contact_length": one.contact_length,
-            "largest_force": one.force,
-            "largest_force_element": ids[one.force_at],
-            "largest_force_arc_length": arcs[one.force_at],
-            "largest_uplift": one.uplift,
-            "largest_uplift_element": ids[one.uplift_at],
-            "largest_uplift_arc_length": arcs[one.uplift_at],
-            "reaction": one.reaction,
-            "submerged_weight": one.weight,
-            "empty_weight": one.empty,
-            "ratio": np.where(one.weight > 0.0, one.reaction / np.where(one.weight > 0.0, one.weight, 1.0), np.nan),
+        values: dict[str, Values] = {
+            "touchdown_points": line.points,
+            "contact_length": line.contact_length,
+            "largest_force": line.force,
+            "largest_force_element": ids[line.force_at],
+            "largest_force_arc_length": arcs[line.force_at],
+            "largest_uplift": line.uplift,
+            "largest_uplift_element": ids[line.uplift_at],
+            "largest_uplift_arc_length": arcs[line.uplift_at],
+            "reaction": line.reaction,
+            "submerged_weight": line.weight,
+            "empty_weight": line.empty,
+            "ratio": np.where(line.weight > 0.0, line.reaction / np.where(line.weight > 0.0, line.weight, 1.0), np.nan),
         }
-        steps = np.arange(len(one.points))
-        starts = np.searchsorted(one.found.step, steps)
+        steps = np.arange(len(line.points))
+        starts = np.searchsorted(line.found.step, steps)
         for name, arc, row in (
-            ("first_touchdown", one.first, starts),
-            ("last_touchdown", one.last, starts + one.points - 1),
+            ("first_touchdown", line.first, starts),
+            ("last_touchdown", line.last, starts + line.points - 1),
         ):
-            found[name] = arc
-            places = self.finder.places(one, result, row, one.points > 0)
-            found |= {f"{name}_{axis}": places[:, i] for i, axis in enumerate("xyz")}
-        return found
+            values[name] = arc
+            places = self.finder.places(line, result, row, line.points > 0)
+            values |= {f"{name}_{axis}": places[:, i] for i, axis in enumerate("xyz")}
+        return values
 
 
 def line_summaries(result: ContactResult) -> list[LineSummary]:
     """Return every line of a result at each of its steps.
 
-    Raises ValueError for a result that does not know what was evaluated.
+    Raises ValueError for a result without an input.
     """
-    finder, part = Touchdown(result.known), Part(0, result.as_series())
+    finder, part = Touchdown(result.known), ResultPart(0, result.as_series())
     return list(finder.summaries(part, finder.series(part)))
 
 
 def _extreme(force: FloatArray, elements: IndexArray, sign: float) -> tuple[FloatArray, IndexArray]:
-    """The force (steps,) that is largest in a direction, and the element; NaN and -1 where there is none."""
+    """Return the largest force (steps,) with a sign, and its element; NaN and -1 if there is none."""
     ranked = np.nan_to_num(force * sign, nan=-np.inf, neginf=-np.inf, posinf=np.inf)
     column = ranked.argmax(axis=1)
-    found = ranked[np.arange(len(force)), column]
-    acts = found > 0.0
-    return np.where(acts, found * sign, np.nan), np.where(acts, elements[column], -1)
+    largest = ranked[np.arange(len(force)), column]
+    acts = largest > 0.0
+    return np.where(acts, largest * sign, np.nan), np.where(acts, elements[column], -1)

@@ -1,4 +1,4 @@
-"""Where nodes are in their trenches, and what these add to the lateral limits of friction; see `laws.trench`."""
+"""Positions of nodes in their trenches, and the resistance that trenches add to friction; see `laws.trench`."""
 
 from __future__ import annotations
 
@@ -25,23 +25,24 @@ from mudline.model.contact.laws.trench import (
     table_rows,
     wall_coefficient,
 )
-from mudline.model.contact.line import Line
+from mudline.model.contact.line import Incidence
 from mudline.model.contact.vectors import LEAST_SQUARE
 
 _ENDS = ("start_y", "start_z", "end_y", "end_z")
 
 
 class TrenchRows(NamedTuple):
-    """What trenches add to the lateral limits of nodes, a row (k,) for each trench that a node lies in.
+    """Trenches of nodes for the lateral limits: a row (k,) for each trench that a node lies in.
 
     Attributes:
-        nodes: (k,) ascending.
-        start: (n + 1,) rows start[i] to start[i + 1] are those of node i.
+        nodes: (k,) indices of nodes, ascending.
+        start: (n + 1,) rows start[i] to start[i + 1] belong to node i.
         kind: PEAK, WALL or TABLE.
-        inner, outer: half widths. steepness: 1 over half of their difference.
+        inner, outer: half widths.
+        steepness: 1 over half of the difference of the half widths.
         amount: peak force, coefficient of the normal force on the wall, or half length for a table.
-        table: which one, -1 for none.
-        line: row in `lines` of a straight centreline; -1 for the line as it was laid.
+        table: index of the table, -1 for none.
+        line: row in `lines` of a straight centreline; -1 for the line as laid.
         lines: (c, 4) place and direction (Y, Z) of each straight centreline.
         tables: (rows, 2) offsets and resistances of each table.
     """
@@ -59,16 +60,16 @@ class TrenchRows(NamedTuple):
     tables: tuple[FloatArray, ...]
 
     def some(self, rows: IndexArray | slice) -> TrenchRows:
-        """Return some rows, which have no starts."""
+        """Return some rows, without `start`."""
         names = ("nodes", "kind", "inner", "outer", "steepness", "amount", "table", "line")
         return self._replace(start=self.start[:0], **{name: getattr(self, name)[rows] for name in names})
 
 
 def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...] = (PEAK, WALL, TABLE)) -> TrenchRows:
-    """The trenches of the nodes; `friction` (n,) are the lateral coefficients. LEVEL has depths as amounts.
+    """Return the trenches of the nodes; `friction` (n,) are the lateral coefficients. LEVEL has depths as amounts.
 
-    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row. A node
-    with a breakout, which is a limit of its own, has none.
+    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row. Nodes
+    with a breakout have no trench: the breakout is a limit of its own.
 
     Raises:
         ValueError: the wall of a trench locks itself: mu2 tan(theta) >= 1.
@@ -104,9 +105,9 @@ def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...
 
 
 def _distinct(table: FloatArray) -> tuple[FloatArray, IndexArray]:
-    """The distinct rows (n, k) in ascending order, and for each row of the table which of them it is.
+    """Return the distinct rows (n, k) in ascending order, and the index of each row of the table among them.
 
-    As `np.unique` along an axis gives them, whose comparison of rows takes ten times as long.
+    The result is that of `np.unique` along an axis, whose comparison of rows takes ten times as long.
     """
     order = np.lexsort(table.T[::-1])
     ascending = table[order]
@@ -123,7 +124,7 @@ _NAMES = {PEAK: "trench peak", WALL: "trench wall", TABLE: "trench table", LEVEL
 def _of_law(
     given: ContactInput, kind: int, friction: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Of both ends (2 k,) of the elements with one law: nodes, keys, centrelines (2 k, 4) and amounts.
+    """Return nodes, keys, centrelines (2 k, 4) and amounts at both ends (2 k,) of the elements with one law.
 
     Keys (2 k, 4) are the kind, the half widths, and the table.
     """
@@ -152,7 +153,7 @@ def _of_law(
 
 
 def _wall(given: ContactInput, law: AssignedLaw, nodes: IndexArray, friction: FloatArray) -> FloatArray:
-    """What the wall adds to the coefficient of friction at nodes (k,) of elements."""
+    """Return the increase of the coefficient of friction by the wall at nodes (k,) of elements."""
     added = wall_coefficient(law["depth"], law["bottom"], law["upper"], friction[nodes])
     locked = np.flatnonzero(~(np.isfinite(added) & (added >= 0.0)))
     if locked.size:
@@ -162,7 +163,7 @@ def _wall(given: ContactInput, law: AssignedLaw, nodes: IndexArray, friction: Fl
 
 
 def _lengths(given: ContactInput) -> FloatArray:
-    """Half of the lengths of the elements at each node; 1 where they have none."""
+    """Return half of the total length of the elements at each node; 1 where that is 0."""
     total = np.zeros(len(given.node_ids))
     for end in given.element_nodes.T:
         np.add.at(total, end, 0.5 * given.length)
@@ -170,9 +171,14 @@ def _lengths(given: ContactInput) -> FloatArray:
 
 
 class _Pieces(NamedTuple):
-    """Straight pieces of a centreline: start and span (3, 1, k), 1 / length^2 (k,), and the shares of their ends.
+    """Straight pieces of a centreline.
 
-    A straight centreline is a piece with a span of length 1 in the plan that does not end.
+    A straight centreline is a piece without ends, with a span of length 1 in the plan.
+
+    Attributes:
+        start, span: (3, 1, k) start and vector to the end.
+        inverse: (k,) 1 / length^2.
+        first, last: shares at the ends.
     """
 
     start: FloatArray
@@ -183,10 +189,14 @@ class _Pieces(NamedTuple):
 
 
 class Beside(NamedTuple):
-    """The two pieces beside each of some nodes (k,), their elements, and the shares at the ends away from the node.
+    """The two pieces next to each of some nodes (k,).
 
-    These are NaN where there is nothing beyond. `straight` are the nodes with a straight centreline, `alone` those
-    without any piece.
+    Attributes:
+        pieces: the pieces.
+        elements: their elements.
+        far: shares at the ends away from the node; NaN at the end of the line.
+        straight: nodes with a straight centreline.
+        alone: nodes without any piece.
     """
 
     pieces: tuple[_Pieces, _Pieces]
@@ -197,10 +207,12 @@ class Beside(NamedTuple):
 
 
 class Away(NamedTuple):
-    """Nodes (steps, k) beside a centreline.
+    """Nodes (steps, k) relative to a centreline.
 
-    vector: (3, steps, k) from the nearest point. element: that it is on, -1 for straight centrelines and nodes
-    without any. share: of the element.
+    Attributes:
+        vector: (3, steps, k) from the nearest point of the centreline.
+        element: element of the nearest point, -1 for straight centrelines and nodes without any.
+        share: share of the element at the nearest point.
     """
 
     vector: FloatArray
@@ -209,17 +221,17 @@ class Away(NamedTuple):
 
 
 class LaidCentreline:
-    """The line through the nodes as they were laid (n, 3): straight between the two nodes of an element.
+    """The line through the nodes as they were laid (n, 3), straight between the two nodes of an element.
 
-    A node looks for its nearest point from its own place along the line, so that a stretch of the line which happens to
-    pass nearby is not taken for its own trench. Elements with a node without a position (NaN) are no part of it.
+    The search for the nearest point starts at the node's own place along the line. Another stretch of the line that
+    passes nearby is therefore not taken for the trench. Elements at a node without a position (NaN) are left out.
     """
 
-    def __init__(self, laid: FloatArray, line: Line) -> None:
+    def __init__(self, laid: FloatArray, line: Incidence) -> None:
         known = ~np.isnan(laid[:, 0])
         if not known.all():
-            line = Line(line.ends[known[line.ends].all(axis=1)], len(laid))
-        # a last piece, of no element and without length, for nodes that have none
+            line = Incidence(line.ends[known[line.ends].all(axis=1)], len(laid))
+        # a last piece, without element and length, for nodes without pieces
         self.ends, self.elements_at = np.append(line.ends, [[-1, -1]], axis=0), line.beside
         axes = np.ascontiguousarray(laid.T)
         start, end = line.at(axes, 0, len(line.ends))
@@ -232,36 +244,36 @@ class LaidCentreline:
         self._kept: dict[int, Beside] = {}
 
     def beside(self, key: int, trench: TrenchRows) -> Beside:
-        """Return the pieces beside the nodes of some rows, kept by `key`."""
+        """Return the pieces next to the nodes of some rows, cached by `key`."""
         if key not in self._kept:
             self._kept[key] = self.pieces_beside(trench)
         return self._kept[key]
 
     def pieces_beside(self, trench: TrenchRows) -> Beside:
-        """Return the pieces beside the nodes of some rows."""
+        """Return the pieces next to the nodes of some rows."""
         nodes, straight = trench.nodes, trench.line >= 0
-        one, other = self.elements_at[nodes].T
-        alone = (one < 0) & ~straight
-        other = np.where(other < 0, one, other)
+        first, second = self.elements_at[nodes].T
+        alone = (first < 0) & ~straight
+        second = np.where(second < 0, first, second)
         lines = trench.lines[np.maximum(trench.line, 0)] if len(trench.lines) else np.zeros((len(nodes), 4))
         pieces, far = [], []
-        for element in (one, other):
+        for element in (first, second):
             piece, end = self._piece(element), np.where(self.ends[element, 1] == nodes, 0.0, 1.0)
             far.append(np.where(straight | alone, np.nan, end))
             pieces.append(_with_lines(piece, lines, straight) if straight.any() else piece)
         rows = np.flatnonzero(straight), np.flatnonzero(alone)
-        return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), *rows)
+        return Beside((pieces[0], pieces[1]), (first, second), (far[0], far[1]), *rows)
 
     def _piece(self, at: IndexArray) -> _Pieces:
         return _Pieces(self.start.take(at, axis=1)[:, None], self.span.take(at, axis=1)[:, None], self.inverse[at])
 
     def away(self, beside: Beside, points: FloatArray) -> Away:
-        """Return where `points` (3, steps, k) are from their nearest points of the centreline."""
+        """Return vectors from the nearest points of the centreline to `points` (3, steps, k)."""
         share, away, square = _foot(points, beside.pieces[0])
-        second, other, distance = _foot(points, beside.pieces[1])
+        second, second_away, distance = _foot(points, beside.pieces[1])
         nearer = distance < square
         share = np.where(nearer, second, share)
-        away = np.where(nearer, other, away)
+        away = np.where(nearer, second_away, away)
         element = np.where(nearer, beside.elements[1], beside.elements[0])
         ends = share == np.where(nearer, beside.far[1], beside.far[0])
         if ends.any():
@@ -275,17 +287,17 @@ class LaidCentreline:
     def _walk(
         self,
         points: FloatArray,
-        found: tuple[FloatArray, FloatArray, FloatArray, IndexArray],
+        nearest: tuple[FloatArray, FloatArray, FloatArray, IndexArray],
         held: IndexArray,
     ) -> None:
-        """Go on beyond the ends of pieces that the nearest points stand on, as long as it gets nearer."""
-        shares, away, squares, elements = found
+        """Continue beyond the ends of pieces where the nearest points are, as long as the distance decreases."""
+        shares, away, squares, elements = nearest
         held = held[squares.flat[held] > 0.0]
         while held.size:
             share, current = shares.flat[held], elements.flat[held]
             node = np.where(share <= 0.0, self.ends[current, 0], self.ends[current, 1])
-            one, other = self.elements_at[node].T
-            following = np.where(one == current, other, one)
+            first, second = self.elements_at[node].T
+            following = np.where(first == current, second, first)
             following[(share > 0.0) & (share < 1.0)] = -1
             held, following = held[following >= 0], following[following >= 0]
             share, vectors, square = _foot(points.reshape(3, 1, -1)[..., held], self._piece(following))
@@ -297,7 +309,7 @@ class LaidCentreline:
 
 
 def _with_lines(piece: _Pieces, lines: FloatArray, straight: BoolArray) -> _Pieces:
-    """Straight centrelines in the place of the pieces of some nodes."""
+    """Return the pieces with straight centrelines for the nodes that have one."""
     places = np.pad(lines.reshape(-1, 2, 2), ((0, 0), (0, 0), (1, 0))).T[:, :, None]
     start = np.where(straight, places[:, 0], piece.start)
     span = np.where(straight, places[:, 1], piece.span)
@@ -306,7 +318,7 @@ def _with_lines(piece: _Pieces, lines: FloatArray, straight: BoolArray) -> _Piec
 
 
 def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Share (steps, k) of each piece, vector (3, steps, k) from its nearest point and the square of that."""
+    """Return the share (steps, k) of each piece, the vector (3, steps, k) from its nearest point and its square."""
     away = points - piece.start
     share: FloatArray = share_of_piece((away[0], away[1], away[2]), tuple(piece.span), piece.inverse)
     np.maximum(share, piece.first, out=share)
@@ -317,22 +329,22 @@ def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, F
 
 
 def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray) -> FloatArray:
-    """What each row (steps, k) adds to the lateral limit at its offset under a normal force."""
+    """Return the lateral resistance of each row (steps, k) at its offset under a normal force."""
     distance = np.abs(offset)
-    found = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
+    force = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
     if not trench.kind.any():
-        return np.asarray(found)
+        return np.asarray(force)
     walls = trench.kind == WALL
     on = on_wall(distance, trench.inner, trench.outer)
-    found = np.where(walls, trench.amount * normal_force * on, found)
+    force = np.where(walls, trench.amount * normal_force * on, force)
     for index in np.unique(trench.table[trench.kind == TABLE]).tolist():
         here = (trench.kind == TABLE) & (trench.table == index)
-        found[:, here] = trench.amount[here] * tabulated(trench.tables[index], distance[:, here])
-    return np.asarray(found)
+        force[:, here] = trench.amount[here] * tabulated(trench.tables[index], distance[:, here])
+    return np.asarray(force)
 
 
 def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
-    """Resistance per unit length of a table (rows, 2) at distances from the centreline."""
+    """Return the resistance per unit length of a table (rows, 2) at distances from the centreline."""
     columns = table_rows(table)
     row = table_row(columns, distance)
     held = np.minimum(np.maximum(distance, columns[0][0]), columns[0][-1])
@@ -340,7 +352,7 @@ def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
 
 
 def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
+    """Return derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
     distance = np.abs(offset)
     kind, inner, outer, amount = trench.kind, trench.inner, trench.outer, trench.amount
     by_distance = np.where(kind == PEAK, amount * peak_slope(distance, inner, outer), 0.0)
@@ -356,26 +368,26 @@ def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 class Lowered(NamedTuple):
-    """By how much the seabed lies lower at nodes (n,), and the gradient (n, 3) of that with u2 held."""
+    """Depth (n,) by which the seabed is lowered at nodes, and its gradient (n, 3) with u2 held."""
 
     depth: FloatArray
     gradient: FloatArray
 
 
 def level_at(whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
-    """Return the level of the seabed in trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
-    found = Lowered(np.zeros(len(points)), np.zeros(points.shape))
+    """Return depth and gradient of the trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
+    total = Lowered(np.zeros(len(points)), np.zeros(points.shape))
     for rows, _, offset, gradient in _offsets(whole, line, points, lateral):
         share, slope = lowered(np.abs(offset), rows.inner, rows.outer)
-        found.depth[rows.nodes] += rows.amount * share
-        found.gradient[rows.nodes] += (rows.amount * slope * np.sign(offset))[:, None] * gradient
-    return found
+        total.depth[rows.nodes] += rows.amount * share
+        total.gradient[rows.nodes] += (rows.amount * slope * np.sign(offset))[:, None] * gradient
+    return total
 
 
 def _offsets(
     whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray
 ) -> Iterator[tuple[TrenchRows, FloatArray, FloatArray, FloatArray]]:
-    """Rows that have each node once: with vectors (k, 3) from the centreline, offsets and their gradients (k, 3)."""
+    """Yield rows with distinct nodes, their vectors (k, 3) from the centreline, offsets and offset gradients (k, 3)."""
     for place in ranks(whole.nodes):
         rows = whole.some(place)
         at, beside = rows.nodes, line.pieces_beside(rows)
@@ -385,9 +397,9 @@ def _offsets(
 
 
 def ranks(nodes: IndexArray) -> list[IndexArray]:
-    """Return rows of ascending nodes in groups that have each node once: the first of each node, the second, ..."""
+    """Return rows of ascending nodes in groups of distinct nodes: the first row of each node, the second, ..."""
     rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
-    return [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
+    return [np.flatnonzero(rank == number) for number in range(int(rank.max(initial=-1)) + 1)]
 
 
 def added_limit(
@@ -398,28 +410,28 @@ def added_limit(
     normal_force: FloatArray,
     forward: BoolArray,
 ) -> ExtraLimit:
-    """Return what trenches add at `points` (n, 3) on the side to which each node is pulled; `forward` (n,): along +u2.
+    """Return the limit that trenches add at `points` (n, 3) on the side of each node's pull; `forward` (n,): along +u2.
 
     `gradient` and `by_angle` are those of the force, whose derivative `by_offset` is 1.
     """
     count = len(points)
-    found = ExtraLimit.none(count)._replace(by_offset=np.ones(count), outward=np.where(forward, 1.0, -1.0))
+    limit = ExtraLimit.none(count)._replace(by_offset=np.ones(count), outward=np.where(forward, 1.0, -1.0))
     for rows, away, offset, gradient in _offsets(whole, line, points, axes[1]):
         at = rows.nodes
         side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
         by_distance, by_normal = slopes(rows, offset)
-        found.force[at] += side * resistance(rows, offset[None], normal_force[at][None])[0]
-        found.by_normal_force[at] += side * by_normal
+        limit.force[at] += side * resistance(rows, offset[None], normal_force[at][None])[0]
+        limit.by_normal_force[at] += side * by_normal
         slope = side * by_distance * np.sign(offset)
-        found.gradient[at] += slope[:, None] * gradient
-        found.by_angle[at] -= slope * (axes[0][at] * away).sum(axis=1)
-    return found
+        limit.gradient[at] += slope[:, None] * gradient
+        limit.by_angle[at] -= slope * (axes[0][at] * away).sum(axis=1)
+    return limit
 
 
 def _offset_gradient(
     line: LaidCentreline, rows: TrenchRows, beside: Beside, where: Away, lateral: FloatArray
 ) -> FloatArray:
-    """Derivative (k, 3) of the offset along u2 by the position of a node: nothing along the piece it is beside."""
+    """Return the derivative (k, 3) of the offset along u2 by the node's position; it is 0 along the nearest piece."""
     along = np.zeros(lateral.shape)
     share, element = where.share[0], where.element[0]
     inside = np.flatnonzero((rows.line < 0) & (share > 0.0) & (share < 1.0) & (element >= 0))

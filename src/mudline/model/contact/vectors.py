@@ -17,19 +17,19 @@ from mudline.model.contact.laws import Value, where
 Vector = tuple[Value, ...]
 
 LEAST_SQUARE, LARGEST_SQUARE = 1e-280, 1e280
-"""Squares of lengths between these are computed without under- or overflow."""
+"""Bounds of squares of lengths that are computed without under- or overflow."""
 _STEEPEST = 1e-18
 """Square of the sine of the angle to the normal of the seabed below which a direction has no projection."""
 
 
-def dot_2(one: Vector, other: Vector) -> Value:
+def dot_2(a: Vector, b: Vector) -> Value:
     """Return the scalar product in the plane of a horizontal seabed."""
-    return one[0] * other[0] + one[1] * other[1]
+    return a[0] * b[0] + a[1] * b[1]
 
 
-def dot_3(one: Vector, other: Vector) -> Value:
+def dot_3(a: Vector, b: Vector) -> Value:
     """Return the scalar product."""
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def across_2(along: Vector, _normal: Vector) -> Vector:
@@ -46,9 +46,9 @@ def across_3(along: Vector, normal: Vector) -> Vector:
     )
 
 
-def mean_normal(one: Vector, other: Vector) -> Vector:
+def mean_normal(a: Vector, b: Vector) -> Vector:
     """Return the mean of two unit normals, as a unit vector."""
-    x, y, z = added_3(one, other)
+    x, y, z = added_3(a, b)
     size = np.sqrt(dot_3((x, y, z), (x, y, z)))
     return x / size, y / size, z / size
 
@@ -59,44 +59,44 @@ def tangent_share(square: Value) -> Value:
 
 
 def span_scale(dx: Value, dy: Value, dz: Value) -> Value:
-    """Return a number by which any span may be divided before its square is taken; 1 for one without length."""
+    """Return a divisor of a span that keeps its square finite; 1 for a span without length."""
     largest = np.maximum(np.maximum(np.abs(dx), np.abs(dy)), np.abs(dz))
     return where((largest > 0.0) & (largest < np.inf), largest, 1.0)
 
 
-def projected_2(wanted: Vector, _normal: Vector) -> tuple[Vector, Value]:
-    """Return the unit vector along `wanted`, which lies in the plane, and whether it has a length."""
-    square = wanted[0] * wanted[0] + wanted[1] * wanted[1]
-    able = square > _STEEPEST
-    share = 1.0 / np.sqrt(where(able, square, 1.0))
-    return (wanted[0] * share, wanted[1] * share), able
+def projected_2(vector: Vector, _normal: Vector) -> tuple[Vector, Value]:
+    """Return the unit vector along a vector in the plane, and whether the vector has a length."""
+    square = vector[0] * vector[0] + vector[1] * vector[1]
+    exists = square > _STEEPEST
+    share = 1.0 / np.sqrt(where(exists, square, 1.0))
+    return (vector[0] * share, vector[1] * share), exists
 
 
-def projected_3(wanted: Vector, normal: Vector) -> tuple[Vector, Value]:
-    """Return the unit vector along the projection of `wanted` on the plane of a normal, and whether there is one."""
-    along = wanted[0] * normal[0] + wanted[1] * normal[1] + wanted[2] * normal[2]
-    rest_x, rest_y = wanted[0] - normal[0] * along, wanted[1] - normal[1] * along
-    rest_z = wanted[2] - normal[2] * along
+def projected_3(vector: Vector, normal: Vector) -> tuple[Vector, Value]:
+    """Return the unit vector along the projection of a vector on the plane of a normal, and whether it exists."""
+    along = vector[0] * normal[0] + vector[1] * normal[1] + vector[2] * normal[2]
+    rest_x, rest_y = vector[0] - normal[0] * along, vector[1] - normal[1] * along
+    rest_z = vector[2] - normal[2] * along
     square = rest_x * rest_x + rest_y * rest_y + rest_z * rest_z
-    able = square > _STEEPEST
-    share = 1.0 / np.sqrt(where(able, square, 1.0))
-    return (rest_x * share, rest_y * share, rest_z * share), able
+    exists = square > _STEEPEST
+    share = 1.0 / np.sqrt(where(exists, square, 1.0))
+    return (rest_x * share, rest_y * share, rest_z * share), exists
 
 
 def default_2(normal: Vector) -> Vector:
-    """Return the direction of what has none of its own: +Y."""
+    """Return the direction of elements and nodes without a direction of their own: +Y."""
     return 1.0 + 0.0 * normal[0], 0.0 * normal[0]
 
 
 def default_3(normal: Vector) -> Vector:
-    """Return the direction of what has none of its own: the projection of +Y, or of +Z where +Y is the normal."""
+    """Return the default direction: the projection of +Y, or of +Z if +Y is the normal."""
     nothing, one = 0.0 * normal[0], 1.0 + 0.0 * normal[0]
-    along_y, able = projected_3((nothing, one, nothing), normal)
+    along_y, exists = projected_3((nothing, one, nothing), normal)
     along_z, _ = projected_3((nothing, nothing, one), normal)
     return (
-        where(able, along_y[0], along_z[0]),
-        where(able, along_y[1], along_z[1]),
-        where(able, along_y[2], along_z[2]),
+        where(exists, along_y[0], along_z[0]),
+        where(exists, along_y[1], along_z[1]),
+        where(exists, along_y[2], along_z[2]),
     )
 
 
@@ -116,29 +116,29 @@ def turned_3(cosine: Value, sine: Value, normal: Vector) -> Vector:
     )
 
 
-def blend_2(one: Vector, other: Vector, f: Value, g: Value) -> Vector:
-    """Return f one + g other in the plane of a horizontal seabed."""
-    return one[0] * f + other[0] * g, one[1] * f + other[1] * g
+def blend_2(a: Vector, b: Vector, f: Value, g: Value) -> Vector:
+    """Return f a + g b in the plane of a horizontal seabed."""
+    return a[0] * f + b[0] * g, a[1] * f + b[1] * g
 
 
-def blend_3(one: Vector, other: Vector, f: Value, g: Value) -> Vector:
-    """Return f one + g other."""
-    return one[0] * f + other[0] * g, one[1] * f + other[1] * g, one[2] * f + other[2] * g
+def blend_3(a: Vector, b: Vector, f: Value, g: Value) -> Vector:
+    """Return f a + g b."""
+    return a[0] * f + b[0] * g, a[1] * f + b[1] * g, a[2] * f + b[2] * g
 
 
-def added_2(one: Vector, other: Vector) -> Vector:
+def added_2(a: Vector, b: Vector) -> Vector:
     """Return the sum of two vectors in the plane of a horizontal seabed."""
-    return one[0] + other[0], one[1] + other[1]
+    return a[0] + b[0], a[1] + b[1]
 
 
-def added_3(one: Vector, other: Vector) -> Vector:
+def added_3(a: Vector, b: Vector) -> Vector:
     """Return the sum of two vectors."""
-    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def reaction_2(normal_force: Value, normal: Vector, tangential: Vector) -> Vector:
     """Return the reaction of a horizontal seabed, (X, Y, Z)."""
-    # a sum with 0 knows no -0
+    # adding 0 turns -0 into 0
     return normal_force * normal[0] + 0.0, tangential[0] + 0.0, tangential[1] + 0.0
 
 
@@ -151,8 +151,8 @@ def reaction_3(normal_force: Value, normal: Vector, tangential: Vector) -> Vecto
     )
 
 
-class Plane(NamedTuple):
-    """The functions above for one number of components.
+class PlaneFunctions(NamedTuple):
+    """The functions above for two or for three components.
 
     project, default, across, dot, turned, blend, added, reaction: as the functions.
     """
@@ -168,26 +168,26 @@ class Plane(NamedTuple):
 
 
 PLANES = {
-    2: Plane(projected_2, default_2, across_2, dot_2, turned_2, blend_2, added_2, reaction_2),
-    3: Plane(projected_3, default_3, across_3, dot_3, turned_3, blend_3, added_3, reaction_3),
+    2: PlaneFunctions(projected_2, default_2, across_2, dot_2, turned_2, blend_2, added_2, reaction_2),
+    3: PlaneFunctions(projected_3, default_3, across_3, dot_3, turned_3, blend_3, added_3, reaction_3),
 }
-"""By the number of components."""
+"""The functions by number of components."""
 
 
 Components = tuple[FloatArray, ...]
 
 
-def in_plane(wanted: Components, normal: Components) -> Components:
-    """Return the unit projections on the seabed; the default direction for what has none.
+def in_plane(vectors: Components, normal: Components) -> Components:
+    """Return the unit projections of vectors on the seabed; the default direction for a vector along the normal.
 
     Vectors of two components lie in the plane of a horizontal seabed.
     """
-    plane = PLANES[len(wanted)]
+    plane = PLANES[len(vectors)]
     unit: Components
-    unit, able = plane.project(wanted, normal)
-    if not able.all():
+    unit, exists = plane.project(vectors, normal)
+    if not exists.all():
         default = plane.default(normal)
-        unit = tuple(np.where(able, here, there) for here, there in zip(unit, default, strict=True))
+        unit = tuple(np.where(exists, here, there) for here, there in zip(unit, default, strict=True))
     return unit
 
 
@@ -206,10 +206,10 @@ def rescale(spans: FloatArray, square: FloatArray) -> FloatArray:
 
 
 def units(spans: FloatArray) -> FloatArray:
-    """Return the unit directions of spans (3, ...), which may be changed; 0 for one without length."""
+    """Return the unit directions of spans (3, ...), which may be overwritten; 0 for a span without length."""
     squares = spans * spans
     square = squares[0] + squares[1] + squares[2]
     if not (square.min(initial=1.0) > LEAST_SQUARE and square.max(initial=1.0) < LARGEST_SQUARE):
         square = rescale(spans, square)
-    found: FloatArray = spans * tangent_share(square)
-    return found
+    directions: FloatArray = spans * tangent_share(square)
+    return directions

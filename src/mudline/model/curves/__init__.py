@@ -3,8 +3,8 @@
 curve = ForceCurve([(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)])
 force, slope = curve.evaluate(0.2)
 
-The embedment ratio r is penetration / external diameter (dimensionless), the force f is per unit length, in whatever
-units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) / (r_(i+1) - r_i):
+The embedment ratio r is penetration / external diameter (dimensionless); the force f is per unit length, in the units
+of the deck. With the points sorted by ratio and s_i = (F_(i+1) - F_i) / (r_(i+1) - r_i):
 
 * r_i <= r < r_(i+1):  f = F_i + s_i (r - r_i), slope s_i (at a point that of the segment to its right);
 * r < r_0:             the same with i = 0;
@@ -41,18 +41,18 @@ if TYPE_CHECKING:
 __all__ = ["CurveError", "ForceCurve"]
 
 BLOCK = 32768
-"""Numbers at a time, so that work arrays stay in the second-level cache."""
+"""Numbers evaluated at a time, so that work arrays stay in the second-level cache."""
 _COUNTED_POINTS = 60
-"""Up to this many points, comparing with each is faster than a binary search."""
+"""Number of points up to which comparing with each point is faster than a binary search."""
 _RATIOS_PER_POINT = 50
-"""Below this, the calls for each point cost more than a binary search."""
+"""Number of ratios per point below which a binary search is faster."""
 
 
 class ForceCurve:
     """A force-embedment curve: force per unit length over embedment ratio. Immutable.
 
     Attributes:
-        name: what the curve is called, or None.
+        name: name of the curve, or None.
         ratios: (n,) embedment ratios, strictly ascending, read-only.
         forces: (n,) forces per unit length at the ratios, read-only.
         slopes: (n - 1,) d force / d ratio of each segment, read-only.
@@ -71,7 +71,7 @@ class ForceCurve:
         """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
 
         Raises:
-            CurveError: the points do not make a curve; its `code` and `index` say why and which.
+            CurveError: the points do not make a curve; its `code` and `index` are the fault and the point.
             ValueError: `points` are not pairs of real numbers.
         """
         expect(name, "name", (str, NoneType), "a str or None")
@@ -89,10 +89,10 @@ class ForceCurve:
     def evaluate(
         self, ratios: ArrayLike, *, out: tuple[FloatArray, FloatArray] | None = None
     ) -> tuple[FloatArray, FloatArray]:
-        """Return force and slope (d force / d ratio) at `ratios`, each of their shape.
+        """Return force and slope (d force / d ratio) at `ratios`, in arrays of the same shape.
 
-        `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may be the
-        memory of `ratios` itself; after an error their content is undefined.
+        `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may share the
+        memory of `ratios`. After an error their content is undefined.
 
         Raises:
             ValueError: a ratio is NaN or infinite, or the force there overflows; or `ratios` are not real numbers, or
@@ -100,7 +100,7 @@ class ForceCurve:
         """
         query = real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
-        # Where results overwrite the ratios, these are still needed to report what is wrong.
+        # results may overwrite ratios that an error message needs
         replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
         done = 0
         with np.errstate(all="ignore"), _blocks(query, force, slope) as pieces:
@@ -116,8 +116,8 @@ class ForceCurve:
     def fill(self, ratios: FloatArray, force: FloatArray, slope: FloatArray) -> None:
         """Write force and slope at `ratios` (k,), for callers that check the force themselves.
 
-        Where a ratio is not finite or the force overflows, the force is not finite. All three arrays are float64 and
-        each in one piece of memory.
+        The force is not finite if a ratio is not finite or the force overflows. All three arrays are float64 and
+        contiguous.
         """
         for start in range(0, len(ratios), BLOCK):
             piece = slice(start, start + BLOCK)
@@ -125,8 +125,8 @@ class ForceCurve:
                 self._recompute_overflowed(ratios[piece], force[piece])
 
     def _fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
-        """Write force and slope at each ratio of a block; return whether every force is finite."""
-        # below the first point the first segment goes on: what is passed is the point from which the force is computed
+        """Write force and slope at each ratio of a block; return True if every force is finite."""
+        # a ratio below the second point, even below the first, belongs to the first segment
         point = _passed(self.ratios[1:], ratio)
         offset = self.ratios.take(point)
         np.subtract(ratio, offset, out=offset)
@@ -137,9 +137,9 @@ class ForceCurve:
         return bool(np.isfinite(force).all())
 
     def _recompute_overflowed(self, ratio: FloatArray, force: FloatArray) -> IndexArray:
-        """Compute again the forces that are not finite; return where they still are not.
+        """Recompute forces that are not finite; return the indices of those that still are not.
 
-        Only an intermediate value may have overflowed: added in two halves the force may well be finite.
+        Only an intermediate value may have overflowed: the force may be finite if added in two halves.
         """
         where = np.flatnonzero(~np.isfinite(force))
         at = _passed(self.ratios[1:], ratio[where])
@@ -148,20 +148,20 @@ class ForceCurve:
         return where[~np.isfinite(force[where])]
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
-        """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
+        """Return the segment at `ratios`, from 0; the first also below, the last also beyond the points.
 
         Raises:
             ValueError: a ratio is NaN or infinite.
         """
         query = real_numbers(ratios, "ratios")
-        found = np.empty(query.shape, np.intp)
+        segments = np.empty(query.shape, np.intp)
         done = 0
-        with np.errstate(all="ignore"), _blocks(query, found) as pieces:
-            for ratio, block_found in pieces:
+        with np.errstate(all="ignore"), _blocks(query, segments) as pieces:
+            for ratio, block_segments in pieces:
                 _refuse_infinite(ratio, done)
-                np.minimum(_passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_found)
+                np.minimum(_passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_segments)
                 done += len(ratio)
-        return found
+        return segments
 
     def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
         """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
@@ -170,20 +170,20 @@ class ForceCurve:
             ValueError: a ratio is NaN or infinite.
         """
         query = real_numbers(ratios, "ratios")
-        found = np.empty(query.shape, np.int8)
+        sides = np.empty(query.shape, np.int8)
         done = 0
-        with np.errstate(all="ignore"), _blocks(query, found) as pieces:
-            for ratio, block_found in pieces:
+        with np.errstate(all="ignore"), _blocks(query, sides) as pieces:
+            for ratio, block_sides in pieces:
                 _refuse_infinite(ratio, done)
-                np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_found, dtype=np.int8)
+                np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_sides, dtype=np.int8)
                 done += len(ratio)
-        return found
+        return sides
 
     def ratios_at_force(self, force: float) -> tuple[float, ...]:
-        """Return every ratio at which the curve, its continued ends included, has this force, ascending.
+        """Return every ratio at which the curve, including its continued ends, has this force, ascending.
 
-        A flat stretch at this force is given by the points it joins. A ratio too large for a float64 is left out.
-        With the submerged weight per unit length as `force` these are the static embedments.
+        A flat segment at this force is represented by its end points. A ratio too large for a float64 is left out. With
+        the submerged weight per unit length as `force` these are the static embedments.
 
         Raises:
             ValueError: `force` is NaN or infinite.
@@ -193,11 +193,11 @@ class ForceCurve:
         if not np.isfinite(force):
             raise ValueError(f"no ratio has the force {force}")
         reached = self.ratios[self.forces == force]
-        found = {*reached.tolist(), *self._inside(force).tolist(), *self._beyond_ends(force)}
-        return tuple(sorted(found))
+        ratios = {*reached.tolist(), *self._inside(force).tolist(), *self._beyond_ends(force)}
+        return tuple(sorted(ratios))
 
     def _inside(self, force: float) -> FloatArray:
-        """The ratios of this force between points, each computed from the point that is nearer in force."""
+        """Return the ratios of this force between points, each computed from the point nearer in force."""
         low, high = self.forces[:-1], self.forces[1:]
         segment = np.flatnonzero(((low < force) & (force < high)) | ((high < force) & (force < low)))
         middle = 0.5 * low[segment] + 0.5 * high[segment]
@@ -207,8 +207,8 @@ class ForceCurve:
         return ratio
 
     def _beyond_ends(self, force: float) -> list[float]:
-        """The ratios of this force below the first and beyond the last point."""
-        found = []
+        """Return the ratios of this force below the first and beyond the last point."""
+        ratios = []
         for end, outward in ((0, -1.0), (-1, 1.0)):
             rise = outward * self.slopes[end]
             if (rise > 0.0 and force > self.forces[end]) or (rise < 0.0 and force < self.forces[end]):
@@ -216,8 +216,8 @@ class ForceCurve:
                 with np.errstate(over="ignore"):
                     ratio = self.ratios[end] + offset
                 if np.isfinite(ratio):
-                    found.append(float(ratio))
-        return found
+                    ratios.append(float(ratio))
+        return ratios
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise AttributeError(f"a ForceCurve does not change: cannot set {name}")
@@ -229,7 +229,7 @@ class ForceCurve:
         return type(self), (np.column_stack((self.ratios, self.forces)), self.name)
 
     def __eq__(self, other: object) -> bool:
-        """Same name and same points."""
+        """Return True for a curve with the same name and points."""
         if not isinstance(other, ForceCurve):
             return NotImplemented
         same_points = np.array_equal(self.ratios, other.ratios) and np.array_equal(self.forces, other.forces)
@@ -260,7 +260,7 @@ class ForceCurve:
         return axes
 
     def _repr_html_(self) -> str:
-        """A picture, and the points with the slopes behind them, for notebooks."""
+        """Return a picture, and the points with the slopes after them, as HTML for notebooks."""
         from mudline.basics.html_repr import html_line, html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
         columns = (array[:SHOWN_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
@@ -283,10 +283,9 @@ def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> 
 
 
 def _refuse_infinite(ratio: FloatArray, start: int) -> None:
-    """Check that ratios are finite, for queries that compute no force.
+    """Raise ValueError for a ratio that is not finite, in queries that compute no force.
 
-    Raises:
-        ValueError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
+    `start` is the index of the first ratio in the query.
     """
     finite = np.isfinite(ratio)
     if not finite.all():
@@ -294,21 +293,19 @@ def _refuse_infinite(ratio: FloatArray, start: int) -> None:
 
 
 def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
-    """Raise the error of a ratio; `start` is the index of the first ratio in the query."""
+    """Raise ValueError for a ratio; `start` is the index of the first ratio in the query."""
     value = float(ratio[index])
     why = "the force there overflows" if np.isfinite(value) else "it is not finite"
     raise ValueError(f"no force at ratio {value!r} (index {start + index}): {why}")
 
 
 def _blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nditer:
-    """Iterate over `source` (read as float64) and `targets` in flat order, BLOCK at a time, whatever their layout.
-
-    The blocks are contiguous.
+    """Iterate over `source` (as float64) and `targets` in flat order, in contiguous blocks of up to BLOCK numbers.
 
     A target may be the memory of `source`, number for number: its blocks are then those of the source. A target that
     overlaps it in any other way is written to a copy first.
     """
-    # Of any type: numpy's stubs do not know "contig".
+    # typed Any: numpy's stubs do not know "contig"
     access: list[list[Any]] = [["readonly", "contig", "overlap_assume_elementwise"]]
     access += [["writeonly", "contig", "overlap_assume_elementwise"] for _ in targets]
     return np.nditer(

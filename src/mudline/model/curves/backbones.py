@@ -20,11 +20,14 @@ from mudline.model.curves.points import FloatArray
 __all__ = ["MODELS", "Backbone", "Model", "Soil"]
 
 _SAMPLES = 400
-"""Places at which a chord is compared with the model, for every smooth stretch below it."""
+"""Points at which a chord is compared with the model, for every smooth part of the model."""
 _MARGIN = 0.995
-"""Part of the tolerance that is used up: the rest is for rounded points and for what lies between the samples."""
+"""Part of the tolerance used by the chords; the remainder covers rounded points and deviations between samples."""
 _DIGITS = 7
-"""Of the numbers of a point, at least: rounding is a hundredth of what `_MARGIN` leaves of a fine tolerance too."""
+"""Least number of digits of the numbers of a point.
+
+Rounding is then a hundredth of the margin left by `_MARGIN`, for a fine tolerance too.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +47,7 @@ class Soil:
     weight: float = 0.0
 
     def shear_strength(self, ratio: FloatArray) -> FloatArray:
-        """s_u at the invert."""
+        """Return s_u at the invert."""
         return self.strength + self.gradient * self.diameter * ratio
 
 
@@ -56,10 +59,10 @@ class Model:
         title: authors, and year or document.
         formula: force per unit length in one line, for people.
         resistance: the force at ratios >= 0.
-        published: the largest ratio for which the model is published, or where its description here ends.
-        range_note: why it is that one.
+        published: the largest ratio for which the model is published or described here.
+        range_note: reason for that limit.
         corners: ratios at which the slope jumps.
-        weighs: whether the soil's weight has a part in it.
+        weighs: whether the resistance depends on the soil's weight.
     """
 
     title: str
@@ -72,20 +75,20 @@ class Model:
 
 
 def contact_width(ratio: FloatArray) -> FloatArray:
-    """B/D: the chord of the circle at the mudline, 1 from r = 1/2 on."""
+    """Return B/D: the chord of the circle at the mudline, 1 for r >= 1/2."""
     low = np.minimum(ratio, 0.5)
     return 2.0 * np.sqrt(low * (1.0 - low))
 
 
 def displaced_area(ratio: FloatArray) -> FloatArray:
-    """A_bm/D^2: the segment below the mudline; from r = 1/2 on with the slot of width D above the half circle."""
+    """Return A_bm/D^2: the segment below the mudline; for r >= 1/2 the half circle and the slot of width D above it."""
     width = contact_width(ratio)
     segment = np.arcsin(width) / 4.0 - width / 4.0 * np.sqrt(1.0 - width * width)
     return np.where(ratio < 0.5, segment, math.pi / 8.0 + (ratio - 0.5))
 
 
 def _heave(soil: Soil, ratio: FloatArray) -> FloatArray:
-    """1.5 w A_bm: the weight of the displaced soil with the heave beside the pipe."""
+    """Return 1.5 w A_bm: the weight of the displaced soil with the heave next to the pipe."""
     return 1.5 * soil.weight * soil.diameter * soil.diameter * displaced_area(ratio)
 
 
@@ -121,7 +124,7 @@ def _randolph_quiggin(soil: Soil, ratio: FloatArray) -> FloatArray:
 
 _HALF = "it is published for penetrations up to half the diameter"
 _CAP = (7.5 / 5.14 - 1.0) ** 2 / 0.23**2
-"""z/B at which the factor of Skempton reaches 7.5."""
+"""z/B at which the bearing factor of Skempton reaches 7.5."""
 
 MODELS = {
     "f114": Model(
@@ -179,7 +182,7 @@ MODELS = {
         corners=(0.1,),
     ),
 }
-"""The models by the name that the command line has for them."""
+"""The models by their names on the command line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,17 +193,18 @@ class Backbone:
     soil: Soil
 
     def force(self, ratio: FloatArray) -> FloatArray:
-        """Force per unit length at ratios z/D >= 0."""
+        """Return force per unit length at ratios z/D >= 0."""
         return self.model.resistance(self.soil, ratio)
 
     def points(self, depth: float, tolerance: float, first: float = 0.0) -> FloatArray:
-        """Return points (ratio, force) of the model from (0, 0) to `depth`, (n, 2), as few as we know how.
+        """Return points (ratio, force) of the model from (0, 0) to `depth`, (n, 2), few enough for the tolerance.
 
-        Linear interpolation between them differs from the model by at most `tolerance` times its largest force, from
-        the ratio `first` on: no point but (0, 0) is nearer to 0, where most models are too steep for an analysis. From
-        each point the next is the farthest that holds the tolerance; for a curve that bends to one side only, no other
-        points on it are fewer. Raises OverflowError where the first chord that holds the tolerance is steeper than a
-        float64 can say.
+        Linear interpolation between the points differs from the model by at most `tolerance` times its largest force,
+        from the ratio `first` on. No point but (0, 0) lies nearer to 0, where most models are too steep for an
+        analysis. The next point is always the farthest that keeps the tolerance; for a curve that bends to one side
+        only, no fewer points on it would do.
+
+        Raises OverflowError if the slope of the first chord that keeps the tolerance overflows.
         """
         allowed = _MARGIN * tolerance * self.largest(depth)
         digits = max(_DIGITS, 4 - math.floor(math.log10(tolerance)))
@@ -211,18 +215,18 @@ class Backbone:
         return np.column_stack((chosen, [_rounded(force, digits) for force in self.force(chosen).tolist()]))
 
     def largest(self, depth: float) -> float:
-        """The largest force down to `depth`."""
+        """Return the largest force down to `depth`."""
         return float(self.force(self._samples(0.0, depth)).max())
 
     def deviation(self, points: FloatArray) -> float:
-        """The largest distance between the model and linear interpolation of `points`, over their range."""
+        """Return the largest distance between the model and linear interpolation of `points`, over their range."""
         ratios, forces = points.T
         pieces = zip(ratios[:-1].tolist(), ratios[1:].tolist(), strict=True)
         samples = np.concatenate([self._samples(start, end) for start, end in pieces])
         return float(np.abs(np.interp(samples, ratios, forces) - self.force(samples)).max())
 
     def _next(self, start: float, depth: float, allowed: float) -> float:
-        """The farthest end of a chord from `start` that stays within `allowed`, by bisection."""
+        """Return the farthest end of a chord from `start` that stays within `allowed`, by bisection."""
         if self._chord(start, depth) <= allowed:
             return depth
         low, high = start, depth
@@ -236,7 +240,7 @@ class Backbone:
         return self.deviation(np.column_stack(((start, end), self.force(np.array([start, end])))))
 
     def _samples(self, start: float, end: float) -> FloatArray:
-        """Ratios from `start` to `end`, denser at either end, where roots are steep; corners are among them."""
+        """Return ratios from `start` to `end`, including corners, denser at either end, where roots are steep."""
         inner = [corner for corner in self.model.corners if start < corner < end]
         ends = np.array([start, *inner, end])
         share = np.linspace(0.0, 1.0, _SAMPLES)

@@ -16,7 +16,7 @@ Number = TypeVar("Number", bound=np.generic)
 
 
 def read_only(array: NDArray[Number]) -> NDArray[Number]:
-    """Return the array itself, from now on read-only."""
+    """Make an array read-only, and return it."""
     array.setflags(write=False)
     return array
 
@@ -25,7 +25,7 @@ def real_numbers(values: ArrayLike, what: str) -> NDArray[np.generic]:
     """Return `values` as an array of booleans, integers or floats.
 
     Raises:
-        ValueError: they are something else; `what` is what the message calls them.
+        ValueError: they are something else; `what` is their name in the message.
     """
     array: NDArray[np.generic] = as_array(values, what)
     if array.dtype.kind not in "biuf":
@@ -37,9 +37,9 @@ class CurveError(ValueError):
     """Points that do not make a curve.
 
     Attributes:
-        code: rule code of the fault: `SYN002` (a number that is not finite), `CRV001` (fewer than two distinct
-            points), `CRV003` (two forces at one ratio), `CRV011` (a width or a slope that a float64 cannot hold).
-        index: the offending point in the order given, from 0; of two points the later one; -1 for the whole curve.
+        code: rule code of the fault: `SYN002` (a number that is not finite), `CRV001` (fewer than two distinct points),
+            `CRV003` (two forces at one ratio), `CRV011` (a width or a slope that a float64 cannot hold).
+        index: the wrong point in the order given, from 0; of two points the later one; -1 for the whole curve.
     """
 
     def __init__(self, code: str, index: int, message: str) -> None:
@@ -57,7 +57,10 @@ _NORMAL = float(np.finfo(np.float64).tiny)
 class CurvePoints(NamedTuple):
     """Sorted points without repeats, and the slopes between them.
 
-    ratios: (n,) strictly ascending, n >= 2; forces: (n,); slopes: (n - 1,). All finite; a slope is 0 or normal.
+    Attributes:
+        ratios: (n,) strictly ascending, n >= 2.
+        forces: (n,) forces at the ratios.
+        slopes: (n - 1,) slopes; a slope is 0 or normal.
     """
 
     ratios: FloatArray
@@ -70,28 +73,28 @@ def checked_points(points: ArrayLike) -> CurvePoints:
 
     Raises:
         CurveError: the points do not make a curve.
-        ValueError: they are not pairs of real numbers.
+        ValueError: the points are not pairs of real numbers.
     """
-    given = _pairs(points)
-    order = np.arange(len(given))
-    if np.count_nonzero(given[1:, 0] > given[:-1, 0]) < len(given) - 1:
-        order = given[:, 0].argsort(kind="stable")
-        order = order[_first_of_each_ratio(given, order)]
+    pairs = _pairs(points)
+    order = np.arange(len(pairs))
+    if np.count_nonzero(pairs[1:, 0] > pairs[:-1, 0]) < len(pairs) - 1:
+        order = pairs[:, 0].argsort(kind="stable")
+        order = order[_first_of_each_ratio(pairs, order)]
     if len(order) < 2:
         raise CurveError("CRV001", -1, f"a curve needs two distinct points or more, not {len(order)}")
-    ratios, forces = given[:, 0].take(order), given[:, 1].take(order)
+    ratios, forces = pairs[:, 0].take(order), pairs[:, 1].take(order)
     return CurvePoints(ratios, forces, _slopes(ratios, forces, order))
 
 
 def _pairs(points: ArrayLike) -> FloatArray:
-    """The points as an (n, 2) float64 array, every number finite, no negative zeros."""
-    given = real_numbers(points, "points")
-    if given.size == 0:
+    """Return the points as an (n, 2) float64 array, every number finite, no negative zeros."""
+    array = real_numbers(points, "points")
+    if array.size == 0:
         return np.empty((0, 2))
-    if given.ndim != 2 or given.shape[1] != 2:
-        raise ValueError(f"points must be pairs (ratio, force), not an array of shape {given.shape}")
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"points must be pairs (ratio, force), not an array of shape {array.shape}")
     with np.errstate(over="ignore"):
-        pairs = given.astype(np.float64) + 0.0
+        pairs = array.astype(np.float64) + 0.0
     finite = np.isfinite(pairs)
     if np.count_nonzero(finite) < finite.size:
         index = int(finite.all(axis=1).argmin())
@@ -100,24 +103,24 @@ def _pairs(points: ArrayLike) -> FloatArray:
     return pairs
 
 
-def _first_of_each_ratio(given: FloatArray, order: IndexArray) -> NDArray[np.bool_]:
-    """Mask over the sorted points that drops repeats.
+def _first_of_each_ratio(pairs: FloatArray, order: IndexArray) -> NDArray[np.bool_]:
+    """Return a mask over the sorted points that drops repeats.
 
     Raises:
         CurveError: CRV003, one ratio with two forces.
     """
-    ratios, forces = given[order, 0], given[order, 1]
+    ratios, forces = pairs[order, 0], pairs[order, 1]
     repeats = ratios[1:] == ratios[:-1]
     clashes = np.flatnonzero(repeats & (forces[1:] != forces[:-1]))
     if clashes.size:
         first, later = order[clashes[0]], order[clashes[0] + 1]
-        values = f"{given[first, 1].item()!r} (point {first + 1}) and {given[later, 1].item()!r} (point {later + 1})"
-        raise CurveError("CRV003", int(later), f"two forces at ratio {given[first, 0].item()!r}: {values}")
+        values = f"{pairs[first, 1].item()!r} (point {first + 1}) and {pairs[later, 1].item()!r} (point {later + 1})"
+        raise CurveError("CRV003", int(later), f"two forces at ratio {pairs[first, 0].item()!r}: {values}")
     return np.concatenate((np.ones(min(len(order), 1), np.bool_), ~repeats))
 
 
 def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatArray:
-    """Slope of each segment.
+    """Return the slope of each segment.
 
     Raises:
         CurveError: CRV011, a width or a slope overflows, or a slope is not zero but too small to be a normal number.
@@ -127,12 +130,12 @@ def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatA
         plain = (forces[1:] - forces[:-1]) / widths
     steepness = np.abs(plain)
     if np.minimum.reduce(steepness) >= _NORMAL and np.maximum.reduce(steepness) < np.inf:
-        return plain  # as those of most curves
+        return plain  # the case of most curves
     slopes = difference_quotient(forces[1:], forces[:-1], widths)
     subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _NORMAL)
-    sound = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
-    if np.count_nonzero(sound) < len(sound):
-        segment = int(sound.argmin())
+    usable = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
+    if np.count_nonzero(usable) < len(usable):
+        segment = int(usable.argmin())
         ends = order[segment : segment + 2]
         what = "width" if not np.isfinite(widths[segment]) else "slope"
         fault = "is too small" if what == "slope" and subnormal[segment] else "is too large"
@@ -144,7 +147,7 @@ def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatA
 def difference_quotient(
     upper: FloatArray | np.float64, lower: FloatArray | np.float64, divisor: FloatArray | np.float64
 ) -> FloatArray:
-    """(upper - lower) / divisor, also where only the difference overflows."""
+    """Return (upper - lower) / divisor, also where only the difference overflows."""
     with np.errstate(all="ignore"):
         plain = np.asarray((upper - lower) / divisor)
         overflowed = np.isinf(plain)

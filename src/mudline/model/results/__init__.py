@@ -1,1 +1,1 @@
-"""What an evaluation gave, as rows and arrays with the names of the contract, and its output formats."""
+"""Results of an evaluation as rows and arrays with documented names, and their output formats."""

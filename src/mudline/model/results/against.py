@@ -1,4 +1,4 @@
-"""Element results of another program, from a CSV file, and how ours differ from them."""
+"""Element results of another program, from a CSV file, and the differences of our results from them."""
 
 from __future__ import annotations
 
@@ -9,23 +9,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.scene.csv_file import CsvTable, data_error, read_csv
 from mudline.model.scene.numbering import Floats, Ids, Indices
 
 COMPARED = ("force", "stiffness", "ratio")
 _NEAR = 1e-2
-"""Times are the same that are this close, as a part of the shortest step."""
+"""Tolerance of equal times, as a part of the shortest step."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """Rows of a file that belong to elements of the deck, in the order of the steps.
+    """Rows of a file for elements of the deck, in the order of the steps.
 
-    `step` and `element` are indices (rows,), `values` columns (rows,) by name, NaN for an empty field. `unknown` are
-    elements that the deck lacks, `lost_times` times of the file at which nothing is evaluated, `missing_times` times
-    evaluated that the file lacks.
+    Attributes:
+        file: name of the file.
+        step, element: indices (rows,).
+        values: columns (rows,) by name, NaN for an empty field.
+        unknown: elements that the deck lacks.
+        lost_times: times of the file that are not evaluated.
+        missing_times: evaluated times that the file lacks.
     """
 
     file: str
@@ -38,10 +42,10 @@ class Reference:
 
 
 def read_reference(path: Path, evaluation: Evaluation) -> Reference:
-    """`element` and any of `force`, `stiffness`, `ratio`, with `time` for steps; other columns are read past.
+    """Read `element` and any of `force`, `stiffness`, `ratio`, with `time` for steps; ignore other columns.
 
-    Raises OSError, or DeckError for a file with faults: numbers that are none, an element twice, times that do not
-    match those of the evaluation at all.
+    Raises OSError, or DeckError for a file with faults: fields that are no numbers, an element twice, no time that
+    matches those of the evaluation.
     """
     table = read_csv(path, ("element",), (), others=True)
     names = [name for name in COMPARED if name in table.columns]
@@ -56,9 +60,9 @@ def read_reference(path: Path, evaluation: Evaluation) -> Reference:
     element = evaluation.scene.table.numbered.indices(ids)
     used = np.flatnonzero((step >= 0) & (element >= 0))
     used = used[np.lexsort((element[used], step[used]))]
-    again = np.flatnonzero((np.diff(step[used]) == 0) & (np.diff(element[used]) == 0))
-    if again.size:
-        row = int(max(used[again[0]], used[again[0] + 1]))
+    repeated = np.flatnonzero((np.diff(step[used]) == 0) & (np.diff(element[used]) == 0))
+    if repeated.size:
+        row = int(max(used[repeated[0]], used[repeated[0] + 1]))
         at = f" at time {table.columns['time'][row]}" if "time" in table.columns else ""
         raise table.fault(row, "element", f"element {ids[row]} is given twice{at}")
     clock = evaluation.time if evaluation.time is not None else np.zeros(0)
@@ -74,7 +78,7 @@ def read_reference(path: Path, evaluation: Evaluation) -> Reference:
 
 
 def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Indices:
-    """The step of each row, -1 where nothing is evaluated at its time."""
+    """Return the step of each row, -1 if its time is not evaluated."""
     clock = evaluation.time
     if times is None:
         if evaluation.steps > 1:
@@ -90,31 +94,31 @@ def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Ind
     apart = np.diff(clock[order])
     apart = apart[apart > 0.0]
     allowed = _NEAR * float(apart.min()) if apart.size else _NEAR * max(1.0, float(np.abs(clock).max()))
-    found = np.where(np.abs(clock[order][near] - times) <= allowed, order[near], -1)
-    if (found < 0).all():
+    steps = np.where(np.abs(clock[order][near] - times) <= allowed, order[near], -1)
+    if (steps < 0).all():
         first, last = float(clock.min()), float(clock.max())
         raise data_error(table.file, f"none of its times is evaluated: these are from {first!r} to {last!r}")
-    return found
+    return steps
 
 
 @dataclass(slots=True)
 class Extreme:
-    """A largest difference: its value, and where it is."""
+    """A largest difference: its value and its place."""
 
     value: float = 0.0
     element: int | None = None
     time: float | None = None
 
     def row(self, name: str) -> dict[str, Any] | None:
-        """As JSON holds it; None where nothing was compared."""
+        """Return the difference as JSON; None if nothing was compared."""
         if self.element is None:
             return None
         return {name: self.value, "element": self.element, "time": self.time}
 
 
 @dataclass(slots=True)
-class Difference:
-    """What was found in a column: ours less theirs, and that over the larger magnitude of the two."""
+class ColumnDifference:
+    """Differences in a column: our value less the other, and this over the larger magnitude of the two."""
 
     column: str
     compared: int = 0
@@ -128,7 +132,7 @@ class Difference:
         return float(np.sqrt(self.squares / self.compared)) if self.compared else None
 
     def row(self) -> dict[str, Any]:
-        """As JSON holds it."""
+        """Return the differences as JSON."""
         return {
             "column": self.column,
             "compared": self.compared,
@@ -138,23 +142,23 @@ class Difference:
         }
 
 
-class Comparison:
-    """Compares the steps of an evaluation with a file, as they come."""
+class ResultComparison:
+    """Comparison of the steps of an evaluation with a file, a few steps at a time."""
 
     def __init__(self, evaluation: Evaluation, reference: Reference) -> None:
         self._evaluation, self.reference = evaluation, reference
-        self.differences = [Difference(name) for name in reference.values]
+        self.differences = [ColumnDifference(name) for name in reference.values]
         met = np.zeros(len(evaluation.scene.element_ids), dtype=bool)
         met[reference.element] = True
         self.missing = evaluation.scene.element_ids[evaluation.elements[~met[evaluation.elements]]]
 
     @property
     def timed(self) -> bool:
-        """Whether differences have a time."""
+        """True if differences have a time."""
         return self._evaluation.time is not None
 
-    def others(self, part: Part) -> list[tuple[str, Floats]]:
-        """Columns beside ours: the values of the file (steps, m), NaN where it has none."""
+    def others(self, part: ResultPart) -> list[tuple[str, Floats]]:
+        """Return additional columns: the values of the file (steps, m), NaN where it has none."""
         rows, step, element = self._rows(part)
         shape = (part.count, len(self._evaluation.scene.element_ids))
         columns = []
@@ -164,36 +168,36 @@ class Comparison:
             columns.append((f"{name}_against", values))
         return columns
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Compare some steps."""
         rows, step, element = self._rows(part)
-        for found, (name, theirs) in zip(self.differences, self.reference.values.items(), strict=True):
+        for column, (name, theirs) in zip(self.differences, self.reference.values.items(), strict=True):
             ours = getattr(part.result, name)[step, element]
-            self._compare(found, ours, theirs[rows], part.start + step, element)
+            self._compare(column, ours, theirs[rows], part.start + step, element)
 
-    def _rows(self, part: Part) -> tuple[slice, Indices, Indices]:
-        """The rows of the file for some steps, and where they belong."""
+    def _rows(self, part: ResultPart) -> tuple[slice, Indices, Indices]:
+        """Return the rows of the file for some steps, and their steps and elements."""
         reference = self.reference
         first, last = np.searchsorted(reference.step, [part.start, part.start + part.count]).tolist()
         rows = slice(first, last)
         return rows, reference.step[rows] - part.start, reference.element[rows]
 
-    def _compare(self, found: Difference, ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
+    def _compare(self, column: ColumnDifference, ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
         both = np.flatnonzero(~np.isnan(ours) & ~np.isnan(theirs))
         if not both.size:
             return
         ours, theirs = ours[both], theirs[both]
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            difference = np.nan_to_num(ours - theirs)  # what overflows is as large as it can be
+            difference = np.nan_to_num(ours - theirs)  # an overflow becomes the largest number
             size = np.maximum(np.abs(ours), np.abs(theirs))
             relative = np.where(size > 0.0, difference / size, 0.0)
-            found.squares = float(np.nan_to_num(found.squares + (difference * difference).sum()))
-        found.compared += int(both.size)
-        self._raise(found.absolute, difference, step[both], element[both])
-        self._raise(found.relative, relative, step[both], element[both])
+            column.squares = float(np.nan_to_num(column.squares + (difference * difference).sum()))
+        column.compared += int(both.size)
+        self._raise(column.absolute, difference, step[both], element[both])
+        self._raise(column.relative, relative, step[both], element[both])
 
     def _raise(self, extreme: Extreme, values: NDArray[np.float64], step: Indices, element: Indices) -> None:
-        """Keep the largest magnitude, the first of them."""
+        """Keep the largest magnitude, the first of several equal ones."""
         largest = int(np.argmax(np.abs(values)))
         if extreme.element is None or abs(values[largest]) > abs(extreme.value):
             times = self._evaluation.time
@@ -202,11 +206,11 @@ class Comparison:
             extreme.time = None if times is None else float(times[step[largest]])
 
     def summary(self) -> dict[str, Any]:
-        """What was compared, what was found, and what either side lacks."""
+        """Return files, differences, and the elements and times missing on either side."""
         reference = self.reference
         return {
             "file": reference.file,
-            "columns": [found.row() for found in self.differences],
+            "columns": [column.row() for column in self.differences],
             "elements_not_in_deck": reference.unknown.tolist(),
             "elements_not_in_file": self.missing.tolist(),
             "times_not_evaluated": reference.lost_times.tolist(),

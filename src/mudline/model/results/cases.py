@@ -1,4 +1,4 @@
-"""Many decks: what is worst in the results of each, over all lines and steps, as a row; and the order of rows."""
+"""The worst results of each of many decks, over all lines and steps, as a row; the order of rows."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from dataclasses import asdict, dataclass, fields
 from typing import BinaryIO, Literal
 
 from mudline.basics.quantities import finite
-from mudline.model.results.series import Peak, SeriesSummary
+from mudline.model.results.series import PeakValue, SeriesSummary
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.deck_values import FOOT, POUND
 
 _PER_LENGTH = {"imperial": POUND / FOOT}
-"""N/m of a force per unit length in a unit system; 1 in the others."""
+"""N/m of a force per unit length, by unit system; 1 in the other systems."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,16 +46,16 @@ class CaseSummary:
 
     @property
     def failed(self) -> bool:
-        """Whether the deck could not be evaluated."""
+        """True if the deck could not be evaluated."""
         return self.verdict == "failed"
 
     def row(self) -> dict[str, str | int | float | None]:
-        """The values by name."""
+        """Return the values by name."""
         return asdict(self)
 
 
 def worst_first(rows: Iterable[CaseSummary]) -> list[CaseSummary]:
-    """The decks that failed in their order, then the others with the largest force first."""
+    """Return the failed decks in their order, then the others with the largest force first."""
 
     def rank(row: CaseSummary) -> tuple[bool, float]:
         force = -math.inf if row.largest_force is None else row.largest_force
@@ -67,7 +67,7 @@ def worst_first(rows: Iterable[CaseSummary]) -> list[CaseSummary]:
 def case_summary(
     series: SeriesSummary, deck: str, warnings: Sequence[ContactWarning], result: str | None
 ) -> CaseSummary:
-    """Return the row of a deck, called `deck`, whose results are in the file `result`, from its table "case"."""
+    """Return the row of the deck `deck` with the result file `result`, from its table "case"."""
     evaluation, times = series.evaluation, series.evaluation.time
     pushed, pulled = series.of("case", "largest_force").largest.peak(), series.of("case", "largest_uplift").least.peak()
     reaction = series.of("case", "reaction").largest.peak()
@@ -81,7 +81,7 @@ def case_summary(
         in_contact=int(_value(series.of("case", "in_contact").largest.peak()) or 0),
         touchdown_from=_value(series.of("case", "touchdown_from").least.peak()),
         touchdown_to=_value(series.of("case", "touchdown_to").largest.peak()),
-        contact_length=_value(series.of("case", "contact_length").largest.peak() or Peak(0.0, 0)),
+        contact_length=_value(series.of("case", "contact_length").largest.peak() or PeakValue(0.0, 0)),
         largest_force=_value(pushed),
         largest_force_element=series.number(pushed),
         largest_force_time=None if pushed is None or times is None else float(times[pushed.step]),
@@ -92,19 +92,19 @@ def case_summary(
         submerged_weight=None if reaction is None else finite(reaction.at),
         ratio=finite(reaction.value / reaction.at) if reaction is not None and reaction.at > 0.0 else None,
         warnings=len(warnings),
-        warning_codes=" ".join(sorted({one.diagnostic.code for one in warnings})),
+        warning_codes=" ".join(sorted({warning.diagnostic.code for warning in warnings})),
         result=result,
     )
 
 
-def _value(peak: Peak | None) -> float | None:
+def _value(peak: PeakValue | None) -> float | None:
     return None if peak is None else finite(peak.value)
 
 
 def write_parquet(rows: Sequence[CaseSummary], stream: BinaryIO) -> None:
     """Write rows as a table in Parquet. Raises OSError, ImportError without pyarrow.
 
-    What UTF-8 cannot hold, as file names may, is escaped.
+    Characters that UTF-8 cannot encode, as in some file names, are escaped.
     """
     import pyarrow as pa  # noqa: PLC0415 - the extra `frames`
     import pyarrow.parquet as pq  # noqa: PLC0415 - as above

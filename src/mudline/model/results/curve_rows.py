@@ -16,10 +16,10 @@ from mudline.model.scene.model import Scene
 
 
 def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) -> list[dict[str, Any]]:
-    """Each usable curve with the keys of the contract; `static` only when a weight per unit length is given.
+    """Return a row of each usable curve; `static` only if a weight per unit length is given.
 
-    `units` are those of abscissa and ordinate; `ends` says what the curve is beyond its points, and `reach`
-    between which values of the abscissa it is known, None for no end.
+    `units` are those of abscissa and ordinate. `ends` is the behaviour beyond the points, and `reach` the range of the
+    abscissa in which the curve is known, None for no end.
 
     Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
     """
@@ -30,13 +30,13 @@ def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) ->
         for index, entry, curve in used_curves(scene)
     ]
     others = [
-        _curve_row(one.name, made, [], (), None)
-        | {"at": [_value_of_other(made, one, ratio) for ratio in ratios]}
-        | {"kind": one.kind, "keyword": one.keyword, "axes": list(one.axes)}
-        | {"units": [unit_text(unit, scene.units) for unit in one.units], "ends": one.ends}
-        | {"reach": [finite(end) for end in one.reach]}
-        for one in sorted(other_curves(scene.deck), key=lambda one: (one.kind, one.keyword))
-        if (made := one.made())
+        _curve_row(source.name, curve, [], (), None)
+        | {"at": [_value_of_other(curve, source, ratio) for ratio in ratios]}
+        | {"kind": source.kind, "keyword": source.keyword, "axes": list(source.axes)}
+        | {"units": [unit_text(unit, scene.units) for unit in source.units], "ends": source.ends}
+        | {"reach": [finite(end) for end in source.reach]}
+        for source in sorted(other_curves(scene.deck), key=lambda source: (source.kind, source.keyword))
+        if (curve := source.made())
     ]
     return seabed + others
 
@@ -46,24 +46,24 @@ def _keyword(scene: Scene, entry: SceneCurve) -> str:
 
 
 def used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
-    """The curves that can be evaluated, with their indices."""
+    """Return the curves that can be evaluated, with their indices."""
     return [(index, entry, entry.curve) for index, entry in enumerate(scene.laws.curves) if entry.curve is not None]
 
 
 def diameters_on(scene: Scene, curve: int) -> list[float]:
-    """The different external diameters of the elements that follow a curve.
+    """Return the distinct external diameters of the elements that follow a curve.
 
-    Where the deck does not show its elements, as those of `*LINES`, these are the diameters of the sections of the sets
-    that follow the curve, or of all sections, if none has the name of such a set.
+    If the deck does not list its elements, as with `*LINES`, they are the diameters of sections with the names of the
+    sets that follow the curve, or of all sections if no name matches.
     """
     follow = followers(scene, curve)
-    found = scene.diameter[follow]
+    diameters = scene.diameter[follow]
     if not follow.any() and scene.context.external_definers:
         sets = {folded(grant.set_.name) for grant in scene.laws.set_laws if grant.curve == curve}
         sections = scene.section_table.sections if sets else ()
         of_sets = [section.diameter for section in sections if folded(section.name) in sets]
-        found = np.array(of_sets or [section.diameter for section in sections])
-    return [float(value) for value in np.unique(found[~np.isnan(found)])]
+        diameters = np.array(of_sets or [section.diameter for section in sections])
+    return [float(value) for value in np.unique(diameters[~np.isnan(diameters)])]
 
 
 def _curve_row(
@@ -83,7 +83,7 @@ def _curve_row(
 
 
 def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
-    """Force, slope, segment and whether the curve is extrapolated at a ratio."""
+    """Return force, slope, segment and extrapolation at a ratio."""
     force, slope = curve.evaluate(ratio)
     return {
         "ratio": ratio,
@@ -94,21 +94,21 @@ def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
     }
 
 
-def _value_of_other(curve: ForceCurve, given: DeckCurve, ratio: float) -> dict[str, Any]:
-    """The same of a curve that does not go on with its slope: None where it is not known, else its last value."""
+def _value_of_other(curve: ForceCurve, source: DeckCurve, ratio: float) -> dict[str, Any]:
+    """Return the values of a curve that does not continue with its slope: None where unknown, else the end value."""
     values = _value_at(curve, ratio)
-    low, high = given.reach
+    low, high = source.reach
     if not low <= ratio <= high:
         return dict.fromkeys(values) | {"ratio": ratio, "extrapolated": CURVE_SIDES[1 if ratio > high else -1]}
-    if values["extrapolated"] is not None and given.ends == "value":
+    if values["extrapolated"] is not None and source.ends == "value":
         values |= {"force": float(curve.forces[0 if values["extrapolated"] == "below" else -1]), "slope": 0.0}
     return values
 
 
 def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
-    """Static embedment: where the curve carries the weight; depth and stiffness there for each diameter.
+    """Return the static embedment, where the curve carries the weight, with depth and stiffness for each diameter.
 
-    It is stable where the force rises with the depth: where it falls, the pipe sinks on.
+    It is stable if the force increases with depth; otherwise the pipe sinks further.
     """
     values = _value_at(curve, ratio)
     slope = values["slope"]

@@ -1,4 +1,4 @@
-"""A scene evaluated at positions: the arrays of the evaluator beside the names of the deck."""
+"""A scene evaluated at positions: arrays of the evaluator with the names of the deck."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from mudline.basics.short_repr import counted, cut, outline, short_repr
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.arrays import Positions, StepReader
-from mudline.model.contact.columns import ElementTable, NodeTable, Others, by_number
-from mudline.model.contact.result import Part
-from mudline.model.contact.touchdown import LineTable, Touchdown
+from mudline.model.contact.columns import ElementResults, NodeResults, Others, by_number
+from mudline.model.contact.result import ResultPart
+from mudline.model.contact.touchdown import LineResults, Touchdown
 from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
@@ -27,19 +27,19 @@ from mudline.model.scene.weights import left_out
 Tension = Literal["keep", "cut"]
 PositionSource = Literal["deck", "file", "rest shape"]
 
-_HISTORY = "this deck has laws whose result depends on the steps before, which need times that rise"
+_HISTORY = "this deck has laws whose result depends on the steps before, which need ascending times"
 
 
 class ResultConsumer(Protocol):
-    """Takes the results of a few steps at a time."""
+    """Consumer of the results of a few steps at a time."""
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Take some steps."""
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """A scene that can be evaluated, its evaluator, and how many lengths come from the first positions."""
+    """A scene that can be evaluated, its evaluator, and the number of lengths taken from the first positions."""
 
     scene: Scene
     model: ContactModel
@@ -50,9 +50,9 @@ class Prepared:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A scene, its evaluator, and the positions (steps, n, 3) to evaluate; `present` (n,) nodes have one.
+    """A scene, its evaluator, and the positions (steps, n, 3) to evaluate; `present` (n,) are nodes with a position.
 
-    Nothing is evaluated before `parts` is asked for. `time` (steps,) is None for a single state without a time.
+    Nothing is evaluated before `parts` is called. `time` (steps,) is None for a single state without a time.
     """
 
     scene: Scene
@@ -63,7 +63,7 @@ class Evaluation:
     velocities: NDArray[np.floating] | None = None
     lengths_from_positions: int = 0
     source: PositionSource = "file"
-    """Where the positions come from; the deck's own coordinates are mostly not a solved shape."""
+    """Source of the positions; the deck's own coordinates are rarely a solved shape."""
 
     def __repr__(self) -> str:
         elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")
@@ -80,22 +80,22 @@ class Evaluation:
 
     @property
     def length(self) -> Floats:
-        """Lengths (m,) as they were used; 0 for an element that has no spring and no finite length."""
+        """Lengths (m,) used; 0 for an element without a spring and without a finite length."""
         return self.model.input.length
 
     @cached_property
     def elements(self) -> Indices:
-        """Indices of the elements that are evaluated: those with a position of both nodes."""
+        """Indices of the evaluated elements, whose two nodes have positions."""
         return np.flatnonzero(self.evaluated)
 
     @property
     def evaluated(self) -> Mask:
-        """The elements (m,) that are evaluated."""
+        """The evaluated elements (m,)."""
         return np.asarray(self.present[self.scene.element_nodes].all(axis=1))
 
     @cached_property
     def weights_without(self) -> list[str]:
-        """What weighs in the deck and has no part in weights here; a resting shape has no masses at its nodes."""
+        """Weights in the deck that the weights here leave out; a resting shape leaves out masses at nodes."""
         return left_out(self.scene, with_masses=self.source != "rest shape")
 
     @cached_property
@@ -105,7 +105,7 @@ class Evaluation:
 
     @property
     def has_seabed_law(self) -> bool:
-        """Whether a law of the seabed acts on an evaluated element, or springs of the seabed on nodes."""
+        """True if a law of the seabed acts on an evaluated element, or springs of the seabed on nodes."""
         scene = self.scene
         lawful = (scene.law[self.elements] != LawKind.NONE).any() or not self.elements.size
         return bool(lawful or scene.nodal.any() or "SEABED SUCTION" in scene.extensions)
@@ -117,33 +117,33 @@ class Evaluation:
 
     @cached_property
     def touchdown(self) -> Touchdown:
-        """Finds the touchdown of the lines in the results of some steps."""
+        """Finder of the touchdown of the lines in the results of some steps."""
         return Touchdown(self.model.input)
 
-    def element_table(self, others: Others | None = None) -> ElementTable:
-        """The rows of the elements that are evaluated, with further columns."""
-        return ElementTable(self.model.input, self.elements, others)
+    def element_table(self, others: Others | None = None) -> ElementResults:
+        """Return the rows of the evaluated elements, with additional columns."""
+        return ElementResults(self.model.input, self.elements, others)
 
-    def node_table(self) -> NodeTable:
-        """The rows of the nodes that have a position."""
-        return NodeTable(self.model.input, self.nodes)
+    def node_table(self) -> NodeResults:
+        """Return the rows of the nodes that have a position."""
+        return NodeResults(self.model.input, self.nodes)
 
-    def line_table(self) -> LineTable:
-        """The rows of the lines: touchdown, largest forces, reaction and weight."""
-        return LineTable(self.model.input, self.elements)
+    def line_table(self) -> LineResults:
+        """Return the rows of the lines: touchdown, largest forces, reaction and weight."""
+        return LineResults(self.model.input, self.elements)
 
     def run(self, consumers: Iterable[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
-        """Evaluate all steps once and pass the results on; `done` is given the number of steps of each piece.
+        """Evaluate all steps once and pass the results on; `done` is called with the number of steps of each part.
 
-        Raises what `parts` and the consumers do.
+        Raises the exceptions of `parts` and of the consumers.
         """
-        takers = list(consumers)
+        all_consumers = list(consumers)
         for part in self.parts():
-            for consumer in takers:
+            for consumer in all_consumers:
                 consumer.take(part)
             done(part.count)
 
-    def parts(self) -> Iterator[Part]:
+    def parts(self) -> Iterator[ResultPart]:
         """Evaluate a few steps at a time; memory does not grow with the number of steps.
 
         Raises DeckError: a position that is not finite, a value that overflows.
@@ -154,7 +154,7 @@ class Evaluation:
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
                 times = None if self.time is None else self.time[part.steps]
-                yield part if times is None else Part(part.start, replace(part.result, times=times))
+                yield part if times is None else ResultPart(part.start, replace(part.result, times=times))
 
 
 def evaluate_scene(
@@ -164,9 +164,9 @@ def evaluate_scene(
     *,
     at_rest: Sequence[str] | None = None,
 ) -> Evaluation:
-    """A scene ready to be evaluated at its own coordinates, or at positions from a file or of a resting shape.
+    """Return a scene ready to be evaluated at its own coordinates, or at positions from a file or of a resting shape.
 
-    `at_rest` has the sentences about a resting shape, in which contents weigh too; None for other positions.
+    `at_rest` has the sentences about a resting shape, whose weight includes contents; None for other positions.
 
     Raises DeckError: errors in the deck, elements without known nodes or coordinates, times that a law cannot use.
     """
@@ -182,16 +182,16 @@ def evaluate_scene(
 
         weighed = replace(ready.model.input, weight=pipe_of(scene).weight)
         ready = replace(ready, model=ContactModel(weighed))
-    given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
+    used = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
     if ready.model.plan.history:
-        _require_clock(ready, given)
+        _require_clock(ready, used)
     return Evaluation(
         ready.scene,
         ready.model,
-        given.values,
-        given.present,
-        given.time,
-        given.velocities,
+        used.values,
+        used.present,
+        used.time,
+        used.velocities,
         ready.lengths_from_positions,
         source="deck" if positions is None else "file" if at_rest is None else "rest shape",
         notes=tuple(at_rest or ()),
@@ -199,7 +199,7 @@ def evaluate_scene(
 
 
 def prepare(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Prepared:
-    """Make the evaluator of a scene.
+    """Return the evaluator of a scene.
 
     Raises DeckError: errors in the deck, elements without known nodes.
     """
@@ -211,7 +211,7 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
 
 @contextmanager
 def as_deck_errors(scene: Scene) -> Iterator[None]:
-    """Raise what the evaluator refuses as an error of the deck, at the line of the element or node."""
+    """Raise errors of the evaluator as errors of the deck, at the line of the element or node."""
     try:
         yield
     except ElementError as error:
@@ -221,13 +221,13 @@ def as_deck_errors(scene: Scene) -> Iterator[None]:
 
 
 def require_elements(scene: Scene) -> None:
-    """Raise DeckError for a scene without elements, or with some that end at nodes that are not known."""
+    """Raise DeckError for a scene without elements, or with elements that end at unknown nodes."""
     definers = scene.set_table.context.external_definers
     if not len(scene.element_ids):
         hint = _maker_hint(definers, "ELEMENT")
-        unknown = sum(one.code == SYN009 for one in scene.deck.problems)
-        if unknown and not hint:  # those of the elements may be among them
-            hint = f": {counted(unknown, 'keyword')} of it not known, `mudline lint` names them"
+        unknown = sum(problem.code == SYN009 for problem in scene.deck.problems)
+        if unknown and not hint:  # a keyword of the elements may be among them
+            hint = f": {counted(unknown, 'unknown keyword')}, `mudline lint` names them"
         raise scene.refusal(f"the deck has no elements to evaluate{hint}")
     dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
     if dangling.size:
@@ -238,18 +238,21 @@ def require_elements(scene: Scene) -> None:
 
 def _maker_hint(definers: Sequence[str], keyword: str) -> str:
     makers = unread_makers(definers, keyword)
-    names = " or ".join(f"*{one}" for one in makers or definers[:1])
+    names = " or ".join(f"*{maker}" for maker in makers or definers[:1])
     why = "may make them, and is not read" if makers else "is about lines that may make them"
     return f": {names} {why}; give them to `mudline evaluate --elements`" if names else ""
 
 
 def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:
-    """Lengths that the deck's coordinates do not give come from the first step of the positions; else they are 0."""
+    """Return the scene with lengths that the deck's coordinates do not give, and their number.
+
+    They come from the first step of the positions; unknown lengths are 0.
+    """
     unknown = np.isnan(scene.length)
     if not unknown.any():
         return scene, 0
-    given = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
-    ends = given[scene.element_nodes[unknown]]
+    places = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
+    ends = places[scene.element_nodes[unknown]]
     between = distances(ends[:, 0], ends[:, 1])
     length = scene.length.copy()
     length[unknown] = np.where(np.isnan(between), 0.0, between)
@@ -257,17 +260,20 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
 
 
 def _require_clock(ready: Prepared, positions: Positions) -> None:
-    """Steps that follow each other need times that rise; a law that asks for velocities needs them, or times."""
+    """Raise DeckError for times or velocities that a law with a history cannot use.
+
+    Steps need ascending times; a law that needs velocities needs these, or times.
+    """
     if positions.time is None or len(positions.time) < 2:
         return
-    asking = ready.model.input.needs_velocities if positions.velocities is None else []
+    laws = ready.model.input.needs_velocities if positions.velocities is None else []
     if not positions.timed:
-        if asking:
-            message = f"{asking[0]} needs velocities, or the times of the steps: the positions have neither"
+        if laws:
+            message = f"{laws[0]} needs velocities, or the times of the steps: the positions have neither"
             raise ready.scene.refusal(message)
         return
     falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
     if falls.size:
         before, after = positions.time[falls[0] : falls[0] + 2].tolist()
-        what = f"{asking[0]} needs velocities, or times that rise" if asking else _HISTORY
+        what = f"{laws[0]} needs velocities, or ascending times" if laws else _HISTORY
         raise ready.scene.refusal(f"{what}: {after!r} follows {before!r}")

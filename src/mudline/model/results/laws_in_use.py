@@ -1,4 +1,4 @@
-"""What the laws of a deck do: elements in contact that have none, and curves that no element follows, and why."""
+"""Use of the laws of a deck: elements in contact without a law, and curves that no element follows, with the reason."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
 
 
 class Missing(NamedTuple):
-    """What keeps elements (indices) without a law: code, message and place, and a few words for a caption."""
+    """Reason why elements (indices) have no law: code, message and place, and a short text for a caption."""
 
     code: Code
     message: str
@@ -48,7 +48,7 @@ class Missing(NamedTuple):
 
 
 class UnknownKeyword(NamedTuple):
-    """A keyword that is not known and looks like one of a seabed: where it stands first, and the one meant, or ""."""
+    """An unknown keyword that looks like a seabed keyword: its first place, and the keyword suggested, or ""."""
 
     where: Where
     keyword: str
@@ -56,27 +56,27 @@ class UnknownKeyword(NamedTuple):
 
 
 def unknown_keywords(scene: ResolvedDeck) -> list[UnknownKeyword]:
-    """The unknown keywords of the model that look like one of a seabed, each once."""
+    """Return the unknown keywords of the model that look like a seabed keyword, each once."""
     places: dict[str, Where] = {}
     for i, section in enumerate(scene.deck.sections):
         for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
             if type(block) is Opaque:
                 places.setdefault(block.keyword, Where(i, j))
-    found, effort = [], Effort()
+    unknown, effort = [], Effort()
     for keyword, where in places.items():
         if sections_of(keyword) is not None:
             continue
         near = suggest_keyword(keyword, "MODEL", effort)
         of_seabed = bool(near) and (supersedes(near) or is_superseded(near) or is_extension(near))
         if of_seabed or (not near and keyword.split()[:1] == ["SEABED"]):
-            found.append(UnknownKeyword(where, keyword, near))
-    return found
+            unknown.append(UnknownKeyword(where, keyword, near))
+    return unknown
 
 
 def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeyword], *, some: bool) -> Iterator[Missing]:
-    """What keeps the elements `free`, which are in contact, without a law; every unknown keyword is named.
+    """Yield the reasons why the elements `free`, which are in contact, have no law; name every unknown keyword.
 
-    `some` says that other elements of the line are not among them, and may carry those inside of them.
+    `some` is True if other elements of the line are not in `free`, and may carry a pipe inside of them.
     """
     covered = scene.laws.covered[free]
     for block in np.unique(covered[covered >= 0]).tolist():
@@ -99,7 +99,7 @@ def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeywor
 
 
 def _bare(scene: ResolvedDeck, elements: Indices) -> Missing:
-    """Elements that no block holds, or an elastic surface without a stiffness."""
+    """Return the reason for elements that no block covers, or an elastic surface without a stiffness."""
     surfaces = [where for where, _ in scene.deck.blocks("ELASTIC SURFACE")]
     if surfaces:
         message = (
@@ -124,9 +124,10 @@ def _brief(elements: Indices) -> str:
 
 
 def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The curves that no element follows, each with the reason; those that no STIFFNESS= names are one problem.
+    """Yield a problem for each curve that no element follows, with the reason.
 
-    A curve whose elements are not known, or which a parameter or a variation may choose, is left out.
+    The curves that no STIFFNESS= names share one problem. A curve whose elements are unknown, or that a parameter or a
+    variation may choose, is left out.
     """
     laws = scene.laws
     used = set(np.unique(laws.of_element[scene.law == LawKind.CURVE]).tolist())
@@ -168,7 +169,7 @@ def _called(curve: SceneCurve) -> str:
 
 
 def _reason(scene: ResolvedDeck, grant: SetLaw) -> str:
-    """Why the elements of a set do not follow the curve that a place of the deck gives them."""
+    """Return why the elements of a set do not follow the curve that a place of the deck assigns to them."""
     name, elements = f"SET={shown(grant.set_.name)}", grant.set_.elements
     if not elements.size:
         return f"{name} has no element"
@@ -191,21 +192,21 @@ def _law(scene: ResolvedDeck, winner: SetLaw) -> str:
 
 
 def _namesake(scene: ResolvedDeck, number: int) -> int:
-    """The line of a later curve with the name of this one, which holds in its place; 0 without one."""
+    """Return the line of a later curve with the same name, which replaces this curve; 0 without one."""
     curve, later = scene.laws.curves[number], scene.laws.curves[number + 1 :]
     same = [other for other in later if other.embedment is curve.embedment and folded(other.name) == folded(curve.name)]
     return line_of(scene, same[-1].title) if same else 0
 
 
 def _read_as_number(scene: ResolvedDeck, curve: SceneCurve) -> int:
-    """The line of a STIFFNESS= whose number is the name of a curve; 0 without one."""
+    """Return the line of a STIFFNESS= whose number is the name of a curve; 0 without one."""
     value = read_number(curve.name)
     places = (grant.where for grant in scene.laws.set_laws if grant.family == "new" and grant.stiffness == value)
     return next((line_of(scene, where) for where in places), 0)
 
 
 def _chosen_by_values(scene: ResolvedDeck) -> bool:
-    """Whether equations or variations choose the curves, so that other values of theirs use the others."""
+    """Return True if equations or variations choose the curves: other values may then use the other curves."""
     if "VARIATION" in scene.deck.keywords("PREPROCESSOR"):
         return True
     written, evaluated = (_stiffnesses(deck) for deck in (scene.context.written, scene.deck))
@@ -218,5 +219,5 @@ def _stiffnesses(deck: Deck) -> Iterator[object]:
 
 
 def line_of(scene: ResolvedDeck, where: Where) -> int:
-    """The line of a place in its file."""
+    """Return the line of a place in its file."""
     return scene.deck.place(Problem(SBD025, "", where=where)).line

@@ -1,6 +1,6 @@
-"""What is kept of an evaluation whose steps come and go, to draw it: memory does not grow with the number of steps.
+"""Data kept from an evaluation for plots: memory does not grow with the number of steps.
 
-One step whole, the extents of all steps, and bins of what changes over time; nothing here needs matplotlib.
+One step is kept whole, next to the extremes of all steps and bins of values over time; nothing here needs matplotlib.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import listed_numbers
 from mudline.model.contact import ContactInput, ContactResult
 from mudline.model.contact.lines import TouchdownPoint
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import Touchdown
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.totals import carried, step_figures
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 _BINS = 2000
-"""Pieces of time of which the least and the largest value are drawn."""
+"""Number of bins over time, of which the least and the largest value are drawn."""
 _POINTS = 4000
-"""Evaluated points that are drawn on the curves."""
+"""Largest number of evaluated points drawn on the curves."""
 _LOOP_STEPS = 5000
-"""Steps of a force-penetration loop that are drawn."""
+"""Largest number of steps of a force-penetration loop."""
 _FOLLOWED_LINES = 64
-"""Lines whose touchdown is followed over time."""
+"""Largest number of lines whose touchdown is drawn over time."""
 MOST_LOOPS = 6
-"""Elements whose force-penetration loop can be asked for."""
+"""Largest number of elements with a force-penetration loop."""
 
 
 class Points(NamedTuple):
@@ -48,45 +48,45 @@ class Chosen(NamedTuple):
     result: ContactResult
 
     @property
-    def part(self) -> Part:
+    def part(self) -> ResultPart:
         """The step as a series of one."""
-        return Part(self.step, self.result.as_series())
+        return ResultPart(self.step, self.result.as_series())
 
     @property
     def heights(self) -> Floats:
-        """The heights (n,) of the nodes, NaN where they are not known."""
+        """The heights (n,) of the nodes, NaN where unknown."""
         if self.result.positions is None:
             return np.full(self.result.gap.shape, np.nan)
         return np.asarray(self.result.positions[:, 0], dtype=np.float64)
 
     @property
     def seabed(self) -> Floats:
-        """The height (n,) of the seabed right below each node."""
+        """The height (n,) of the seabed vertically below each node."""
         with np.errstate(all="ignore"):
-            found: Floats = self.heights - self.result.gap / self.result.normal[..., 0]
-        return found
+            heights: Floats = self.heights - self.result.gap / self.result.normal[..., 0]
+        return heights
 
 
 class Extents:
-    """The least and the largest of several values over the steps, NaN where there is none."""
+    """The least and the largest of several values over the steps, NaN without a value."""
 
     def __init__(self, count: int) -> None:
         self.least = np.full(count, np.nan)
         self.most = np.full(count, np.nan)
 
     def take(self, values: Floats) -> None:
-        """Look at each value at some steps (steps, count)."""
+        """Add some steps of each value (steps, count)."""
         self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
         self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
 
     def take_bins(self, bins: Indices, values: Floats) -> None:
-        """Look at one value at some steps (steps,), which belong to these bins."""
+        """Add some steps (steps,) of a single value, which belong to these bins."""
         np.fmin.at(self.least, bins, values)
         np.fmax.at(self.most, bins, values)
 
 
 class Cycle(NamedTuple):
-    """An element over the steps: penetration, force per unit length, and state of suction, None without."""
+    """An element over the steps: penetration, force per unit length, and state of suction, None without suction."""
 
     penetration: Floats
     force: Floats
@@ -94,22 +94,25 @@ class Cycle(NamedTuple):
 
 
 class PlotData:
-    """What is drawn of results: steps with the largest figures, envelopes, points on curves, times, loops.
+    """Data of plots: steps with the largest figures, envelopes, points on curves, values over time, loops.
 
-    Parts are given to `take` in the order of the steps.
+    Parts are passed to `take` in the order of the steps.
 
     Attributes:
-        given: what was evaluated.
-        steps, times: number of steps, and their times (steps,); None for a single state without a time.
-        elements: indices of those that are evaluated.
+        given: the input.
+        steps: number of steps.
+        times: (steps,) times; None for a single state without a time.
+        elements: indices of the evaluated elements.
         looped: indices of the elements whose force-penetration loop is kept.
-        largest: the step with the largest total `reaction`; with the largest `pull` of an element and the largest
-            `friction` on a node, if there is any.
+        largest: the step with the largest total `reaction`, the largest `pull` of an element and the largest `friction`
+            on a node, if there is any.
         touched: (m,) elements that are in contact with a law of the seabed at some step.
-        force, depth: extents of the elements over the steps.
-        lines, more_lines: numbers of the evaluated lines, from 0, and how many are not followed.
-        reaction, touchdown: extents of the total reaction, and of the arc length of the first and the last touchdown
-            point of a line, in bins of steps; `touchdown` is empty for a single state.
+        force, depth: extremes of the elements over the steps.
+        lines: numbers of the evaluated lines, from 0.
+        more_lines: number of lines whose touchdown is not kept.
+        reaction: extremes of the total reaction, in bins of steps.
+        touchdown: extremes of the arc length of the first and the last touchdown point of a line, in bins of steps;
+            empty for a single state.
     """
 
     def __init__(
@@ -123,8 +126,8 @@ class PlotData:
     ) -> None:
         """Prepare for the results of an input.
 
-        `elements` are the numbers of those whose loop is wanted. Raises ValueError for numbers that no evaluated
-        element has, for too many of them, and for a single state, which has no loop.
+        `elements` are the numbers of elements with a loop. Raises ValueError for numbers that no evaluated element has,
+        for too many of them, and for a single state, which has no loop.
         """
         self.given, self.steps, self.times = given, steps, times
         self.elements: Indices = np.flatnonzero(evaluated)
@@ -148,38 +151,38 @@ class PlotData:
 
     @classmethod
     def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = ()) -> PlotData:
-        """Prepare for the parts of an evaluation; raises as the class does."""
+        """Return an object ready for the parts of an evaluation; raises ValueError as the class does."""
         return cls(evaluation.model.input, evaluation.evaluated, evaluation.steps, evaluation.time, elements=elements)
 
     @classmethod
     def of_result(cls, result: ContactResult, elements: Sequence[int] = ()) -> PlotData:
         """Return the data of a whole result, of a state or a series.
 
-        Raises ValueError for a result that does not know what was evaluated, and as the class does.
+        Raises ValueError for a result without an input, and as the class does.
         """
         series = result.as_series()
         data = cls(result.known, series.evaluated, len(series.depth), series.times, elements=elements)
-        data.take(Part(0, series))
+        data.take(ResultPart(0, series))
         return data
 
     def _looped(self, elements: Sequence[int]) -> Indices:
         if elements and self.steps == 1:
             raise ValueError("force over penetration needs time steps, and this is one state")
         places = {int(self.given.element_ids[index]): index for index in self.elements.tolist()}
-        wanted = list(dict.fromkeys(elements))
-        if unknown := [number for number in wanted if number not in places]:
+        numbers_asked = list(dict.fromkeys(elements))
+        if unknown := [number for number in numbers_asked if number not in places]:
             numbers = listed_numbers(unknown)
             raise ValueError(f"no evaluated element has the number {numbers}: give numbers of elements in the results")
-        if len(wanted) > MOST_LOOPS:
-            raise ValueError(f"{len(wanted)} elements are too many to draw: give at most {MOST_LOOPS}")
-        return np.array([places[number] for number in wanted], np.intp)
+        if len(numbers_asked) > MOST_LOOPS:
+            raise ValueError(f"{len(numbers_asked)} elements are too many to draw: give at most {MOST_LOOPS}")
+        return np.array([places[number] for number in numbers_asked], np.intp)
 
     # ------------------------------------------------------------------------------------------- as the parts come
 
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
+    def take(self, part: ResultPart) -> None:
+        """Add some steps."""
         result = part.result
-        of_part = {name: np.asarray(found.values[:, 0], np.float64) for name, found in step_figures(part).items()}
+        of_part = {name: np.asarray(figure.values[:, 0], np.float64) for name, figure in step_figures(part).items()}
         bins = np.arange(part.start, part.start + part.count) * self._bins // self.steps
         self.reaction.take_bins(bins, of_part["reaction"])
         self._choose("reaction", part, of_part["reaction"])
@@ -199,13 +202,13 @@ class PlotData:
             states = None if result.state is None else result.state[at]
             self._loops.append(Cycle(result.depth[at], result.force[at], states))
         size = part.count * len(self.on_curve)
-        taken = np.arange(-self._seen % self._every, size, self._every)
+        picked = np.arange(-self._seen % self._every, size, self._every)
         self._seen += size
-        if taken.size:
-            step, row = np.divmod(taken, len(self.on_curve))
+        if picked.size:
+            step, row = np.divmod(picked, len(self.on_curve))
             self._points.append(self._points_of(part, step, self.on_curve[row]))
 
-    def _choose(self, name: str, part: Part, values: Floats) -> None:
+    def _choose(self, name: str, part: ResultPart, values: Floats) -> None:
         """Keep the step with the largest of these values (steps,), if no earlier step has a larger one.
 
         Only the total reaction may be 0 or less, or unknown at all steps.
@@ -216,9 +219,9 @@ class PlotData:
             self._sizes[name] = float(values[step])
             self.largest[name] = Chosen(part.start + step, part.result.step(step))
 
-    def _points_of(self, part: Part, step: Indices, element: Indices) -> Points:
-        found = part.result.ratio[step, element], part.result.force[step, element]
-        return Points(self.given.curve_index[element], *found, part.start + step)
+    def _points_of(self, part: ResultPart, step: Indices, element: Indices) -> Points:
+        point = part.result.ratio[step, element], part.result.force[step, element]
+        return Points(self.given.curve_index[element], *point, part.start + step)
 
     # ------------------------------------------------------------------------------------------------ what there is
 
@@ -229,19 +232,19 @@ class PlotData:
 
     @property
     def known(self) -> bool:
-        """Whether the total reaction is known at some step."""
+        """True if the total reaction is known at some step."""
         return not np.isnan(self.reaction.most).all()
 
     @property
     def bin_times(self) -> Floats:
-        """The time of the first step of each bin; the number of the step where there are no times."""
+        """The time of the first step of each bin; the number of the step without times."""
         first = -(-np.arange(self._bins) * self.steps // self._bins)
         return first.astype(np.float64) if self.times is None else self.times[first]
 
     def points(self) -> Points:
-        """Return evaluated points on curves, at even distances: of the drawn step, and of all steps.
+        """Return evaluated points on curves, evenly spaced: those of the drawn step, then those of all steps.
 
-        Those in contact, if there are any.
+        Only points in contact are returned, if there are any.
         """
         element = self.on_curve[:: max(1, -(-len(self.on_curve) // _POINTS))]
         of_drawn = self._points_of(self.drawn.part, np.zeros(len(element), np.intp), element)
@@ -260,6 +263,6 @@ class PlotData:
         return Cycle(depth, force, None if state is None or (state < 0).all() else state)
 
     def touchdown_points(self, lines: Collection[int]) -> list[TouchdownPoint]:
-        """Return where these lines come down on the seabed or leave it, at the drawn step."""
-        wanted = [one for one in self._finder.series(self.drawn.part) if one.number in lines]
-        return [point for row in self._finder.summaries(self.drawn.part, wanted) for point in row.touchdown]
+        """Return the touchdown points of these lines at the drawn step."""
+        series = [line for line in self._finder.series(self.drawn.part) if line.number in lines]
+        return [point for row in self._finder.summaries(self.drawn.part, series) for point in row.touchdown]

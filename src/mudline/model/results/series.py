@@ -1,7 +1,7 @@
-"""Figures that are followed over the steps of an evaluation, and the tables of a long series.
+"""Figures followed over the steps of an evaluation, and the tables of a long series.
 
-Of each figure the extremes are kept, with the steps where they first were; of a condition the number of steps. Memory
-does not grow with the number of steps.
+The extremes of each figure are kept, with the steps of their first occurrence; of a condition the number of steps.
+Memory does not grow with the number of steps.
 """
 
 from __future__ import annotations
@@ -13,35 +13,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, time_unit
-from mudline.model.contact.columns import NO_ELEMENT, Column, ElementTable, NodeTable, Values, kept
+from mudline.model.contact.columns import NO_ELEMENT, ElementResults, NodeResults, ResultColumn, Values, kept
 from mudline.model.contact.input import LawKind
-from mudline.model.contact.result import Part
-from mudline.model.contact.touchdown import LineSeries, LineTable
+from mudline.model.contact.result import ResultPart
+from mudline.model.contact.touchdown import LineResults, LineSeries
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import Tables, plan_rows
-from mudline.model.results.totals import HELD, Followed, carried, step_figures
+from mudline.model.results.forms import ResultTables, plan_rows
+from mudline.model.results.totals import HELD, StepValues, carried, step_figures
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats, Mask
 
 _NO_STEP = -1
 
 
-Figures = Mapping[str, Followed]
+Figures = Mapping[str, StepValues]
 
 
-def _of_elements(evaluation: Evaluation, part: Part) -> Figures:
+def _of_elements(evaluation: Evaluation, part: ResultPart) -> Figures:
     result, chosen = part.result, evaluation.elements
     held = np.zeros((1, len(chosen)), np.bool_)
     if result.state is not None:
         held = np.isin(kept(result.state, chosen), HELD)
     return {
-        **{name: Followed(kept(getattr(result, name), chosen)) for name in ("force", "depth", "stiffness")},
-        "contact_steps": Followed(kept(result.contact, chosen)),
-        "suction_steps": Followed(held),
+        **{name: StepValues(kept(getattr(result, name), chosen)) for name in ("force", "depth", "stiffness")},
+        "contact_steps": StepValues(kept(result.contact, chosen)),
+        "suction_steps": StepValues(held),
     }
 
 
-def _of_nodes(evaluation: Evaluation, part: Part) -> Figures:
+def _of_nodes(evaluation: Evaluation, part: ResultPart) -> Figures:
     result, chosen = part.result, evaluation.nodes
     gap = kept(result.gap, chosen)
     touches = gap < 0.0
@@ -54,12 +54,12 @@ def _of_nodes(evaluation: Evaluation, part: Part) -> Figures:
     if result.friction_state is not None:
         slips = kept((result.friction_state == SLIDING.index("slip")).any(axis=-1), chosen)
     return {
-        "gap": Followed(gap),
-        "normal_force": Followed(kept(result.normal_force, chosen)),
-        "axial_force": Followed(friction[..., 0]),
-        "lateral_force": Followed(friction[..., 1]),
-        "contact_steps": Followed(touches),
-        "slip_steps": Followed(slips),
+        "gap": StepValues(gap),
+        "normal_force": StepValues(kept(result.normal_force, chosen)),
+        "axial_force": StepValues(friction[..., 0]),
+        "lateral_force": StepValues(friction[..., 1]),
+        "contact_steps": StepValues(touches),
+        "slip_steps": StepValues(slips),
     }
 
 
@@ -67,27 +67,27 @@ LINE_FIGURES = ("first", "last", "contact_length", "force", "uplift", "reaction"
 """Figures of `LineSeries` that are followed."""
 
 
-def _of_lines(evaluation: Evaluation, part: Part) -> Figures:
-    found = evaluation.touchdown.series(part)
-    values = {name: Followed(_side_by_side(found, name, part)) for name in LINE_FIGURES}
+def _of_lines(evaluation: Evaluation, part: ResultPart) -> Figures:
+    lines = evaluation.touchdown.series(part)
+    values = {name: StepValues(_side_by_side(lines, name, part)) for name in LINE_FIGURES}
     return values | {
-        "contact_steps": Followed(values["contact_length"].values > 0.0),
-        "touchdown_steps": Followed(_side_by_side(found, "points", part) > 0),
+        "contact_steps": StepValues(values["contact_length"].values > 0.0),
+        "touchdown_steps": StepValues(_side_by_side(lines, "points", part) > 0),
     }
 
 
-def _side_by_side(lines: Sequence[LineSeries], name: str, part: Part) -> Values:
+def _side_by_side(lines: Sequence[LineSeries], name: str, part: ResultPart) -> Values:
     return np.stack([getattr(line, name) for line in lines], axis=1) if lines else np.zeros((part.count, 0))
 
 
-def _of_case(evaluation: Evaluation, part: Part) -> Figures:
-    """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if only nodes may."""
+def _of_case(evaluation: Evaluation, part: ResultPart) -> Figures:
+    """Return the figures of `CASES` over all lines that may lie on the seabed, or all lines if only nodes may."""
     law = evaluation.model.input.law
-    found = evaluation.touchdown.series(part)
-    lying = [line for line in found if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
-    lines = lying or (found if evaluation.has_seabed_law else [])
+    series = evaluation.touchdown.series(part)
+    lying = [line for line in series if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
+    lines = lying or (series if evaluation.has_seabed_law else [])
     touching = np.count_nonzero(carried(part.result)[:, evaluation.elements], axis=1)
-    figures = {"in_contact": Followed(touching.astype(np.float64)[:, np.newaxis])}
+    figures = {"in_contact": StepValues(touching.astype(np.float64)[:, np.newaxis])}
     if not lines:
         return figures
     with np.errstate(over="ignore", invalid="ignore"):
@@ -96,28 +96,28 @@ def _of_case(evaluation: Evaluation, part: Part) -> Figures:
             for name in ("contact_length", "reaction", "weight")
         )
     return figures | {
-        "touchdown_from": Followed(_side_by_side(lines, "first", part)),
-        "touchdown_to": Followed(_side_by_side(lines, "last", part)),
-        "contact_length": Followed(length),
-        "largest_force": Followed(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
-        "largest_uplift": Followed(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
-        "reaction": Followed(np.where(np.isnan(reaction), np.inf, reaction), weight),  # one that is not known stays so
+        "touchdown_from": StepValues(_side_by_side(lines, "first", part)),
+        "touchdown_to": StepValues(_side_by_side(lines, "last", part)),
+        "contact_length": StepValues(length),
+        "largest_force": StepValues(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
+        "largest_uplift": StepValues(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
+        "reaction": StepValues(np.where(np.isnan(reaction), np.inf, reaction), weight),  # an unknown one stays unknown
     }
 
 
-def _of_suction(_: Evaluation, part: Part) -> Figures:
-    """Where suction is pulled at velocities below REGULARISATION."""
+def _of_suction(_: Evaluation, part: ResultPart) -> Figures:
+    """Return the elements with suction at velocities below REGULARISATION."""
     slow = part.result.regularised
     if slow is None:
         return {}
     some: Mask = np.logical_or.reduce(slow, axis=1, keepdims=True)
     return {
-        "slow": Followed(np.where(some, 1.0, np.nan), slow.argmax(axis=1, keepdims=True)),
-        "slow_steps": Followed(some),
+        "slow": StepValues(np.where(some, 1.0, np.nan), slow.argmax(axis=1, keepdims=True)),
+        "slow_steps": StepValues(some),
     }
 
 
-FIGURES: Mapping[str, Callable[[Evaluation, Part], Figures]] = {
+FIGURES: Mapping[str, Callable[[Evaluation, ResultPart], Figures]] = {
     "elements": _of_elements,
     "nodes": _of_nodes,
     "summary": _of_lines,
@@ -125,11 +125,11 @@ FIGURES: Mapping[str, Callable[[Evaluation, Part], Figures]] = {
     "case": _of_case,
     "suction": _of_suction,
 }
-"""What gives the figures of some steps, by table; one column for each row of the table."""
+"""Functions for the figures of some steps, by table; a figure has one column for each row of the table."""
 
 
-class Peak(NamedTuple):
-    """A least or largest value over all steps, the step where it first was, and what went with it."""
+class PeakValue(NamedTuple):
+    """A least or largest value over all steps, the step of its first occurrence, and the value that goes with it."""
 
     value: float
     step: int
@@ -140,9 +140,9 @@ class Best:
     """The least (`sign` 1) or the largest (-1) values of columns (k,) over steps.
 
     Attributes:
-        values: the values; infinite for none.
-        steps: where each of them first was, -1 for none.
-        at: what went with each of them, NaN for nothing.
+        values: the values; infinite without a value.
+        steps: step of the first occurrence of each value, -1 without a value.
+        at: value that goes with each of them, NaN for none.
     """
 
     def __init__(self, columns: int, sign: float) -> None:
@@ -150,23 +150,23 @@ class Best:
         self.values, self.at = np.full(columns, sign * np.inf), np.full(columns, np.nan)
         self.steps = np.full(columns, _NO_STEP, np.int64)
 
-    def take(self, start: int, found: Followed) -> None:
-        """Look at the values of the steps `start` and on."""
-        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(found.values, axis=0)
+    def take(self, start: int, figure: StepValues) -> None:
+        """Add the values of the steps from `start` on."""
+        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(figure.values, axis=0)
         column = np.flatnonzero(best * self._sign < self.values * self._sign)
         if column.size:
-            row = (found.values[:, column] == best[column]).argmax(axis=0)
-            self.values[column], self.steps[column] = found.values[row, column], start + row
-            if found.at is not None:
-                self.at[column] = found.at[row, column]
+            row = (figure.values[:, column] == best[column]).argmax(axis=0)
+            self.values[column], self.steps[column] = figure.values[row, column], start + row
+            if figure.at is not None:
+                self.at[column] = figure.at[row, column]
 
-    def peak(self) -> Peak | None:
-        """Return the best of all columns, the first of several; None without any."""
+    def peak(self) -> PeakValue | None:
+        """Return the best of all columns, the first of several equal ones; None without any."""
         known = np.flatnonzero(self.steps >= 0)
         if not known.size:
             return None
         at = known[np.lexsort((self.steps[known], self._sign * self.values[known]))[0]]
-        return Peak(float(self.values[at]), int(self.steps[at]), float(self.at[at]))
+        return PeakValue(float(self.values[at]), int(self.steps[at]), float(self.at[at]))
 
 
 class Extremes:
@@ -175,15 +175,15 @@ class Extremes:
     def __init__(self, columns: int) -> None:
         self.least, self.largest = Best(columns, 1.0), Best(columns, -1.0)
 
-    def take(self, start: int, found: Followed) -> None:
-        """Look at the values of the steps `start` and on."""
-        self.least.take(start, found)
-        self.largest.take(start, found)
+    def take(self, start: int, figure: StepValues) -> None:
+        """Add the values of the steps from `start` on."""
+        self.least.take(start, figure)
+        self.largest.take(start, figure)
 
-    def farthest(self) -> Peak | None:
+    def farthest(self) -> PeakValue | None:
         """Return the value with the largest magnitude; None without any."""
-        found = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
-        return min(found, key=lambda peak: (-abs(peak.value), peak.step), default=None)
+        peaks = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
+        return min(peaks, key=lambda peak: (-abs(peak.value), peak.step), default=None)
 
     def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
         """Return the least value of a column, its time, the largest value and its time; None without any."""
@@ -199,10 +199,11 @@ class Extremes:
 
 
 class SeriesSummary:
-    """Takes the steps of an evaluation a few at a time, and keeps the extremes and counts of the figures of tables.
+    """Consumer of the steps of an evaluation that keeps the extremes and counts of the figures of tables.
 
     Attributes:
-        extremes: by table and figure. counts: numbers of steps, by table and condition.
+        extremes: extremes by table and figure.
+        counts: numbers of steps by table and condition.
     """
 
     def __init__(self, evaluation: Evaluation, *tables: str) -> None:
@@ -211,28 +212,28 @@ class SeriesSummary:
         self.extremes: dict[tuple[str, str], Extremes] = {}
         self.counts: dict[tuple[str, str], NDArray[np.int64]] = {}
 
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
+    def take(self, part: ResultPart) -> None:
+        """Add some steps."""
         for table in self._tables:
-            for name, found in FIGURES[table](self.evaluation, part).items():
-                columns, key = found.values.shape[1], (table, name)
-                if found.values.dtype == np.bool_:
+            for name, figure in FIGURES[table](self.evaluation, part).items():
+                columns, key = figure.values.shape[1], (table, name)
+                if figure.values.dtype == np.bool_:
                     before = self.counts.setdefault(key, np.zeros(columns, np.int64))
-                    before += np.count_nonzero(found.values, axis=0)
+                    before += np.count_nonzero(figure.values, axis=0)
                 else:
-                    self.extremes.setdefault(key, Extremes(columns)).take(part.start, found)
+                    self.extremes.setdefault(key, Extremes(columns)).take(part.start, figure)
 
     def of(self, table: str, figure: str) -> Extremes:
-        """Return the extremes of a figure; those of nothing if no step has it."""
+        """Return the extremes of a figure; empty extremes if no step has it."""
         return self.extremes.get((table, figure), Extremes(0))
 
-    def totals(self) -> dict[str, Peak]:
+    def totals(self) -> dict[str, PeakValue]:
         """Return the largest value of each figure of `STEPS` that has one; of `force` by its magnitude."""
-        found = {name: self.of("totals", name) for name in STEPS}
-        peaks = {name: each.farthest() if name == "force" else each.largest.peak() for name, each in found.items()}
+        extremes = {name: self.of("totals", name) for name in STEPS}
+        peaks = {name: each.farthest() if name == "force" else each.largest.peak() for name, each in extremes.items()}
         return {name: peak for name, peak in peaks.items() if peak is not None}
 
-    def number(self, peak: Peak | None) -> int | None:
+    def number(self, peak: PeakValue | None) -> int | None:
         """Return the number of the element of a peak; None without one."""
         if peak is None or not peak.at >= 0:
             return None
@@ -242,7 +243,7 @@ class SeriesSummary:
 # --------------------------------------------------------------------------------------------------------------- tables
 
 SERIES_FORMAT = "mudline-series/1"
-"""Name and version of the form of files with the summary of a series."""
+"""Name and version of the format of files with the summary of a series."""
 
 _OF_LINES = {
     "first": "first_touchdown",
@@ -250,22 +251,22 @@ _OF_LINES = {
     "force": "largest_force",
     "uplift": "largest_uplift",
 }
-"""The quantities of `LINES` whose names are not those of the figures of a line."""
+"""Quantities of `LINES` whose names differ from the figures of a line."""
 
 
 def series_summary(evaluation: Evaluation, *more: str) -> SeriesSummary:
-    """Return what follows the figures of `series_tables`, and those of more tables."""
+    """Return a consumer for the figures of `series_tables`, and of additional tables."""
     return SeriesSummary(evaluation, "elements", "nodes", "summary", "totals", *more)
 
 
-def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> Tables:
-    """The tables of a summary, with what JSON has besides them."""
+def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> ResultTables:
+    """Return the tables of a summary, with the additional keys of JSON."""
     evaluation = summary.evaluation
     given, times = evaluation.model.input, evaluation.time
     facts = {
-        "elements": ElementTable(given, evaluation.elements).facts(),
-        "nodes": NodeTable(given, evaluation.nodes).facts(),
-        "summary": LineTable(given, evaluation.elements).facts(),
+        "elements": ElementResults(given, evaluation.elements).facts(),
+        "nodes": NodeResults(given, evaluation.nodes).facts(),
+        "summary": LineResults(given, evaluation.elements).facts(),
     }
     tables = {table: [*facts[table], *_extremes(summary, table, times)] for table in facts}
     for (table, name), counts in summary.counts.items():
@@ -276,17 +277,17 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
         "steps": evaluation.steps,
         "plan": plan_rows(evaluation.model.plan),
         "positions": "file",
-        "warnings": [one.row() for one in warnings],
+        "warnings": [warning.row() for warning in warnings],
     }
-    return Tables(tables, SERIES_FORMAT, given.units, more)
+    return ResultTables(tables, SERIES_FORMAT, given.units, more)
 
 
-def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[Column]:
-    """Of each figure the least and the largest value, its step and its time."""
+def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[ResultColumn]:
+    """Yield the least and the largest value of each figure, with step and time."""
     units, of_table = summary.evaluation.scene.units, {"elements": ELEMENTS, "nodes": NODES, "summary": LINES}[table]
-    for figure, found in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
+    for figure, extremes in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
         quantity = of_table[_OF_LINES.get(figure, figure) if table == "summary" else figure]
-        for side, best in (("least", found.least), ("largest", found.largest)):
+        for side, best in (("least", extremes.least), ("largest", extremes.largest)):
             name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
             yield _column(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
             yield _column(f"{name}_step", steps, blank=_NO_STEP)
@@ -294,16 +295,16 @@ def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Itera
                 yield _column(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
 
 
-def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:
-    """A row for each figure of `STEPS`: its largest value over all steps."""
+def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
+    """Return a row for each figure of `STEPS` with its largest value over all steps."""
     peaks = summary.totals()
-    found = [peaks.get(name, Peak(np.nan, _NO_STEP)) for name in STEPS]
-    numbers = [summary.number(peak) for peak in found]
-    steps = np.array([peak.step for peak in found], np.int64)
+    largest = [peaks.get(name, PeakValue(np.nan, _NO_STEP)) for name in STEPS]
+    numbers = [summary.number(peak) for peak in largest]
+    steps = np.array([peak.step for peak in largest], np.int64)
     elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
     columns = [
-        Column("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
-        _column("largest", np.array([peak.value for peak in found])),
+        ResultColumn("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
+        _column("largest", np.array([peak.value for peak in largest])),
         _column("step", steps, blank=_NO_STEP),
         _column("element", elements, blank=NO_ELEMENT),
     ]
@@ -313,5 +314,5 @@ def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:
     return columns
 
 
-def _column(name: str, values: Values, *, blank: int | None = None, unit: str = "") -> Column:
-    return Column(name, values, over_steps=False, blank=blank, unit=unit)
+def _column(name: str, values: Values, *, blank: int | None = None, unit: str = "") -> ResultColumn:
+    return ResultColumn(name, values, over_steps=False, blank=blank, unit=unit)

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, text
-from mudline.model.contact.columns import Column
-from mudline.model.results.forms import Tables
+from mudline.model.contact.columns import ResultColumn
+from mudline.model.results.forms import ResultTables
 from mudline.model.results.summary_tables import weight_note
 from mudline.model.scene.sheet import AROUND, PIPE, RUN, WEIGHTS, Sheet, SheetColumn
 
@@ -17,13 +17,13 @@ SHEET_FORMAT = "mudline-sheet/1"
 
 _UNKNOWN = {"mass", "filled_mass", "empty_weight", "filled_weight"}
 _GAPS = {**dict.fromkeys(("section", "drag", "added_mass", "law"), "none"), **dict.fromkeys(_UNKNOWN, "unknown")}
-"""Columns of the sheet where no value is a gap of the deck, and what stands there."""
+"""Texts for columns of the sheet in which a missing value is a gap of the deck."""
 _WORDS = {"section", "law"}
 
 
 def sheet_tables(sheet: Sheet, units: str) -> list[DisplayTable]:
-    """Return the sheet for people: pipe, weights, what is around it, and other load cases if there are any."""
-    spare = [one for one in sheet.columns if one not in (*RUN, *PIPE, *WEIGHTS, *AROUND)]
+    """Return the sheet for people: pipe, weights, surroundings, and other load cases if any."""
+    spare = [column for column in sheet.columns if column not in (*RUN, *PIPE, *WEIGHTS, *AROUND)]
     parts = {
         "pipe": PIPE,
         "mass and submerged weight": WEIGHTS,
@@ -32,7 +32,7 @@ def sheet_tables(sheet: Sheet, units: str) -> list[DisplayTable]:
     }
     tables = []
     for title, part in parts.items():
-        columns = [text("elements", _elements), *(_sheet_column(one, units) for one in part)]
+        columns = [text("elements", _elements), *(_sheet_column(column, units) for column in part)]
         tables += [DisplayTable(f"Sheet: {title}", columns, sheet.rows)] if part and sheet.rows else []
     if tables:
         tables[1] = replace(tables[1], note=weight_note(sheet.left_out))
@@ -44,26 +44,26 @@ def _elements(row: dict[str, Any]) -> str:
     return str(first) if first == last else f"{first} to {last}"
 
 
-def _sheet_column(one: SheetColumn, units: str) -> DisplayColumn:
+def _sheet_column(column: SheetColumn, units: str) -> DisplayColumn:
     def cell(row: dict[str, Any]) -> Cell:
-        value: Cell = row[one.key]
-        return (_GAPS[one.key], "bold yellow") if value is None and one.key in _GAPS else value
+        value: Cell = row[column.key]
+        return (_GAPS[column.key], "bold yellow") if value is None and column.key in _GAPS else value
 
-    is_bare = one.key in {"masses_at_nodes", "stiffness"}
-    return DisplayColumn(one.heading, cell, one.unit(units), left=one.key in _WORDS, optional=is_bare)
-
-
-def sheet_data(sheet: Sheet, units: str) -> Tables:
-    """Return the sheet as a table for files, whose `left_out` and `unit_of` are beside it in JSON."""
-    columns = [_data(one, [row[one.key] for row in sheet.rows], units) for one in sheet.columns]
-    unit_of = {one.name: one.unit or None for one in columns}
-    return Tables({"sheet": columns}, SHEET_FORMAT, units, {"left_out": list(sheet.left_out), "unit_of": unit_of})
+    is_bare = column.key in {"masses_at_nodes", "stiffness"}
+    return DisplayColumn(column.heading, cell, column.unit(units), left=column.key in _WORDS, optional=is_bare)
 
 
-def _data(one: SheetColumn, values: list[Any], units: str) -> Column:
-    if one.key in _WORDS:
+def sheet_data(sheet: Sheet, units: str) -> ResultTables:
+    """Return the sheet as a table for files, with the additional keys `left_out` and `unit_of` of JSON."""
+    columns = [_data(column, [row[column.key] for row in sheet.rows], units) for column in sheet.columns]
+    unit_of = {column.name: column.unit or None for column in columns}
+    return ResultTables({"sheet": columns}, SHEET_FORMAT, units, {"left_out": list(sheet.left_out), "unit_of": unit_of})
+
+
+def _data(column: SheetColumn, values: list[Any], units: str) -> ResultColumn:
+    if column.key in _WORDS:
         names = tuple(dict.fromkeys(value for value in values if value is not None))
         codes = [-1 if value is None else names.index(value) for value in values]
-        return Column(one.key, np.array(codes, np.int32), (*names, None))
-    dtype = np.int64 if one in RUN else np.float64  # None is NaN, which is no value
-    return Column(one.key, np.array(values, dtype), unit=one.unit(units))
+        return ResultColumn(column.key, np.array(codes, np.int32), (*names, None))
+    dtype = np.int64 if column in RUN else np.float64  # None becomes NaN, a missing value
+    return ResultColumn(column.key, np.array(values, dtype), unit=column.unit(units))

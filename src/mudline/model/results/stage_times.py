@@ -1,7 +1,7 @@
-"""What a deck needs of the evaluator: the stages of its plan, what each takes of a step, and what others would add.
+"""Run time of the stages of a deck's plan, and of stages that could be added.
 
-A stage that can be left out takes what a step of the same elements without it is faster. One that the deck does not
-have is added with usual values to all elements with a normal law, and costs what a step is slower then.
+The time of a stage is the difference of a step with and without it, on the same elements. A stage that the deck lacks
+is added with usual values to all elements with a normal law; its cost is the increase of a step.
 """
 
 from __future__ import annotations
@@ -27,16 +27,17 @@ from mudline.model.scene.oscillation import line_of
 
 Timer = Callable[[], float]
 CLOCK: Timer = thread_time if get_clock_info("thread_time").resolution < 1e-5 else perf_counter
-"""Processor time of this thread where that clock is fine enough: other programs do not count in it."""
+"""Processor time of this thread if its clock is fine enough: other programs do not count in it."""
 
 _ROUNDS = 9
 _LEAST = 1e-3
-"""Seconds that a round of each model takes."""
+"""Least duration of a round of each model in seconds."""
+_SURFACE = "seabed surface"
 _COHESION = 5000.0
 _DIAMETER = 0.3
 
 _STAGES = ("smoothing", "unloading", "suction", "friction", "lateral", "trench")
-"""The stages that a deck may lack; the law of smoothing takes the place of others."""
+"""The stages that a deck may lack; the law of smoothing replaces other laws."""
 _EXTENSIONS = {
     "smoothing": "SEABED CONTACT",
     "unloading": "SEABED UNLOADING",
@@ -48,10 +49,12 @@ _RESISTANCES = {"suction": "suction", "friction": "friction", "lateral": "latera
 
 
 class StageRow(NamedTuple):
-    """A stage of the plan; None where it is not measured, or does not stand in the deck.
+    """A stage of the plan; None for values that are not measured, or not in the deck.
 
-    time: seconds per step of all elements. share: of the time of a whole step. cost_if_added: seconds per step and node
-    if the deck had it.
+    Attributes:
+        time: seconds per step of all elements.
+        share: share of the time of a whole step.
+        cost_if_added: seconds per step and node if the deck had the stage.
     """
 
     stage: str
@@ -65,7 +68,7 @@ class StageRow(NamedTuple):
 
 
 class Pruning(NamedTuple):
-    """The stages, seconds of a step and how many elements it has."""
+    """The stages, seconds of a step and its number of elements."""
 
     rows: list[StageRow]
     step: float
@@ -73,13 +76,13 @@ class Pruning(NamedTuple):
 
 
 def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
-    """Return the stages of a scene and what they take, measured in turns on the deck's own elements."""
+    """Return the stages of a scene with their times, measured in turns on the deck's own elements."""
     model = ContactModel(given, backend="numpy")
-    models = {"": model, "floor": ContactModel(replace(given, laws=()), backend="numpy")}
+    models = {"": model, _SURFACE: ContactModel(replace(given, laws=()), backend="numpy")}
     for stage in model.plan:
         if stage.stage in _STAGES:
             changed = without(given, stage.stage) if stage.active else with_added(given, stage.stage)
-            with suppress(ValueError):  # a law that is added may not go with those that are there
+            with suppress(ValueError):  # an added law may exclude those of the deck
                 models |= {} if changed is None else {stage.stage: ContactModel(changed, backend="numpy")}
     removable = any(stage.active for stage in model.plan if stage.stage in _STAGES)
     if removable:
@@ -87,7 +90,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     taken = seconds_per_step(models, timer)
     if "" not in taken:
         taken = {}
-    whole, floor = taken.get("", 0.0), taken.get("floor", 0.0)
+    whole, surface = taken.get("", 0.0), taken.get(_SURFACE, 0.0)
     if taken and not removable:
         taken["normal law"] = whole
     rows = []
@@ -97,7 +100,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
         share = time = added = None
         if stage.active and stage.stage in taken:
             less = taken[stage.stage]
-            time = max({"floor": floor, "normal law": less - floor}.get(stage.stage, whole - less), 0.0)
+            time = max({_SURFACE: surface, "normal law": less - surface}.get(stage.stage, whole - less), 0.0)
             share = min(time / whole, 1.0)
         elif stage.stage in taken and stage.stage in _STAGES:
             added = max(taken[stage.stage] - whole, 0.0) / len(given.node_ids)
@@ -106,13 +109,13 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
 
 
 def seconds_per_step(models: Mapping[str, ContactModel], timer: Timer) -> dict[str, float]:
-    """Measure a step of each model at its own coordinates: the least of rounds in which they take turns."""
+    """Return the time of a step of each model at its own coordinates: the least of several rounds in turns."""
     calls: dict[str, Callable[[], object]] = {}
     for name, model in models.items():
         points = model.input.coordinates
         try:
             _, state = model.step(points, np.zeros_like(points), model.initial_state())
-        except ValueError:  # a law that is added may not go with a curve that pulls, and forces may overflow
+        except ValueError:  # an added law may exclude a curve that pulls, and forces may overflow
             continue
         rates = np.full_like(points, 1e-3)
         calls[name] = partial(model.step, points, rates, state)
@@ -122,20 +125,20 @@ def seconds_per_step(models: Mapping[str, ContactModel], timer: Timer) -> dict[s
 
 
 def _seconds(calls: Iterable[Callable[[], object]], repeats: int, timer: Timer) -> list[float]:
-    found = []
+    times = []
     for call in calls:
         began = timer()
         for _ in range(repeats):
             call()
-        found.append(max(timer() - began, 1e-9) / repeats)
-    return found
+        times.append(max(timer() - began, 1e-9) / repeats)
+    return times
 
 
 # ----------------------------------------------------------------------------------------------- with less, with more
 
 
 def without(given: ContactInput, *stages: str) -> ContactInput:
-    """Return the input without the laws of some stages; smoothed laws become linear ones."""
+    """Return the input without the laws of some stages; smoothed laws become linear laws."""
     laws = [law for law in given.laws if law_named(law.law).stage not in stages]
     if "smoothing" in stages:
         laws = [_sharp(law) for law in laws]
@@ -143,7 +146,7 @@ def without(given: ContactInput, *stages: str) -> ContactInput:
 
 
 def _sharp(law: LawAssignment) -> LawAssignment:
-    """A law without its zone about the mudline."""
+    """Return a law without its zone around the mudline."""
     if law.law == "smoothed":
         return LawAssignment("linear", law.rows, {"stiffness": law.parameters["stiffness"]})
     if law.law == "nodal":
@@ -152,7 +155,7 @@ def _sharp(law: LawAssignment) -> LawAssignment:
 
 
 def with_added(given: ContactInput, stage: str) -> ContactInput | None:
-    """Return the input with the law of a stage where elements have a normal law; None where none can have it."""
+    """Return the input with the law of a stage on elements with a normal law; None if no element can have it."""
     # a normal law with a history has unloading and suction of its own
     fit = [law.rows for law in given.normal_laws if not (law.law.history and stage in {"unloading", "suction"})]
     rows = np.sort(np.concatenate([np.zeros(0, np.intp), *fit]))
@@ -170,11 +173,11 @@ def with_added(given: ContactInput, stage: str) -> ContactInput | None:
 
 
 _ADDED: dict[str, tuple[str, ...]] = {"trench": ("friction", "trench peak")}
-"""The laws of a stage that are added where their name is not that of the stage."""
+"""Laws added for a stage, if their name is not that of the stage."""
 
 
 def _smoothed(given: ContactInput) -> ContactInput | None:
-    """With zones of a hundredth of the diameter about the mudline on all linear laws; None without any."""
+    """Return the input with zones of a hundredth of the diameter on linear laws; None without any."""
     if not given.has("linear"):
         return None
     size = _size(given)
@@ -193,7 +196,7 @@ def _size(given: ContactInput) -> float:
 
 
 def _usual(given: ContactInput, rows: IndexArray) -> dict[str, Mapping[str, ArrayLike]]:
-    """Usual values of laws by their names, for elements (k,) like those of the deck."""
+    """Return usual values of laws by name, for elements (k,) like those of the deck."""
     size = _size(given)
     steepest = ContactModel(given, backend="numpy").stiffest().per_length(np.maximum(given.length, 1e-300))[rows]
     stiffness = float(np.max(steepest[np.isfinite(steepest)], initial=1.0))
@@ -215,7 +218,7 @@ def _usual(given: ContactInput, rows: IndexArray) -> dict[str, Mapping[str, Arra
 
 
 def _place(scene: Scene, stage: str) -> Where | None:
-    """The first place in the deck that gives a stage to an element."""
+    """Return the first place in the deck that assigns a stage to an element."""
     if stage == "normal law":
         return next((law.where for law in scene.laws.set_laws), None)
     extension = scene.extensions.get(_EXTENSIONS.get(stage, ""))
@@ -231,6 +234,6 @@ def _place(scene: Scene, stage: str) -> Where | None:
 
 
 def _file_of(scene: Scene, where: Where) -> str:
-    """Name of the file of a place: that of the deck, or of one that it continues."""
+    """Return the name of the file of a place: of the deck, or of a deck that it continues."""
     base = scene.deck.base_of(where)
     return Path(base[0].file if base else scene.deck.file).name

@@ -1,4 +1,4 @@
-"""What a deck holds, in figures: counts, sets, curves, diameters, laws, static embedment."""
+"""Contents of a deck in figures: counts, sets, curves, diameters, laws, static embedment."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from mudline.model.scene.sheet import sheet_of
 from mudline.model.scene.weights import contents
 
 CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
-"""Where a value lies beyond the points of its curve."""
+"""Side of a curve on which a value is extrapolated; None between its points."""
 
 
 def summarise(scene: Scene) -> dict[str, Any]:
-    """Sections, keywords, counts, sets, curves, diameters and laws of a deck."""
+    """Return sections, keywords, counts, sets, curves, diameters and laws of a deck."""
     deck, known, sheet = scene.deck, scene.length[~np.isnan(scene.length)], sheet_of(scene)
     return {
         "file": deck.file,
@@ -61,13 +61,13 @@ def summarise(scene: Scene) -> dict[str, Any]:
 
 
 def _keyword(block: Block | Opaque) -> dict[str, Any]:
-    """A keyword: whether its lines are read, and whether some of them were passed over."""
-    found = extent(block)
-    return {"keyword": block.keyword, "read": found != "unread", "partly": found == "partly"}
+    """Return a keyword, whether its lines are read, and whether some of them were skipped."""
+    coverage = extent(block)
+    return {"keyword": block.keyword, "read": coverage != "unread", "partly": coverage == "partly"}
 
 
 def _sum(lengths: NDArray[np.float64]) -> float | None:
-    """The sum of lengths; None when it overflows, or one of them is not known."""
+    """Return the sum of lengths; None if it overflows, or a length is unknown."""
     with np.errstate(over="ignore", invalid="ignore"):
         return finite(float(lengths.sum()))
 
@@ -100,10 +100,10 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
 
 
 def followers(scene: Scene, curve: int) -> BoolArray:
-    """The elements (m,) that follow a curve, which no extension keyword replaces."""
+    """Return the elements (m,) that follow a curve, without those that have a law of an extension keyword instead."""
     granted = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
-    found: BoolArray = granted & (scene.law == LawKind.CURVE)
-    return found
+    following: BoolArray = granted & (scene.law == LawKind.CURVE)
+    return following
 
 
 def _diameters(scene: Scene) -> list[dict[str, Any]]:
@@ -117,7 +117,7 @@ def _diameters(scene: Scene) -> list[dict[str, Any]]:
 
 
 def _laws(scene: Scene) -> list[dict[str, Any]]:
-    """Laws with the number of their elements; linear ones by stiffness; then those that replace what sets gave."""
+    """Return the laws with their numbers of elements, linear laws by stiffness; then laws of extension keywords."""
     rows: list[dict[str, Any]] = []
     own = scene.law == scene.laws_given
     for index, grant in enumerate(scene.laws.set_laws):
@@ -136,33 +136,33 @@ _PAIRS = ("friction", "mobilisation")
 _SINGLE = ("lateral", "suction", "extent")
 
 
-def floor_summary(floor: SeabedShape) -> dict[str, Any]:
-    """The shape of the seabed; null for what its kind has not."""
-    slope = floor.kind is SeabedKind.SLOPING
-    from_points = floor.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE)
+def floor_summary(seabed: SeabedShape) -> dict[str, Any]:
+    """Return the shape of the seabed; null for values that its kind lacks."""
+    slope = seabed.kind is SeabedKind.SLOPING
+    from_points = seabed.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE)
     return {
-        "kind": floor.kind.value,
-        "slope": finite(floor.slope) if slope else None,
-        "direction": finite(floor.direction) if slope or from_points else None,
-        "interpolation": floor.interpolation if from_points else None,
-        "points": len(floor.points) if from_points and not floor.missing else None,
-        "planes": len(floor.planes) or None,
-        "file": floor.file or None,
-        "missing": floor.missing or None,
+        "kind": seabed.kind.value,
+        "slope": finite(seabed.slope) if slope else None,
+        "direction": finite(seabed.direction) if slope or from_points else None,
+        "interpolation": seabed.interpolation if from_points else None,
+        "points": len(seabed.points) if from_points and not seabed.missing else None,
+        "planes": len(seabed.planes) or None,
+        "file": seabed.file or None,
+        "missing": seabed.missing or None,
     }
 
 
 def bed_summary(scene: Scene) -> list[dict[str, Any]]:
-    """Friction, mobilisation, lateral stiffness and suction by block, with the number of elements that have them.
+    """Return friction, mobilisation, lateral stiffness and suction by block, with the number of elements.
 
-    Friction coefficients and mobilisation lengths are longitudinal and transverse. Blocks that give none of all this
+    Friction coefficients and mobilisation lengths are longitudinal and transverse. Blocks without any of these values
     are left out.
     """
     rows = []
     for index, (values, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
         pairs = {name: [finite(value) for value in getattr(values, name)] for name in _PAIRS}
         single = {name: finite(getattr(values, name)) for name in _SINGLE}
-        if any(value is not None for value in (*single.values(), *(one for pair in pairs.values() for one in pair))):
+        if any(v is not None for v in (*single.values(), *(v for pair in pairs.values() for v in pair))):
             entry: Any = scene.deck.sections[where.section].blocks[where.block]
             name = (entry.sets[where.path[1]].set_name or "ALL") if where.path[0] == "sets" else "ALL"
             rows.append({"set": name, "elements": int((scene.resistance.of_element == index).sum()), **pairs, **single})
@@ -170,26 +170,26 @@ def bed_summary(scene: Scene) -> list[dict[str, Any]]:
 
 
 def extension_summary(scene: Scene) -> list[dict[str, Any]]:
-    """The blocks of the extension keywords, with the elements that follow each."""
+    """Return the blocks of the extension keywords, with the number of elements that follow each."""
     return [
         {
             "keyword": keyword,
             "set": getattr(entry, "set_name", None),
-            "elements": int((found.of_element == index).sum()),
+            "elements": int((extension.of_element == index).sum()),
         }
-        for keyword, found in scene.extensions.items()
-        for index, entry in enumerate(found.entries)
+        for keyword, extension in scene.extensions.items()
+        for index, entry in enumerate(extension.entries)
     ]
 
 
 # ------------------------------------------------------------------------------------------------ static embedment
 
 _TABLE_ROWS = 100
-"""Rows: what a table can show."""
+"""Largest number of rows of a table."""
 
 
-class _Case(NamedTuple):
-    """Elements that share a law, a weight per length and a diameter; the index of one of them."""
+class _EmbeddedElements(NamedTuple):
+    """Elements that share a law, a weight per length and a diameter; the index of the first of them."""
 
     set_name: str | None
     law: str
@@ -199,13 +199,18 @@ class _Case(NamedTuple):
 
 
 def static_embedment(scene: Scene) -> list[dict[str, Any]]:
-    """A row for each set, law, weight per length and diameter of elements whose weight is known, up to 100 rows.
+    """Return a row for each set, law, weight per length and diameter of elements with known weight, up to 100 rows.
 
-    `element` is the first of them; of a row for a node, the first that ends there.
-    `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
-    Where the last load case fills pipes there are rows of all without contents, and of those with some (`filled`). Of a
-    curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
-    the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
+    Keys of a row:
+
+    * `element`: the first element; of a row for a node, the first element that ends there;
+    * `penetration`: depth at which the law, smoothed as evaluated, carries the weight; if a curve does so at several
+      ratios, the smallest that is not negative;
+    * `stiffness`: stiffness of the law there; for nodal laws Kn, force per length;
+    * `filled`: whether contents are included. If the last load case fills pipes, there are rows of all elements without
+      contents, and of those that have contents.
+
+    For nodal laws there is a row for the node that carries least and one for the node that carries most.
     """
     weights = [scene.submerged_weight]
     if (inside := contents(scene)) and inside[-1].mass.any():
@@ -224,14 +229,14 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
 
 
 class _Zones(NamedTuple):
-    """Quadratic zones of all elements, or of all nodes: half widths, and which lie below the mudline only."""
+    """Quadratic zones of all elements, or of all nodes: half widths, and which lie only below the mudline."""
 
     half_width: Floats
     one_sided: Floats
 
     @classmethod
     def of(cls, law: LawAssignment | None, count: int) -> _Zones:
-        """Return the zones that a law gives its rows."""
+        """Return the zones of a law at its rows."""
         half_width, one_sided = np.zeros(count), np.zeros(count)
         if law is not None:
             half_width[law.rows] = law.parameters["half_width"]
@@ -239,18 +244,18 @@ class _Zones(NamedTuple):
         return cls(half_width, one_sided)
 
 
-def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_Case]:
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_EmbeddedElements]:
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
     width, side = zones.half_width[elements], zones.one_sided[elements]
     keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
     firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_TABLE_ROWS]
-    found = elements[firsts].tolist()
-    return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in found]
+    shown = elements[firsts].tolist()
+    return [_EmbeddedElements(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in shown]
 
 
-def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> dict[str, Any]:
+def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _EmbeddedElements) -> dict[str, Any]:
     diameter = float(scene.diameter[case.element])
     with np.errstate(all="ignore"):
         if scene.law[case.element] == LawKind.LINEAR:
@@ -260,8 +265,8 @@ def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> 
             slope = float(smoothed_reaction(depth, diameter, *law)[1])
             return _row(scene, case, float(np.divide(depth, diameter)), depth, slope, None)
         curve_index = int(arrays.curve_index[case.element])
-        found = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
-        ratio = next((each for each in found if each >= 0.0), None)
+        ratios = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
+        ratio = next((each for each in ratios if each >= 0.0), None)
         if ratio is None:
             return _row(scene, case, np.nan, np.nan, np.nan, None)
         curve = arrays.curves[curve_index]
@@ -271,7 +276,7 @@ def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> 
 
 
 def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, Any]]:
-    """The least and the most that a node with a spring of its own carries, by set."""
+    """Return rows for the least and the most loaded node with a spring of its own, by set."""
     if not scene.nodal.any() or (scene.element_nodes < 0).any():
         return []
     extension = scene.extensions["SEABED CONTACT"]
@@ -291,14 +296,14 @@ def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, A
         order = usable[np.argsort(depth[usable], kind="stable")]
         for node in dict.fromkeys([*order[:1].tolist(), *order[-1:].tolist()]):
             at = int(elements[(ends[elements] == node).any(axis=1)][0])
-            case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at, filled)
+            case = _EmbeddedElements(scene.law_sets[at], "nodal", float(weight[at]), at, filled)
             ratio = float(np.divide(depth[node], scene.diameter[at]))
             rows.append(_row(scene, case, ratio, float(depth[node]), float(slope[node]), None))
     return rows
 
 
 def _row(
-    scene: Scene, case: _Case, ratio: float, penetration: float, stiffness: float, side: str | None
+    scene: Scene, case: _EmbeddedElements, ratio: float, penetration: float, stiffness: float, side: str | None
 ) -> dict[str, Any]:
     return {
         "set": case.set_name,

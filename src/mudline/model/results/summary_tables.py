@@ -9,10 +9,10 @@ from mudline.basics.display import Cell, DisplayTable, number, text
 from mudline.basics.quantities import UnitNames
 
 OPEN = "+ a block that is not read may add elements to this set"
-"""What a plus behind the number of elements of a set means."""
+"""Meaning of a plus after the number of elements of a set."""
 
 Rows = Sequence[dict[str, Any]]
-"""Rows as JSON has them."""
+"""Rows as in JSON."""
 
 
 def elements_of(row: dict[str, Any]) -> Cell:
@@ -23,11 +23,11 @@ def elements_of(row: dict[str, Any]) -> Cell:
 def set_table(sets: Rows, names: UnitNames) -> DisplayTable:
     """Return the table of the element sets."""
     columns = (text("set", "name"), number("elements", elements_of), number("length", "length", names.length))
-    return DisplayTable("Element sets", columns, sets, OPEN if any(one["open"] for one in sets) else "")
+    return DisplayTable("Element sets", columns, sets, OPEN if any(row["open"] for row in sets) else "")
 
 
 def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> DisplayTable:
-    """Return the table of external diameters; `none` stands for one that is not known."""
+    """Return the table of external diameters; `none` is the text for an unknown diameter."""
 
     def diameter(row: dict[str, Any]) -> Cell:
         return none if row["diameter"] is None else row["diameter"]
@@ -39,7 +39,7 @@ def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> Disp
 def static_table(rows: Rows, names: UnitNames, left_out: Sequence[str], *, first: bool) -> DisplayTable:
     """Return the table of static embedment; `first` adds the first element of a row.
 
-    `left_out` is not in the weights. Of springs of nodes the stiffness is that of a node, and has no unit here.
+    `left_out` are weights not included. The stiffness of springs of nodes is that of a node, and has no unit here.
     """
     several = any(row["filled"] for row in rows)
     unit = "" if any(row["law"] == "nodal" for row in rows) else names.stiffness
@@ -70,5 +70,5 @@ def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> Disp
 
 
 def weight_note(left_out: Sequence[str]) -> str:
-    """Return what the weights of a table leave out, "" for nothing."""
+    """Return a note about the weights that a table leaves out, "" for none."""
     return f"weights without {', '.join(left_out)}" if left_out else ""

@@ -1,4 +1,4 @@
-"""Totals of an evaluation: by law and set, by state, by step and by line at each step."""
+"""Totals of an evaluation: by law and set, by state, by step, and by line at each step."""
 
 from __future__ import annotations
 
@@ -12,18 +12,20 @@ from numpy.typing import NDArray
 from mudline.basics.quantities import SLIDING, STATES, Names, finite, shown
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.lines import LineSummary
-from mudline.model.contact.result import Part, total_normal_force
+from mudline.model.contact.result import ResultPart, total_normal_force
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask
 
 Row = TypeVar("Row")
 
 
-class Total(NamedTuple):
-    """Elements that share a law and the set that gave it to them, at one step.
+class LawTotal(NamedTuple):
+    """Elements that share a law and the set that assigned it, at one step.
 
-    `deepest` is the largest depth, negative above the seabed, None where there is no seabed; `reaction` the total
-    normal force of a law per unit length; None for springs of nodes.
+    Attributes:
+        touching: number of elements in contact.
+        deepest: largest depth, negative above the seabed; None without a seabed.
+        reaction: total normal force of a law per unit length; None for springs of nodes.
     """
 
     law: str
@@ -35,15 +37,15 @@ class Total(NamedTuple):
 
 
 NOT_KNOWN = "not known"
-"""What tables say of the reaction of a rigid seabed, and of one that overflows."""
+"""Text for the reaction of a rigid seabed, and for one that overflows."""
 _SLACK = 1e-9
-"""Part of a line by which the sums of its lengths may differ."""
+"""Tolerance of the length in contact, as a part of the length of a line."""
 
 
 def touchdown_words(places: Sequence[float], contact: float | None, length: float | None, most: int) -> str:
-    """The arc lengths of the touchdown points of a line, or where all of it is; "" where that is not known.
+    """Return the arc lengths of the touchdown points of a line as text, or where all of it is; "" if unknown.
 
-    A line of which only a part has a gap may lie on the seabed there without a touchdown point.
+    A line only part of which has a gap may lie on the seabed there without a touchdown point.
     """
     if places:
         more = f", {len(places) - most} more" if len(places) > most else ""
@@ -57,13 +59,13 @@ class StepTotal(NamedTuple):
     """All evaluated elements or nodes at one step.
 
     Attributes:
-        touching: how many elements are in contact, or on how many nodes the seabed acts; `first` and `last` are the
-            numbers of those, in the deck's order.
-        deepest: largest depth of an element; None for nodes, and where there is no seabed.
-        sucked: elements in the states suction and hold, None without such a law, and for nodes.
-        slipping: nodes that slip in a direction, None without such a law.
-        gap, largest: smallest distance of a node from the seabed, None where there is none, and largest normal force
-            on a node; None for elements.
+        touching: number of elements in contact, or of nodes that the seabed acts on.
+        first, last: numbers of the first and the last of these, in the order of the deck.
+        deepest: largest depth of an element; None for nodes, and without a seabed.
+        sucked: number of elements in the states suction and hold; None without suction, and for nodes.
+        slipping: number of nodes that slip in a direction; None without friction.
+        gap: smallest distance of a node from the seabed; None without a seabed, and for elements.
+        largest: largest normal force on a node; None for elements.
     """
 
     time: float
@@ -79,16 +81,16 @@ class StepTotal(NamedTuple):
 
 
 def carried(result: ContactResult) -> Mask:
-    """The elements (..., m) of a result that are in contact with a law of the seabed, or lie on a rigid one."""
+    """Return the elements (..., m) of a result that are in contact with a law of the seabed, or lie on a rigid one."""
     given = result.known
-    found: Mask = result.contact & (given.law != LawKind.NONE)
+    in_contact: Mask = result.contact & (given.law != LawKind.NONE)
     if result.restrained is not None:
-        found |= result.restrained[..., given.element_nodes].all(axis=-1) & (given.law == LawKind.RIGID)
-    return found
+        in_contact |= result.restrained[..., given.element_nodes].all(axis=-1) & (given.law == LawKind.RIGID)
+    return in_contact
 
 
-def totals(evaluation: Evaluation, part: Part) -> list[Total]:
-    """By law and set, in the order of the elements, at the first step of a part."""
+def totals(evaluation: Evaluation, part: ResultPart) -> list[LawTotal]:
+    """Return the totals by law and set, in the order of the elements, at the first step of a part."""
     scene, result = evaluation.scene, part.result.step(0)
     in_contact = carried(result)
     groups: dict[tuple[str, str], list[int]] = {}
@@ -99,17 +101,17 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
         for (law, name), members in groups.items():
             touching, deepest = int(in_contact[members].sum()), _deepest(result.depth[members])
             force = float((result.force[members] * evaluation.length[members]).sum())
-            rows.append(Total(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
+            rows.append(LawTotal(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
     return rows
 
 
 def reaction(evaluation: Evaluation, result: ContactResult) -> float:
-    """Total normal force of a step on all nodes; NaN on a rigid seabed, whose force is not known."""
+    """Return the total normal force of a step on all nodes; NaN on a rigid seabed, whose force is not known."""
     with np.errstate(over="ignore", invalid="ignore"):
         return float(total_normal_force(result, evaluation.nodes))
 
 
-def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -> Iterator[StepTotal]:
+def step_totals(evaluation: Evaluation, part: ResultPart, *, of_nodes: bool = False) -> Iterator[StepTotal]:
     """Yield the figures of all evaluated elements, or nodes, at each step of a part with times."""
     elements, nodes, scene = evaluation.elements, evaluation.nodes, evaluation.scene
     for step, time in enumerate([] if part.result.times is None else part.result.times.tolist()):
@@ -128,7 +130,7 @@ def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -
             yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
 
 
-def line_steps(evaluation: Evaluation, part: Part) -> Iterator[LineSummary]:
+def line_steps(evaluation: Evaluation, part: ResultPart) -> Iterator[LineSummary]:
     """Yield every line at each step of a part."""
     return evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
 
@@ -138,7 +140,7 @@ def _ends(numbers: Ids) -> tuple[int | None, int | None]:
 
 
 def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
-    """The indices of the evaluated nodes on which the seabed acts at a step, also by restraining them."""
+    """Return the indices of the evaluated nodes that the seabed acts on, or restrains, at a step."""
     acts: Mask = (result.reaction != 0.0).any(axis=1)
     if result.restrained is not None:
         acts |= result.restrained
@@ -148,17 +150,17 @@ def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
 _AT_NODES = ("nodal", "rigid")
 """Laws without a force per unit length."""
 HELD = (STATES.index("suction"), STATES.index("hold"))
-"""States of an element above the seabed that suction may hold."""
+"""States of an element above the seabed in which suction may act again."""
 
 
 def counts(states: NDArray[np.int8], names: Names) -> list[tuple[str, int]]:
-    """How many there are in each state that occurs."""
-    found = np.bincount(states.astype(np.intp) + 1, minlength=len(names))[1:]
-    return [(name, int(count)) for name, count in zip(names, found, strict=False) if name is not None and count]
+    """Return the number of states of each kind that occurs."""
+    numbers = np.bincount(states.astype(np.intp) + 1, minlength=len(names))[1:]
+    return [(name, int(count)) for name, count in zip(names, numbers, strict=False) if name is not None and count]
 
 
 class InState(NamedTuple):
-    """How many elements or nodes are in a state of a law."""
+    """Number of elements or nodes in a state of a law."""
 
     law: str
     state: str
@@ -166,14 +168,14 @@ class InState(NamedTuple):
 
 
 def states(evaluation: Evaluation, result: ContactResult) -> list[InState]:
-    """The states that occur at a step, of suction by element and of friction by node and direction."""
+    """Return the states that occur at a step, of suction by element and of friction by node and direction."""
     rows = []
     if result.state is not None:
-        rows += [InState("suction of elements", *one) for one in counts(result.state[evaluation.elements], STATES)]
+        rows += [InState("suction of elements", *state) for state in counts(result.state[evaluation.elements], STATES)]
     if result.friction_state is not None:
         for axis, direction in enumerate(("axial", "lateral")):
-            found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
-            rows += [InState(f"{direction} friction of nodes", *one) for one in found]
+            by_state = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
+            rows += [InState(f"{direction} friction of nodes", *state) for state in by_state]
     if result.restrained is not None:
         rows.append(InState("rigid seabed", "restrained nodes", int(result.restrained.sum())))
     return rows
@@ -184,49 +186,49 @@ def _deepest(depth: Floats) -> float | None:
     return finite(float(known.max())) if known.size else None
 
 
-class Followed(NamedTuple):
+class StepValues(NamedTuple):
     """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
 
-    `at` (steps, k) goes with the numbers, as the index of the element that a number is of, -1 for none.
+    `at` (steps, k) goes with the numbers: index of the element of a number, -1 for none.
     """
 
     values: NDArray[np.floating] | NDArray[np.bool_]
     at: NDArray[Any] | None = None
 
 
-def step_figures(part: Part) -> dict[str, Followed]:
-    """Return the figures of `STEPS` of the steps of a part, each as one column."""
+def step_figures(part: ResultPart) -> dict[str, StepValues]:
+    """Return the figures of `STEPS` for the steps of a part, each as one column."""
     result, chosen = part.result, np.flatnonzero(part.result.evaluated)
     with np.errstate(over="ignore", invalid="ignore"):
         reaction = total_normal_force(result, result.present)
     force = result.force[:, chosen]
     return {
-        "reaction": Followed(reaction[:, np.newaxis]),
+        "reaction": StepValues(reaction[:, np.newaxis]),
         "force": _largest(force, chosen, by_size=True),
         "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
-        "touching": Followed(carried(result)[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
+        "touching": StepValues(carried(result)[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
         "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
     }
 
 
-def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Followed:
+def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> StepValues:
     if not values.shape[1]:
-        return Followed(np.full((len(values), 1), np.nan), np.full((len(values), 1), -1))
+        return StepValues(np.full((len(values), 1), np.nan), np.full((len(values), 1), -1))
     ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
     column = ranked.argmax(axis=1)[:, np.newaxis]
-    found = np.take_along_axis(values, column, axis=1)
-    return Followed(found, np.where(np.isnan(found), -1, chosen[column]))
+    largest = np.take_along_axis(values, column, axis=1)
+    return StepValues(largest, np.where(np.isnan(largest), -1, chosen[column]))
 
 
 class First(Generic[Row]):
-    """Takes the first `most` rows (None: all) of those that `make` gives for some steps."""
+    """Consumer that keeps the first `most` rows (None: all) that `make` returns for some steps."""
 
-    def __init__(self, make: Callable[[Part], Iterator[Row]], most: int | None) -> None:
+    def __init__(self, make: Callable[[ResultPart], Iterator[Row]], most: int | None) -> None:
         self._make, self._most = make, most
         self.rows: list[Row] = []
 
-    def take(self, part: Part) -> None:
-        """Make the rows of some steps that are still wanted."""
+    def take(self, part: ResultPart) -> None:
+        """Add the rows of some steps up to the limit."""
         left = None if self._most is None else self._most - len(self.rows)
         if left != 0:
             self.rows += islice(self._make(part), left)

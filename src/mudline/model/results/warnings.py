@@ -1,7 +1,7 @@
-"""What an engineer should know before using the results of a deck: zeros for want of a law, no contact, no equilibrium.
+"""Warnings for an engineer about the results of a deck: zeros for want of a law, no contact, no equilibrium.
 
-The warnings of an evaluated deck follow from its scene and its results. Of a long series only what they need is kept:
-a flag for each element, and the smallest clearance.
+The warnings of an evaluated deck follow from its scene and its results. Of a long series only the necessary data are
+kept: a flag for each element, and the smallest clearance.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.arrays import StepReader
 from mudline.model.contact.input import ContactInput
-from mudline.model.contact.result import Part
+from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.given_positions import PositionDoubt, position_doubts
@@ -36,27 +36,27 @@ from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import PipeContents, attached, contents, left_out, operating_weight
 
 BALANCED = (1.0 / 3.0, 3.0)
-"""Total reaction over submerged weight, beyond which positions are far from equilibrium."""
+"""Range of total reaction over submerged weight outside of which positions are far from equilibrium."""
 
 NEAR = (0.9, 1.1)
-"""The same, beyond which there is something to be said for a resting shape."""
+"""Range of the same ratio outside of which a resting shape is suggested."""
 
 _ADDED = {"INTERNAL FLUID": "contents", "MASS": "masses"}
-"""Keywords that make the weight another one than that of the sections."""
+"""Keywords that add to the weight of the sections."""
 _TOUCHING = 1e-3
-"""Clearance over diameter of a line that touches the seabed: its datum is right."""
+"""Clearance over diameter up to which a line touches the seabed: its datum is right."""
 _CAPTION = 90
 
 
 @dataclass(frozen=True, slots=True)
 class ContactWarning:
-    """What is doubtful in the results of a deck.
+    """A doubt about the results of a deck.
 
     Attributes:
-        diagnostic: code, message and place, as those of lint.
-        elements: how many elements it is about; 0 for what is about none, as a curve that nothing uses.
-        first: the number of the first of them, or None.
-        brief: the message in a few words, for the caption of a plot; "" where the plot shows it.
+        diagnostic: code, message and place, as in lint.
+        elements: number of elements concerned; 0 for a doubt about none, as a curve without effect.
+        first: number of the first of them, or None.
+        brief: the message in a few words, for the caption of a plot; "" if the plot shows it.
     """
 
     diagnostic: Diagnostic
@@ -65,26 +65,26 @@ class ContactWarning:
     brief: str
 
     def __str__(self) -> str:
-        found = self.diagnostic
-        return f"{found.file}:{found.line}: {found.code} {found.message}"
+        diagnostic = self.diagnostic
+        return f"{diagnostic.file}:{diagnostic.line}: {diagnostic.code} {diagnostic.message}"
 
     def row(self) -> dict[str, object]:
-        """The warning as JSON has it."""
-        found = self.diagnostic
+        """Return the warning as JSON."""
+        diagnostic = self.diagnostic
         return {
-            "code": found.code,
-            "message": found.message,
-            "line": found.line,
+            "code": diagnostic.code,
+            "message": diagnostic.message,
+            "line": diagnostic.line,
             "elements": self.elements,
             "first": self.first,
         }
 
 
 def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
-    """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
+    """Return the warnings about a result of `scene.contact().evaluate(positions)`, in the order of the deck.
 
-    `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
-    coordinates.
+    `positions` are the evaluated positions, (nodes, 3) or (steps, nodes, 3); None: the deck's own coordinates. Raises
+    ValueError for positions of another shape or kind.
     """
     places = as_array(scene.coordinates if positions is None else positions, "positions")
     if places.dtype.kind not in "iuf" or places.ndim not in {2, 3} or places.shape[-2:] != (len(scene.node_ids), 3):
@@ -95,21 +95,21 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     steps = places.reshape(-1, *places.shape[-2:])
     watch = ContactWatch(scene, result.evaluated, steps, source)
     watch.look_at_positions(result.known, result.present)
-    watch.take(Part(0, result.as_series()))
+    watch.take(ResultPart(0, result.as_series()))
     return watch.warnings()
 
 
 def seabed_warnings(scene: Scene) -> list[ContactWarning]:
-    """Return what is doubtful about the seabed under the deck's own coordinates, whatever solved shape it will have.
+    """Return the warnings about the seabed under the deck's own coordinates, valid for any solved shape.
 
-    That is elements in contact without a law, and Z as the height of a line that touches nothing. A deck that cannot be
-    evaluated has none.
+    They are about elements in contact without a law, and Z as the height of a line that touches nothing. A deck that
+    cannot be evaluated has none.
     """
     if (scene.element_nodes < 0).any():
         return []
-    wanted = {SBD006.code, SYN009.code}
+    codes = {SBD006.code, SYN009.code}
     if height_along_z(scene, np.arange(len(scene.element_ids)), scene.coordinates):
-        wanted.add(GEO005.code)
+        codes.add(GEO005.code)
     elif not (scene.law == LawKind.NONE).any():
         return []
     try:
@@ -118,12 +118,12 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
         evaluation.run([watch])
     except DeckError:
         return []
-    return [one for one in watch.warnings() if one.diagnostic.code in wanted]
+    return [warning for warning in watch.warnings() if warning.diagnostic.code in codes]
 
 
 def caption(warnings: Sequence[ContactWarning]) -> str:
-    """The line of a plot that says what is doubtful, "" where nothing is."""
-    briefs = [one.brief for one in warnings if one.brief]
+    """Return the line of a plot about its warnings, "" without warnings."""
+    briefs = [warning.brief for warning in warnings if warning.brief]
     return cut(f"{counted(len(briefs), 'warning')}: {'; '.join(briefs)}", _CAPTION) if briefs else ""
 
 
@@ -136,10 +136,10 @@ class _Clearance(NamedTuple):
 
 
 class _Balance(NamedTuple):
-    """Total reaction and submerged weight (NaN where it is not known) of the elements (indices) in contact by a law.
+    """Total reaction and submerged weight (NaN if unknown) of the elements (indices) in contact with a law.
 
-    `empty` is the weight without contents and masses at nodes. Of several steps they are sums, of all elements that are
-    in contact at one of them.
+    `empty` is the weight without contents and masses at nodes. Over several steps they are sums; `elements` are then in
+    contact at one of the steps.
     """
 
     reaction: float
@@ -150,16 +150,20 @@ class _Balance(NamedTuple):
 
     @property
     def ratio(self) -> float:
-        """Reaction over weight; NaN where the weight is not above 0."""
+        """Reaction over weight; NaN if the weight is not above 0."""
         return self.reaction / self.weight if self.weight > 0.0 else math.nan
 
 
 class ContactWatch:
-    """Takes the results of a few steps at a time, and keeps what the warnings need.
+    """Consumer of the results of a few steps at a time that keeps the data of the warnings.
 
-    `evaluated` (m,) are the elements with positions, `places` (steps, n, 3) the positions, which are those of `source`:
-    "deck", "file" or "rest shape", which is in equilibrium. `weight` (m,) is the submerged weight per length, None for
-    the operating one.
+    Args:
+        scene: the scene.
+        evaluated: (m,) elements with positions.
+        places: (steps, n, 3) positions.
+        source: source of the positions: "deck", "file" or "rest shape", which is in equilibrium.
+        times: (steps,) times, if known.
+        weight: (m,) submerged weight per length; None for the operating weight.
     """
 
     def __init__(
@@ -196,7 +200,7 @@ class ContactWatch:
 
     @classmethod
     def of(cls, evaluation: Evaluation) -> ContactWatch:
-        """What watches an evaluation."""
+        """Return the watch of an evaluation."""
         given, times = evaluation.model.input, evaluation.time
         positions, source = evaluation.positions, evaluation.source
         watch = cls(evaluation.scene, evaluation.evaluated, positions, source, times, given.weight)
@@ -204,13 +208,13 @@ class ContactWatch:
         return watch
 
     def look_at_positions(self, given: ContactInput, present: Mask) -> None:
-        """Judge positions of a file by the last step; `present` (n,) are the nodes that have any."""
+        """Judge positions of a file by the last step; `present` (n,) are the nodes that have a position."""
         if self._source == "file":
             last = np.asarray(self._positions[len(self._positions) - 1], dtype=np.float64)
             self._doubts = position_doubts(given, self._scene, present, last)
 
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
+    def take(self, part: ResultPart) -> None:
+        """Add some steps."""
         result = part.result
         if self._judged or not self._acts:
             self._touched |= result.contact.any(axis=0)
@@ -218,7 +222,7 @@ class ContactWatch:
             self._restrained |= result.restrained.any(axis=0)
         if not self._acts:
             self._acts = bool(self._touched.any() or self._restrained.any())
-            # A spring acts on a node without an element in contact.
+            # a spring acts on a node without an element in contact
             self._acts |= self._sprung and bool(result.normal_force[:, self._columns].any())
             if not self._acts:
                 self._measure(part.start, result.gap[:, self._columns])
@@ -231,7 +235,7 @@ class ContactWatch:
                     self._left[self._lawful[left]] = True
 
     def _measure(self, start: int, gap: Floats) -> None:
-        """Keep the smallest distance of the nodes above the seabed; NaN is where there is none."""
+        """Keep the smallest distance of the nodes above the seabed; NaN means no seabed."""
         least = float(gap.min(initial=np.inf))
         if math.isnan(least):
             least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))
@@ -240,19 +244,19 @@ class ContactWatch:
             self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
 
     def _least_weight(self) -> tuple[Floats, PipeContents | None]:
-        """The least submerged weight per length (m,) over the load cases, and the first case in which one floats."""
+        """Return the least submerged weight per length (m,) over the load cases, and the first case that floats."""
         scene = self._scene
         gravity, masses = scene.surroundings.gravity, attached(scene).weighing
         own = scene.submerged_weight + masses * gravity if masses.any() else scene.submerged_weight
         with np.errstate(over="ignore", invalid="ignore"):
-            cases = [(own + one.mass * gravity, one) for one in contents(scene)]
+            cases = [(own + case.mass * gravity, case) for case in contents(scene)]
         if not cases:
             return own, None
         floating = next((case for weight, case in cases if (weight[self._elements] < 0.0).any()), None)
         return np.minimum.reduce([weight for weight, _ in cases]), floating
 
     def _weigh(self, contact: Mask, normal_force: Floats, before: _Balance | None) -> _Balance:
-        """Reaction and weights of some steps, (steps, m) and (steps, n), added to those before them."""
+        """Return reaction and weights of some steps, (steps, m) and (steps, n), added to those of earlier steps."""
         scene = self._scene
         law = scene.law[self._elements]
         held = contact[:, self._rows] & (law != LawKind.NONE)
@@ -261,28 +265,31 @@ class ContactWatch:
         with np.errstate(over="ignore", invalid="ignore"):
             weight, empty = (float((times * per[here]).sum()) for per in (self._weight, scene.submerged_weight))
             reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[:, self._columns].sum())
-            found = _Balance(reaction, weight, empty, here, len(contact))
+            balance = _Balance(reaction, weight, empty, here, len(contact))
             if before is None:
-                return found
+                return balance
             return _Balance(
                 before.reaction + reaction,
                 before.weight + weight,
                 before.empty + empty,
                 np.union1d(before.elements, here),
-                before.steps + found.steps,
+                before.steps + balance.steps,
             )
 
     # ----------------------------------------------------------------------------------------------- what it found
 
     def warnings(self) -> list[ContactWarning]:
-        """What is doubtful, in the order of the deck; ask when all steps are taken."""
-        found = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
-        found += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
-        found += [*self._floating(), *self._curves()]
-        return sorted(found, key=lambda one: one.diagnostic.sort_key)
+        """Return the warnings in the order of the deck; call after all steps."""
+        listed = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
+        listed += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
+        listed += [*self._floating(), *self._curves()]
+        return sorted(listed, key=lambda warning: warning.diagnostic.sort_key)
 
     def note(self) -> str:
-        """That the positions are the deck's own, and what they carry; "" for those of a file, and after RUN003."""
+        """Return the note that the positions are the deck's own, with the weight they carry.
+
+        Return "" for positions of a file, and together with RUN003.
+        """
         balance = self.balance
         if not self._own or (balance and self._is_unbalanced(balance)):
             return ""
@@ -297,20 +304,20 @@ class ContactWatch:
         problem = Problem(code, message, None, Severity.WARNING, where)
         first = int(self._scene.element_ids[elements[0]]) if elements.size else None
         deck = self._scene.deck
-        found = deck.diagnose([problem])[0]
-        if found.file != deck.file:  # of a deck that this one continues, whose line would be looked for here
-            found = replace(found, message=f"{found.message} (in {found.file})")
-        return ContactWarning(found, len(elements), first, brief)
+        diagnostic = deck.diagnose([problem])[0]
+        if diagnostic.file != deck.file:  # a place in a deck that this deck continues
+            diagnostic = replace(diagnostic, message=f"{diagnostic.message} (in {diagnostic.file})")
+        return ContactWarning(diagnostic, len(elements), first, brief)
 
     def _without_law(self) -> Iterator[ContactWarning]:
-        """Elements in contact without a law, and unknown keywords that look like those of a seabed."""
+        """Yield warnings about elements in contact without a law, and about unknown keywords like seabed keywords."""
         free = np.flatnonzero(self._touched & (self._scene.law == LawKind.NONE))
         some = len(free) < len(self._elements)
         for missing in missing_laws(self._scene, free, self._unknown, some=some):
             yield self._warning(*missing)
 
     def _on_rigid(self) -> Iterator[ContactWarning]:
-        """Elements that a rigid seabed holds at some step, as its force is not known."""
+        """Yield a warning about elements that a rigid seabed holds at some step, as its force is not known."""
         ends = self._restrained[self._scene.element_nodes[self._elements]].any(axis=1)
         held = self._elements[ends & (self._scene.law[self._elements] == LawKind.RIGID)]
         if held.size:
@@ -321,9 +328,9 @@ class ContactWatch:
             yield self._warning(RUN005, message, where, held, "reaction of a rigid seabed not known")
 
     def _beyond(self) -> Iterator[ContactWarning]:
-        """Nodes that lie beyond the end of the surveyed seabed at some step."""
+        """Yield a warning about nodes beyond the end of the surveyed seabed at some step."""
         left = np.flatnonzero(self._left)
-        all_without = not self._acts and self._clearance.node < 0  # GEO005 says so of the line
+        all_without = not self._acts and self._clearance.node < 0  # GEO005 then says it of the whole line
         if self._survey is None or not left.size or all_without:
             return
         scene, number = self._scene, self._scene.node_ids[left[0]]
@@ -338,7 +345,7 @@ class ContactWatch:
         return unknown_keywords(self._scene)
 
     def _apart(self) -> Iterator[ContactWarning]:
-        """Nothing in contact at any step."""
+        """Yield a warning if nothing is in contact at any step."""
         scene, (gap, node, step) = self._scene, self._clearance
         if self._acts or not self._elements.size:
             return
@@ -363,12 +370,12 @@ class ContactWatch:
         yield self._warning(GEO005, message + advice, where, self._elements, "nothing in contact")
 
     def _turned(self) -> str:
-        """Words for positions whose last coordinate seems to be the height, or ""."""
+        """Return a hint for positions whose last coordinate seems to be the height, or ""."""
         hint = height_along_z(self._scene, self._elements, self._places)
         return f"; {hint}: X is up here, the height is the first coordinate" if hint else ""
 
     def _unbalanced(self) -> Iterator[ContactWarning]:
-        """Positions that are far from equilibrium: the deck's own, or those of a file in the mean of its steps."""
+        """Yield a warning about positions far from equilibrium: the deck's own, or those of a file in the mean."""
         balance = self.balance
         if balance is None or not self._is_unbalanced(balance):
             return
@@ -395,18 +402,18 @@ class ContactWatch:
         carried = f"total reaction {total} on {elements} in contact"
         if math.isnan(weight):
             return f"{carried}, whose submerged weight is not known"
-        given = self._scene.deck.keywords() | self._scene.deck.keywords("LOAD CASE")
-        what = " and ".join(word for name, word in _ADDED.items() if name in given)
+        keywords = self._scene.deck.keywords() | self._scene.deck.keywords("LOAD CASE")
+        what = " and ".join(word for name, word in _ADDED.items() if name in keywords)
         more = "" if weight == empty else f" with {what} ({shown(empty)}{behind} empty)"
         more += f" without {', '.join(self._left_out)}" if self._left_out else ""
         ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
         return f"{carried}, their submerged weight {shown(weight)}{behind}{more}{ratio}"
 
     def _floating(self) -> Iterator[ContactWarning]:
-        """Elements in contact that float; where nothing is in contact, all of them if they do."""
+        """Yield a warning about elements in contact that float, or about all if nothing is in contact and all float."""
         scene = self._scene
         floats = self._lightest[self._elements] < 0.0
-        if any(map(holds_in_soil, scene.deck.keywords())):  # springs of the soil hold what has no law of the seabed
+        if any(map(holds_in_soil, scene.deck.keywords())):  # springs of the soil hold elements without a seabed law
             floats &= scene.law[self._elements] != LawKind.NONE
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
         if not light.size or self._left_out:
@@ -424,7 +431,7 @@ class ContactWatch:
         yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")
 
     def _curves(self) -> Iterator[ContactWarning]:
-        """Curves that no element follows; not those that an unknown keyword may use, which is the cause then."""
+        """Yield warnings about curves that no element follows, unless an unknown keyword may use them."""
         if self._unknown:
             return
         none = np.zeros(0, dtype=np.intp)

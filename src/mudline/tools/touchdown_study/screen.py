@@ -179,7 +179,7 @@ def stages_table(found: Study) -> DisplayTable | None:
     def without(row: StageRow) -> str:
         if row.cost_if_added is not None:
             return f"+ {_time(row.cost_if_added)} a node"
-        optional = row.stage not in {"floor", "normal law"} and row.time is not None
+        optional = row.stage not in {"seabed surface", "normal law"} and row.time is not None
         return _time(pruning.step - row.time) if optional and row.time is not None else ""
 
     columns = (

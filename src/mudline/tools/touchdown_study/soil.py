@@ -9,7 +9,7 @@ import numpy as np
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.laws import PathLaw
-from mudline.model.contact.tables import NormalRows, Tables
+from mudline.model.contact.tables import LawTables, NormalRows
 from mudline.model.contact.tangent import Triples
 from mudline.model.curves import ForceCurve
 
@@ -75,7 +75,7 @@ class ElasticSoil:
     """Laws without a history: force and tangent follow from the depth alone."""
 
     def __init__(self, given: ContactInput, matrix: ElementMatrix = "mean") -> None:
-        tables, self._length = Tables(given), given.length
+        tables, self._length = LawTables(given), given.length
         self._onset, self._cut, self._diameter = given.onset(), given.tension == "cut", given.diameter
         self._curves = _Curves([each for each in tables.normal if each.curve >= 0], given.curves, given.diameter)
         self._others, self._nodal = [each for each in tables.normal if each.curve < 0], tables.nodal

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from mudline.model.contact import ElementError
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.laws.trench import on_wall, wall_coefficient
-from mudline.model.contact.line import Line
-from mudline.model.contact.tables import Tables
+from mudline.model.contact.line import Incidence
+from mudline.model.contact.tables import LawTables
 from mudline.model.contact.trenches import LaidCentreline
 from tests.helpers.builders.contact import ALONG_Y, LINEAR, NONE, chain, friction, on, trench
 
@@ -57,10 +57,10 @@ def nearest(
 ) -> FloatArray:
     """The points of the centreline nearest to `points` (n, 3), each sought by the node of its own."""
     along = {} if straight is None else dict(zip(ALONG_Y, straight, strict=True))
-    rows = Tables(chain([NONE], friction(2), trench(1, 0.1, 0.2, 1.0, along))).trench
+    rows = LawTables(chain([NONE], friction(2), trench(1, 0.1, 0.2, 1.0, along))).trench
     assert rows is not None
     each = rows.some(np.zeros(len(laid), np.intp))._replace(nodes=np.arange(len(laid)))
-    centreline = LaidCentreline(laid, Line(ends, len(laid)))
+    centreline = LaidCentreline(laid, Incidence(ends, len(laid)))
     away = centreline.away(centreline.pieces_beside(each), points.T[:, None])
     found: FloatArray = points - away.vector[:, 0].T
     return found

@@ -1,13 +1,13 @@
 """The laws driven by compiled loops, for the extra `mudline[fast]`.
 
 `loops` makes the loops over elements and over nodes. Each takes flags and laws, which are constants of the compiled
-loop: what a scene does not have is not even compiled. A loop goes over a range of rows and all steps of a batch, writes
-its part of a result, moves the states on, and returns how many values came out that are not finite.
+loop: features that a scene lacks are not compiled. A loop runs over a range of rows and all steps of a batch, writes
+its part of a result, updates the states, and returns the number of values that are not finite.
 
 All arrays of a result are (steps, m) for elements and (steps, n) for nodes. The numpy driver does the same operations
 in the same order, so both give the same bits.
 
-Here are what the loops read: tables of a scene with a row for each element or node, and which features it has.
+This module makes the input of the loops: tables with a row for each element or node, and the features of a scene.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
+from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -37,15 +37,14 @@ INNER, OUTER, STEEPNESS, AMOUNT, TRENCH_NUMBERS = range(5)
 TRENCH_KIND, TABLE_START, TABLE_END, CENTRELINE, TRENCH_INDICES = range(5)
 
 NOTHING = 2**32 - 1
-"""In tables of indices: there is none. These are unsigned, as are all indices of the loops, or each look into an array
-would first ask whether it counts from the end."""
+""""None" in tables of indices, which are unsigned: signed ones would be checked for a count from the end."""
 
 NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
-"""Kinds of normal laws of elements; those with an equation are numbered from the last on."""
+"""Kinds of normal laws of elements; laws with an equation are numbered from the last kind on."""
 
 
 class Features(NamedTuple):
-    """What a scene has, as far as loops differ by it."""
+    """Features of a scene that the compiled loops depend on."""
 
     flat: bool
     curves: bool
@@ -71,8 +70,8 @@ class Features(NamedTuple):
     velocities: bool
 
 
-def features_of(tables: Tables, *, flat: bool) -> Features:
-    """Return what a scene has, as far as the loops differ by it."""
+def features_of(tables: LawTables, *, flat: bool) -> Features:
+    """Return the features of a scene."""
     friction, trench = tables.friction, tables.trench
     own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
     return Features(
@@ -93,8 +92,8 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
     )
 
 
-def _steepens(tables: Tables) -> bool:
-    """Whether an unloading line may be less steep than the virgin path that led to it."""
+def _steepens(tables: LawTables) -> bool:
+    """Return True if an unloading line may be less steep than the virgin path that led to it."""
     if tables.unloading is None:
         return False
     stiffness = np.full(len(tables.half), np.inf)
@@ -102,15 +101,15 @@ def _steepens(tables: Tables) -> bool:
     return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
 
 
-def formulas(tables: Tables) -> list[NormalRows]:
+def formulas(tables: LawTables) -> list[NormalRows]:
     """Return the normal laws of elements with an equation in the order of their kinds, those with a path first."""
     return sorted((rows for rows in tables.normal if rows.curve < 0), key=lambda rows: rows.path < 0)
 
 
-def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
-    """Indices (m, c) and numbers (m, c) of the elements, and all curves.
+def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
+    """Return indices (m, c) and numbers (m, c) of the elements, and all curves.
 
-    Curves are (4, k): ratios, forces, slopes behind the points, and the steepest slopes up to there.
+    Curves are (4, k): ratios, forces, slopes after the points, and the steepest slopes up to there.
     """
     given, count = tables.given, len(tables.half)
     most = max((len(rows.columns) for rows in formulas(tables)), default=0)
@@ -135,14 +134,14 @@ def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
             start += len(curve.ratios)
             index[rows.rows, CURVE_END] = start
     places = ((tables.unloading, UNLOADS), (tables.suction, PULLS), (tables.lateral, SPRINGS_BACK))
-    for some, column in places:
-        if some is not None:
-            index[some.rows, column] = np.arange(len(some.rows))
+    for law, column in places:
+        if law is not None:
+            index[law.rows, column] = np.arange(len(law.rows))
     columns = ((tables.unloading, (LINE,)), (tables.springs, (SPRING, EXTENT)), (tables.lateral, (LATERAL,)))
-    for some, names in columns:
-        if some is not None:
-            for column, values in zip(names, some.columns, strict=True):
-                numbers[some.rows, column] = values
+    for law, names in columns:
+        if law is not None:
+            for column, values in zip(names, law.columns, strict=True):
+                numbers[law.rows, column] = values
     return read_only(index), read_only(numbers), read_only(np.concatenate(knots, axis=1))
 
 
@@ -153,8 +152,8 @@ def _knots(curve: ForceCurve) -> FloatArray:
     return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
 
 
-def suction_table(tables: Tables) -> Any:
-    """Suction laws (k, c)."""
+def suction_table(tables: LawTables) -> Any:
+    """Return the suction laws (k, c)."""
     if tables.suction is None:
         return read_only(np.empty((0, SUCTION_COLUMNS)))
     from mudline.model.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
@@ -163,8 +162,8 @@ def suction_table(tables: Tables) -> Any:
     return read_only(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
 
 
-def node_tables(tables: Tables) -> tuple[Any, Any]:
-    """Indices (n, c) and numbers (n, c) of the nodes."""
+def node_tables(tables: LawTables) -> tuple[Any, Any]:
+    """Return indices (n, c) and numbers (n, c) of the nodes."""
     count = len(tables.given.node_ids)
     most = max((len(rows.columns) for rows in tables.nodal), default=0)
     index, numbers = np.full((count, NODE_INDICES), NOTHING, np.uint32), np.zeros((count, NODE_LAW + most))
@@ -186,14 +185,14 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
     return read_only(index), read_only(numbers)
 
 
-def breakout_table(tables: Tables) -> Any:
-    """Breakout laws (k, 6): the parameters, and 1 over the elements at the node."""
+def breakout_table(tables: LawTables) -> Any:
+    """Return the breakout laws (k, 6): the parameters, and 1 over the number of elements at the node."""
     rows = tables.breakout
     return read_only(np.empty((0, 6)) if rows is None else np.column_stack((*rows.columns, tables.shares)))
 
 
-def trench_tables(tables: Tables) -> tuple[Any, ...]:
-    """Trenches of the nodes: where those of each node start, indices, numbers, straight lines, rows of all tables."""
+def trench_tables(tables: LawTables) -> tuple[Any, ...]:
+    """Return the trenches: start for each node, indices, numbers, straight centrelines, rows of all tables."""
     trench = tables.trench
     if trench is None:
         none = (np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)))
@@ -214,23 +213,23 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
 
 
 def read_only(array: Any) -> Any:
-    """The array as one that may not be written, without gaps: one type to compile for."""
+    """Return a read-only contiguous view or copy: a single type to compile for."""
     view = np.ascontiguousarray(array).view()
     view.setflags(write=False)
     return view
 
 
 def plain(array: Any) -> Any:
-    """The array itself, or a copy of one that has gaps or may not be written: one type to compile for."""
+    """Return the array, or a contiguous writeable copy: a single type to compile for."""
     return array if array.flags.c_contiguous and array.flags.writeable else np.array(array, order="C")
 
 
 def between(start: Any) -> tuple[Any, Any]:
-    """Where the rows of each node begin, and behind which they end, of `start` (n + 1,)."""
+    """Return the begin and the end of the rows of each node, from `start` (n + 1,)."""
     return read_only(start[:-1].astype(np.uint32)), read_only(start[1:].astype(np.uint32))
 
 
 def beside(ends: Any, elements_at: Any) -> tuple[Any, Any]:
-    """The nodes of elements (m, 2) and the first two elements at each node (n, 2)."""
-    found = np.where(elements_at < 0, NOTHING, elements_at)
-    return read_only(ends.astype(np.uint32)), read_only(found.astype(np.uint32))
+    """Return the nodes of elements (m, 2) and the first two elements at each node (n, 2)."""
+    first_two = np.where(elements_at < 0, NOTHING, elements_at)
+    return read_only(ends.astype(np.uint32)), read_only(first_two.astype(np.uint32))

@@ -1,8 +1,8 @@
-"""The laws driven by compiled loops (numba, the extra `mudline[fast]`): the same bits as the numpy driver, sooner.
+"""The laws driven by compiled loops (numba, the extra `mudline[fast]`): same bits as the numpy driver, but faster.
 
-A loop is compiled for the laws that a scene has, kept in numba's cache on disk, and run over ranges of elements and of
-nodes, on several threads where there is enough to do. Positions are given, so ranges do not depend on each other but
-for the sums at nodes, which come after the elements.
+A loop is compiled for the laws of a scene, kept in numba's cache on disk, and run over ranges of elements and of nodes,
+on several threads if there is enough work. Positions are given, so ranges are independent except for the sums at nodes,
+which come after the elements.
 """
 
 from __future__ import annotations
@@ -43,29 +43,28 @@ from mudline.model.contact.compiled.loops import ranges_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import IN_PLACE, Batch, ContactState, NormalRows, Tables, arrays_of
+from mudline.model.contact.tables import IN_PLACE, ContactState, LawTables, NormalRows, StepBatch, arrays_of
 
 _BATCH = 3 * 2**19
-"""Nodes times steps at a time, at most."""
+"""Largest number of nodes times steps at a time."""
 _RANGE, _RANGE_OF_ONE = 256, 8192
-"""Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache; and of a
-single step, of which nothing is read again."""
+"""Elements or nodes in a range, whose values stay in the second-level cache; in a range of a single step."""
 _STEPS = 64
 _NO_SPEED = np.empty((0, 0))
 _WORTH_THREADS = 60_000
-"""Nodes times steps of a batch from which on several threads are worth their start."""
+"""Number of nodes times steps of a batch above which several threads are worth their start."""
 
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def _pick(condition: bool, one: float, other: float) -> float:  # noqa: FBT001 - as `where` is called
+def _pick(condition: bool, value: float, otherwise: float) -> float:  # noqa: FBT001 - as `where` is called
     """Return one of two numbers, see `where`."""
-    return one if condition else other
+    return value if condition else otherwise
 
 
 _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
-"""For what only loops call: no contraction of products and sums, divisions as numpy does them."""
+"""Options of functions that only loops call: no contraction of products and sums, divisions as in numpy."""
 
 overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
 overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: condition)
@@ -73,7 +72,7 @@ overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: co
 
 @cache
 def callable_in_loops(function: Function) -> Function:
-    """Make a plain function one that compiled loops can call, and return it."""
+    """Make a function callable in compiled loops, and return it."""
     overload(function, jit_options=_INNER, strict=False)(lambda *_: function)
     return function
 
@@ -86,31 +85,31 @@ for _module in (functions, vectors, *(import_module(f"mudline.model.contact.laws
 
 @cache
 def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
-    """The loop for options, made once; compiled at the first call, or loaded from the cache."""
+    """Return the loop for some options, made once; it is compiled at its first call, or loaded from the cache."""
     always: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
     loop: Any = make(*options)
     try:
-        made: Loop = numba.njit(cache=True, **always)(loop)
-    except RuntimeError:  # there is no place where numba may write
-        made = numba.njit(**always)(loop)
-    return made
+        compiled: Loop = numba.njit(cache=True, **always)(loop)
+    except RuntimeError:  # numba has no place to write its cache
+        compiled = numba.njit(**always)(loop)
+    return compiled
 
 
 _Task = tuple[bool, int, int]
-"""A range to be written: whether it is one of nodes, its begin and its end."""
+"""A range to be written: whether it is a range of nodes, begin and end."""
 _Job = tuple[Any, ...]
-"""What the loop takes of a batch behind the ranges."""
+"""Arguments of the loop for a batch, after the ranges."""
 
 
 _NO_LOOP: type[Exception] = getattr(numba.core.errors, "UnsupportedBytecodeError", numba.core.errors.NumbaError)
-"""What numba raises for Python that it cannot compile; an older one a `NumbaError`."""
+"""Error that numba raises for Python that it cannot compile; `NumbaError` in older versions."""
 
 
 class CompiledDriver:
-    """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
+    """Evaluator of batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed, threads: int) -> None:
-        """Prepare the tables of the loops, and the loops, which are compiled when they are first called."""
+    def __init__(self, tables: LawTables, seabed: Seabed, threads: int) -> None:
+        """Prepare the tables of the loops, and the loops, which are compiled at their first call."""
         given = tables.given
         self._tables, self._threads = tables, threads
         self._pool: ThreadPoolExecutor | None = None
@@ -144,19 +143,19 @@ class CompiledDriver:
         ends, elements_at = (line.ends, line.beside) if has.trench else (np.empty((0, 2)), np.empty((0, 2)))
         self._beside = beside(ends, elements_at)
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
-        """How many steps at a time are fastest."""
+        """Number of steps at a time that is fastest."""
         width = _RANGE if self.steps > 1 else _RANGE_OF_ONE
         sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
         together, behind = _groups(tables, self._threads, sequence, width)
         self._sequence, self._held = _ranges(sequence), _held(tables, sequence)
         self._together, self._behind = (list(map(_ranges, groups)) for groups in (together, behind))
         self.broken = False
-        """Whether a law turned out not to compile."""
+        """True after a law failed to compile."""
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState) -> bool:
-        """Write a batch to `part`, but for gaps and normals, which are there, and the state behind it to `after`.
+    def run(self, batch: StepBatch, part: ContactResult, state: ContactState, after: ContactState) -> bool:
+        """Write a batch to `part` except gaps and normals, which are there already, and the new state to `after`.
 
-        Return False where something is not finite: the numpy driver has to say what.
+        Return False if a value is not finite: the numpy driver then raises the error.
         """
         speed = batch.speed
         after.remember(state, IN_PLACE)
@@ -177,7 +176,7 @@ class CompiledDriver:
             return False
 
     def _run(self, job: _Job, *, together: bool) -> int:
-        """Write all ranges, or several together; return how many values are not finite."""
+        """Write all ranges, on one or several threads; return the number of values that are not finite."""
         if not together:
             return self._loop(self._sequence, *job)
         if self._pool is None:
@@ -188,17 +187,17 @@ class CompiledDriver:
         )
 
     def _work(self, steps: int, held: int) -> tuple[Any, ...]:
-        """What elements leave for nodes; it is there for `held`, a power of two."""
+        """Return the arrays for element values that nodes need, with rows for `held` elements, a power of two."""
         components = 2 if self._has.flat else 3
         shape, none = (steps, min(held, self._elements), components), (0, 0, components)
         slides, lateral = self._has.slides, self._has.lateral
         return np.empty(shape if slides else none), np.empty(shape if lateral else none), np.uint64(held - 1)
 
     def _arrays(self, part: ContactResult, points: FloatArray) -> tuple[Any, ...]:
-        """Positions, and what the loops read and write of a batch, as the loops take it; made once for each."""
-        found = self._made.get(part)
-        if found is not None and found[0].base is points:
-            return found
+        """Return positions and the arrays of a result as the loops take them; made once for each result."""
+        arrays = self._made.get(part)
+        if arrays is not None and arrays[0].base is points:
+            return arrays
         none = np.zeros((0, 0), np.int8)
         of_elements = (
             (part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness),
@@ -213,15 +212,15 @@ class CompiledDriver:
             np.zeros((0, 0, 2), np.int8) if part.friction_state is None else part.friction_state,
         )
         normals = read_only(part.normal) if self._normal is None else self._normal
-        found = self._made[part] = read_only(points), (part.gap, normals, of_elements, of_nodes)
-        return found
+        arrays = self._made[part] = read_only(points), (part.gap, normals, of_elements, of_nodes)
+        return arrays
 
     def _remembered(self, state: ContactState) -> tuple[Any, ...]:
-        """What elements remember, and what nodes remember, as the loops take it, made once for each state."""
-        if (found := self._made.get(state)) is not None:
-            return found
+        """Return the histories of elements and of nodes as the loops take them; made once for each state."""
+        if (histories := self._made.get(state)) is not None:
+            return histories
         lines, pulls, friction = state.unloading, state.suction, state.friction
-        found = self._made[state] = (
+        histories = self._made[state] = (
             (
                 (np.empty(0),) * 4 if lines is None else tuple(map(plain, arrays_of(lines))),
                 (np.empty(0),) * 5 if pulls is None else tuple(map(plain, arrays_of(pulls))),
@@ -234,42 +233,42 @@ class CompiledDriver:
                 np.empty((5, 0)) if state.breakout is None else plain(state.breakout),
             ),
         )
-        return found
+        return histories
 
     def _laid_tables(self, laid: FloatArray, *, complete: bool) -> tuple[Any, ...]:
         if self._tables.trench is None or complete:
             return read_only(laid), self._beside
-        line = self._tables.laid_line(laid)  # without the elements that have a node without a position
+        line = self._tables.laid_line(laid)  # without elements at a node without a position
         return read_only(laid), beside(line.ends, line.elements_at)
 
 
-def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
-    """The ranges of elements `held`, each followed by the ranges of nodes whose elements are all written by then.
+def _tasks(tables: LawTables, held: range, width: int) -> list[_Task]:
+    """Return the ranges of elements `held`, each followed by the ranges of nodes whose elements are then complete.
 
-    All have this width. Ranges of nodes that have elements elsewhere are left out, and those without elements come
+    All ranges have this width. Ranges of nodes with elements elsewhere are left out; ranges without elements come
     first.
     """
     line, elements, nodes = tables.line, len(tables.half), len(tables.given.node_ids)
-    found: dict[int, list[_Task]] = {number: [] for number in range(held.start - 1, held.stop)}
+    nodes_after: dict[int, list[_Task]] = {number: [] for number in range(held.start - 1, held.stop)}
     for begin in range(0, nodes, width):
         end = min(begin + width, nodes)
         there = line.elements[line.start[begin] : line.start[end]] // width
         first, last = int(there.min(initial=held.stop)), int(there.max(initial=-1))
         if not there.size and held.start == 0:
-            found[held.start - 1].append((True, begin, end))
+            nodes_after[held.start - 1].append((True, begin, end))
         elif there.size and first >= held.start and last < held.stop:
-            found[last].append((True, begin, end))
-    tasks = list(found[held.start - 1])
+            nodes_after[last].append((True, begin, end))
+    tasks = list(nodes_after[held.start - 1])
     for number in held:
         tasks.append((False, number * width, min((number + 1) * width, elements)))
-        tasks += found[number]
+        tasks += nodes_after[number]
     return tasks
 
 
 def _groups(
-    tables: Tables, threads: int, sequence: list[_Task], width: int
+    tables: LawTables, threads: int, sequence: list[_Task], width: int
 ) -> tuple[list[list[_Task]], list[list[_Task]]]:
-    """The tasks of each thread in their order; and those of nodes between two threads, which come behind."""
+    """Return the tasks of each thread in order, and the later tasks of nodes between two threads."""
     ranges = len(range(0, len(tables.half), width))
     count = min(threads, ranges)
     bounds = [ranges * group // max(count, 1) for group in range(count + 1)]
@@ -279,12 +278,12 @@ def _groups(
         else [sequence]
     )
     done = {task for tasks in together for task in tasks}
-    rest = [task for task in sequence if task not in done]
-    return together, [share for first in range(count) if (share := rest[first::count])]
+    later = [task for task in sequence if task not in done]
+    return together, [share for first in range(count) if (share := later[first::count])]
 
 
-def _held(tables: Tables, sequence: list[_Task]) -> int:
-    """How many elements ranges of nodes look back, at most; the next power of two."""
+def _held(tables: LawTables, sequence: list[_Task]) -> int:
+    """Return how far ranges of nodes look back over elements, at most, rounded up to a power of two."""
     line, far, written = tables.line, 1, 0
     for of_nodes, begin, end in sequence:
         if of_nodes:
@@ -296,18 +295,18 @@ def _held(tables: Tables, sequence: list[_Task]) -> int:
 
 
 def _ranges(tasks: list[_Task]) -> Any:
-    """Tasks as the compiled loop takes them."""
+    """Return tasks as the compiled loop takes them."""
     return read_only(np.array(tasks, np.uint64).reshape(-1, 3))
 
 
 def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:
-    """The reaction of each law and how many parameters it has."""
+    """Return the reaction of each law and its number of parameters."""
     return tuple((rows.law.reaction, len(rows.law.parameters)) for rows in laws)
 
 
 @cache
 def _as_reaction(steepest: Callable[..., Any]) -> Callable[..., tuple[float, float]]:
-    """The steepest slope of a law in the form of a reaction."""
+    """Return the steepest slope of a law in the form of a reaction."""
     inner = callable_in_loops(steepest)
 
     def slope(z: float, diameter: float, *parameters: float) -> tuple[float, float]:

@@ -30,19 +30,19 @@ from mudline.model.contact.laws.unloading import line_stiffness, on_line, trench
 
 Loop = Callable[..., int]
 Wrap = Callable[[Any], Any]
-"""Makes a function one that loops can call, and returns it."""
+"""Function that makes another function callable in loops, and returns it."""
 Array = Any
-"""An array; the loops are typed when they are compiled."""
+"""An array; loops are typed when they are compiled."""
 Index = Any
 """An unsigned index."""
 Point = tuple[float, float, float]
 ONE = np.uint64(1)
-"""With a signed 1, sums of indices would become floats."""
+"""Unsigned 1: with a signed 1, sums of indices would become floats."""
 
 
 @cache
 def edition(laws: tuple[NormalLaw, ...]) -> int:
-    """Return a number that changes with the source of the loops and laws, so that no cached loop outlives them."""
+    """Return a number that changes with the source of loops and laws, so that no outdated loop is reused."""
     texts = [path.read_text(encoding="utf-8") for path in _SOURCES]
     for law in laws:
         of_path = (law.begin, law.pending, *law.locate, law.advance) if isinstance(law, PathLaw) else ()
@@ -59,7 +59,7 @@ _SOURCES = (
 
 
 def row_of(wrap: Wrap, count: int) -> Callable[..., Any]:
-    """Return a function that gives so many parameters of a row of a table, from a first column on."""
+    """Return a function that returns `count` parameters of a row of a table, from a first column on."""
     if count == 0:
         return wrap(lambda _table, _row, _first: ())  # type: ignore[no-any-return]
     others, last = row_of(wrap, count - 1), count - 1
@@ -71,15 +71,15 @@ def row_of(wrap: Wrap, count: int) -> Callable[..., Any]:
 
 
 def choice(wrap: Wrap, functions: tuple[Callable[..., Any], ...]) -> Callable[..., Any]:
-    """Return a function that calls the one of a kind, from 0: (kind, *arguments)."""
+    """Return a function that calls the function of a kind, from 0: (kind, *arguments)."""
     first = wrap(functions[0])
-    others = choice(wrap, functions[1:]) if functions[1:] else first
+    later_functions = choice(wrap, functions[1:]) if functions[1:] else first
     last = len(functions) == 1
 
-    def one(kind: int, *arguments: Any) -> Any:
-        return first(*arguments) if last or kind == 0 else others(kind - 1, *arguments)
+    def chosen(kind: int, *arguments: Any) -> Any:
+        return first(*arguments) if last or kind == 0 else later_functions(kind - 1, *arguments)
 
-    return wrap(one)  # type: ignore[no-any-return]
+    return wrap(chosen)  # type: ignore[no-any-return]
 
 
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
@@ -104,9 +104,9 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
 
 
 def followed(wrap: Wrap, laws: tuple[PathLaw, ...], first: int) -> Callable[..., Any]:
-    """Return a function that goes on along the path of a kind, from 0: (kind, z, diameter, table, row, paths, held).
+    """Return a function that follows the path of a kind, from 0: (kind, z, diameter, table, row, paths, held).
 
-    It writes what the element remembers, the row `held` of `paths`, and returns force and stiffness.
+    It writes the memory of the element, the row `held` of `paths`, and returns force and stiffness.
     """
 
     def of_law(law: PathLaw) -> Callable[..., Any]:
@@ -143,7 +143,7 @@ def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> I
     left = np.uint64(end) - at
     while left > ONE:
         half = left >> ONE
-        at += half * np.uint64(value >= points[at + half])  # no branch: which way it goes cannot be guessed
+        at += half * np.uint64(value >= points[at + half])  # no branch: its prediction would often fail
         left -= half
     return at
 
@@ -154,7 +154,7 @@ def point_of(values: Array, step: Index, row: Index) -> Point:
 
 
 def direction_of(points: Array, step: Index, a: Index, b: Index) -> Point:
-    """Return the direction from one node to another; 0 for those at one place, or if one is not there."""
+    """Return the direction from a node to another; 0 if they coincide or one of them is absent."""
     p, q = point_of(points, step, a), point_of(points, step, b)
     dx, dy, dz = q[0] - p[0], q[1] - p[1], q[2] - p[2]
     square = dx * dx + dy * dy + dz * dz
@@ -177,8 +177,8 @@ def next_unloading(
 ) -> tuple[Numbers, tuple[float, float, float]]:
     """Return the unloading history of an element at a penetration, and its force, slope and stiffness.
 
-    `before` are z_max, F_max, ku' and z_p; `virgin` force, slope and stiffness of the virgin path, and `stiffness` ku,
-    already as steep as that.
+    `before` are z_max, F_max, ku' and z_p; `virgin` force, slope and stiffness of the virgin path; `stiffness` the
+    larger of ku and the steepest slope of the virgin path.
     """
     after, reaction = before, virgin
     if z > before[0]:
@@ -200,7 +200,7 @@ def next_suction(
 ) -> tuple[tuple[bool, int, Numbers], float, float, bool]:
     """Return the suction history of an element: armed, state, numbers; force, stiffness, and whether v < v_r.
 
-    Its law is a `row` of the table of suction laws, of which most elements need little.
+    `law` is a row of the table of suction laws.
     """
     armed, state, (v_max, factor, depth) = before
     g = h = 0.0
@@ -228,7 +228,7 @@ def next_suction(
 
 
 def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[float, float, float, float, float]:
-    """Return the share of the nearest point of an element as laid, the vector from there, and its square."""
+    """Return the share of the nearest point of an element as laid, the vector from that point, and its square."""
     a, b = ends[element, 0], ends[element, 1]
     x, y, z = laid[a, 0], laid[a, 1], laid[a, 2]
     span = (laid[b, 0] - x, laid[b, 1] - y, laid[b, 2] - z)
@@ -241,7 +241,7 @@ def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[fl
 
 
 def from_laid(laid: Array, beside: Array, node: Index, point: Point) -> Point:
-    """Return the vector from the nearest point of the line as `laid` (n, 3), sought from the node's own place.
+    """Return the vector from the nearest point of the line as `laid` (n, 3), found from the node's place along it.
 
     `beside` has the nodes of each element, then the first two elements at each node.
     """
@@ -269,7 +269,7 @@ def from_laid(laid: Array, beside: Array, node: Index, point: Point) -> Point:
 
 
 def table_resistance(rows: Array, begin: Index, end: Index, distance: float) -> float:
-    """Return the resistance per unit length of the rows begin to end of tables at a distance."""
+    """Return the resistance per unit length, at a distance, of the table in rows `begin` to `end`."""
     last = np.uint64(end) - ONE
     row = last_at_or_below(rows[0], begin, last, distance)
     if distance > rows[0, last]:
@@ -280,7 +280,7 @@ def table_resistance(rows: Array, begin: Index, end: Index, distance: float) -> 
 
 
 def in_limits(t1: float, t2: float, l1: float, l2: float, elliptic: bool) -> tuple[float, float, bool, bool]:  # noqa: FBT001
-    """Return forces in the springs and whether they slip, in the ellipse or in the box."""
+    """Return forces in the springs and whether they slip, with the ellipse or the box."""
     if not elliptic:
         f1, slip_1 = in_box(t1, l1)
         f2, slip_2 = in_box(t2, l2)

@@ -42,7 +42,7 @@ from mudline.model.contact.laws.trench import PEAK, WALL, on_wall, peak_share
 
 
 def _components(wrap: Wrap, has: Features) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
-    """Make the functions that take the components in the plane of the seabed of a vector, read, and write them."""
+    """Return functions that take, read and write the components of a vector in the plane of the seabed."""
     flat, axes = has.flat, 2 if has.flat else 3
 
     def in_plane(vector: Point) -> Numbers:
@@ -66,10 +66,10 @@ def elements_loop(
     steepest: Callable[..., Any],
     edition: int,
 ) -> Loop:
-    """Make the loop over elements.
+    """Return the loop over elements.
 
-    `laws` are the normal laws with equations, `paths` the first of them, those with a path; `steepest` is asked for
-    (kind, z, diameter, table, e), where an unloading line may be less steep than the virgin path.
+    `laws` are the normal laws with equations, `paths` the first of them, which follow a path. `steepest` is called with
+    (kind, z, diameter, table, e) where an unloading line may be less steep than the virgin path.
     """
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
     suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
@@ -128,7 +128,7 @@ def elements_loop(
                 if unloading and index[e, col.UNLOADS] != NOTHING:
                     u, z, steep = index[e, col.UNLOADS], max(0.0, deep), table[e, col.LINE]
                     if steepens and curves and kind == ON_CURVE and touches:
-                        # at a point the segment to its right does not count yet
+                        # at a point the segment to its right is not included
                         back = share == knots[0, segment] and segment > index[e, col.CURVE_START]
                         steep = np.maximum(steep, knots[3, segment - ONE if back else segment] / diameter)
                     elif steepens and kind >= FIRST_LAW and touches:
@@ -164,7 +164,7 @@ def elements_loop(
                 if not slides:
                     continue
 
-                # a direction is asked for by nodes with a normal force alone: NaN for one that is not there
+                # only nodes with a normal force use a direction: NaN marks an element that wrote none
                 row, unit = np.uint64(e) & ring, nothing
                 if touches:
                     unit = in_plane(direction_of(points, step, a, b))
@@ -184,8 +184,8 @@ def elements_loop(
                             n = point_of(normals, 0, 0)
                             if not flat and normals.shape[1] > 1:
                                 n = vectors.mean_normal(point_of(normals, step, a), point_of(normals, step, b))
-                            along, able = project(unit, n)
-                            if not able:
+                            along, exists = project(unit, n)
+                            if not exists:
                                 along = default(n)
                             across = cross(along, n)
                             arm = in_plane((x - place[0], y - place[1], z - place[2]))
@@ -199,7 +199,7 @@ def elements_loop(
 
 
 def _trench_limit(has: Features) -> Callable[..., Any]:
-    """Make the function that gives what trenches add to the lateral limit of a node that is pulled to one side."""
+    """Return a function for the resistance of trenches against the lateral motion of a node to one side."""
     flat, tables = has.flat, has.tables
     dot = vectors.PLANES[2 if has.flat else 3].dot
 
@@ -228,7 +228,7 @@ def _trench_limit(has: Features) -> Callable[..., Any]:
 
 
 def _softened(has: Features) -> Callable[..., Any]:
-    """Make the function that moves a node with a breakout on, and gives what is left of its spring and limit."""
+    """Return a function that updates a node with a breakout, and returns the remaining spring and limit."""
     flat, embeds = has.flat, has.embeds
     dot = vectors.PLANES[2 if has.flat else 3].dot
 
@@ -246,7 +246,7 @@ def _softened(has: Features) -> Callable[..., Any]:
 
 
 def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
-    """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
+    """Return the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
     friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
     turns, moves = has.turns, has.velocities
     flat, elliptic, trench, breakout, damps = has.flat, has.elliptic, has.trench, has.breakout, has.nodal_damping
@@ -273,7 +273,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                 past_sticks, past_sticking = sticks, sticking
             for i in range(begin, end):
                 total = 0.0
-                wanted = push = sideward = nothing
+                direction = push = sideward = nothing
                 for at in range(first[i], behind[i]):
                     e = elements[at]
                     total += force[step, e] * half[e]
@@ -304,21 +304,21 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             unit = read(tangent, step, np.uint64(e) & ring)
                             if math.isnan(unit[0]):
                                 unit = in_plane(direction_of(points, step, ends[e, col.FIRST], ends[e, col.SECOND]))
-                            wanted = blend(wanted, unit, 1.0, senses[at] if turns else 1.0)
-                        along, able = project(wanted, n)
-                        if not able:
+                            direction = blend(direction, unit, 1.0, senses[at] if turns else 1.0)
+                        along, exists = project(direction, n)
+                        if not exists:
                             along = default(n)
                         if friction and turned and not math.isnan(table[i, col.COSINE]):
                             along = turn(table[i, col.COSINE], table[i, col.SINE], n)
                         across = cross(along, n)
                     if friction:
-                        one: Index = np.int64(index[i, col.ACTIVE]) - 1
-                        other = one
+                        state_1: Index = np.int64(index[i, col.ACTIVE]) - 1
+                        state_2 = state_1
                         if slides_here:
                             p = point_of(points, step, i)
                             held = past_sticking[0, i] > 0
                             stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
-                            # no branch: which nodes are held cannot be guessed
+                            # no branch: its prediction would often fail
                             stick = (
                                 stick[0] if held else p[0],
                                 stick[1] if held else p[1],
@@ -342,7 +342,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                                 t2 = k2 * e2
                             curved = elliptic and index[i, col.ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
-                            if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
+                            if trench and (slip_2 or (curved and slip_1)):  # sticking without a trench: sticking in it
                                 l2 = l2 + walls(i, total, p, across, t2 > 0.0, (trenches, laid))
                                 f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             m1 = m2 = 0.0
@@ -354,14 +354,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             else:
                                 stick = (stick[0] + moved[0], stick[1] + moved[1], stick[2] + moved[2])
                             sticks[0, i], sticks[1, i], sticks[2, i] = stick
-                            f1, f2, one, other = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
+                            f1, f2, state_1, state_2 = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
                         else:
                             sticks[0, i] = sticks[1, i] = sticks[2, i] = np.nan
                             if breakout and index[i, col.BREAKS_OUT] != NOTHING:
                                 moved_so_far[:3, index[i, col.BREAKS_OUT]] = np.nan
                                 moved_so_far[3:, index[i, col.BREAKS_OUT]] = 0.0
-                        sticking[0, i], sticking[1, i] = one, other
-                        slipping[step, i, 0], slipping[step, i, 1] = one, other
+                        sticking[0, i], sticking[1, i] = state_1, state_2
+                        slipping[step, i, 0], slipping[step, i, 1] = state_1, state_2
                         sideward = blend(along, across, f1, f2)
                     if lateral:
                         sideward, f1, f2 = added(sideward, push), f1 + dot(along, push), f2 + dot(across, push)
@@ -377,11 +377,11 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
 
 
 def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
-    """Make the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
+    """Return the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
 
-    Behind the ranges it takes tables of elements and of nodes, positions, velocities, the line as laid, what elements
-    leave for nodes, the results, and the states before and behind. What elements leave is in the row e & ring of
-    `work`, so that it need not hold all elements.
+    After the ranges it takes tables of elements and of nodes, positions, velocities, the line as laid, element values
+    for the nodes, the results, and the states before and after. The values of element e are in the row e & ring of
+    `work`, so that `work` need not hold all elements.
     """
     elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
 

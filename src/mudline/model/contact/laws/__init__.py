@@ -1,12 +1,12 @@
-"""The contact laws: in each module a kind of them, with parameters, equation, tangents, state and source.
+"""The contact laws: each module has one kind of law, with parameters, equation, tangents, state and source.
 
-A law is known by its name and imported when an input has it. `register` adds one: a normal law of a module of your own
-is evaluated, stepped, planned and differentiated like the others, with numpy and with compiled loops.
+A law is found by its name and imported when an input has it. `register` adds a normal law from your own module: it is
+evaluated, stepped, planned and differentiated like the others, with numpy and with compiled loops.
 
 The functions of a law are expressions: they take floats (in compiled loops) and arrays (in numpy) alike and give the
-same bits for both, as long as they use `+ - * /`, comparisons, `&`, `|`, `np.maximum`, `np.minimum`, `np.abs`,
+same bits for both, as long as they use only `+ - * /`, comparisons, `&`, `|`, `np.maximum`, `np.minimum`, `np.abs`,
 `np.sqrt`, `np.nextafter`, `np.float_power` (not `**`, which numpy computes with code of its own) and `where` (not
-`np.where`); a loop may end where `every` number would stay as it is.
+`np.where`). A loop may end when `every` number would stay unchanged.
 """
 
 from __future__ import annotations
@@ -24,26 +24,26 @@ from mudline.basics.short_repr import short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 
 Value = Any
-"""A float or an array of floats: what expressions take and give."""
+"""A float or an array of floats, as arguments and results of expressions."""
 Reaction = Callable[..., tuple[Value, Value]]
 
 
-def where(condition: Value, one: Value, other: Value) -> Value:
-    """Return `one` where the condition holds, else `other`; for numbers and for arrays."""
-    return np.where(condition, one, other)
+def where(condition: Value, value: Value, otherwise: Value) -> Value:
+    """Return `value` where the condition holds, else `otherwise`; for numbers and for arrays."""
+    return np.where(condition, value, otherwise)
 
 
 def every(condition: Value) -> bool:
-    """Return whether a condition holds, for all of an array."""
+    """Return True if a condition holds, for all elements of an array."""
     return bool(np.all(condition))
 
 
 class Reached(NamedTuple):
-    """What the rows (k,) of a law beside the normal ones come to, for its largest stiffness and damping.
+    """Extreme conditions of the rows (k,) of a law that is no normal law, for its largest stiffness and damping.
 
     Attributes:
         virgin: of elements: the steepest stiffness of their normal laws.
-        speed: of elements: pull-out velocities (..., k) >= 0; None for any.
+        speed: of elements: pull-out velocities (..., k) >= 0; None for any velocity.
         normal_force: of nodes: the largest normal force, NaN where unknown.
         lateral: of nodes: the coefficient of their lateral friction.
         walls: whether trenches add to the limits of friction.
@@ -63,13 +63,13 @@ class Reached(NamedTuple):
 
 
 class Moving(NamedTuple):
-    """How the rows (k,) of a law beside the normal ones move in a step, for its damping there.
+    """Motion of the rows (k,) of a law in a step, for its damping there.
 
     Attributes:
         z: penetration.
         v: pull-out velocity.
-        uplift: height above where the reaction of the seabed vanishes.
-        before, after: what suction remembers.
+        uplift: height above the point where the reaction of the seabed vanishes.
+        before, after: histories of suction.
     """
 
     z: FloatArray
@@ -85,12 +85,12 @@ class Parameter(NamedTuple):
     Attributes:
         name: its name in `LawAssignment.parameters`.
         unit: powers of force F, length L and time T; 1 for none.
-        meaning: what it is.
+        meaning: description.
         low: least value.
-        above: whether the least value itself is not allowed.
-        high: largest value, which is allowed when finite.
-        default: value where none is given; None where one has to be given.
-        optional: whether NaN stands for "none".
+        above: whether the least value itself is excluded.
+        high: largest value, included if finite.
+        default: value of a missing parameter; None if it is mandatory.
+        optional: whether NaN is allowed and means "none".
     """
 
     name: str
@@ -114,12 +114,12 @@ class Parameter(NamedTuple):
         return f"{least} and {'<' if float(most) > self.high else '<='} {most}"
 
     def invalid(self, values: FloatArray) -> BoolArray:
-        """Return which values (k,) are not allowed."""
+        """Return which values (k,) are out of range."""
         with np.errstate(invalid="ignore"):
             allowed = np.isfinite(values) & (values <= self.high)
             allowed &= (values > self.low) if self.above else (values >= self.low)
-        found: BoolArray = ~allowed
-        return found & ~np.isnan(values) if self.optional else found
+        invalid: BoolArray = ~allowed
+        return invalid & ~np.isnan(values) if self.optional else invalid
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -127,25 +127,25 @@ class Law:
     """A contact law.
 
     Attributes:
-        name: how assignments, plans and tables call it.
-        summary: what it is, in a few words.
+        name: name in assignments, plans and tables.
+        summary: description in a few words.
         stage: the stage of the plan that evaluates it.
         acts_on: whether its rows are elements or nodes.
-        parameters: what each row needs.
+        parameters: parameters of each row.
         needs_diameter: whether an element needs an external diameter.
-        velocities: whether a step asks for velocities along the normals.
-        history: whether a step's result depends on the steps before it.
-        tables: whether it takes tables besides numbers; `parameters` then has the index of one.
-        check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
-        state: field of `ContactState` that has what its rows remember, where it remembers something.
-        initial: (number of rows, parameters by name) to that before the first step.
+        velocities: whether a step needs velocities along the normals.
+        history: whether the result of a step depends on earlier steps.
+        tables: whether it uses curves or tables; a parameter is then the index of one.
+        check: (parameters by name) to the rows whose parameters contradict each other, and the fault in words.
+        state: field of `ContactState` with its history; "" without.
+        initial: (number of rows, parameters by name) to the history before the first step.
         damping: (`Moving`, parameters by name) to minus d force / d pull-out velocity of each row, for tangents.
-        plan: what the plan says behind the number of rows, or a function of the parameters by name to all that it
-            says; "with" and the summary where it is empty, nothing for None.
+        plan: text of the plan after the number of rows, or a function of the parameters by name to the whole text. ""
+            means "with" and the summary, None no text.
         largest: (`Reached`, parameters by name) to the largest stiffness and the largest damping of each row, for laws
-            beside the normal ones; None stands for no damping.
-        equation: in one line.
-        source: where the equation is published.
+            other than normal laws; None for no damping.
+        equation: equation in one line.
+        source: publication of the equation.
     """
 
     name: str
@@ -169,7 +169,7 @@ class Law:
     __repr__ = short_repr
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
-        """Pickle a law of this package by its name, as some of its functions have none."""
+        """Pickle a law of this package by its name, as some of its functions cannot be pickled."""
         return (law_named, (self.name,)) if self.name in BUILT_IN else object.__reduce_ex__(self, protocol)
 
 
@@ -179,7 +179,7 @@ def _no_equation(*_: Value) -> Any:  # noqa: ANN401 - in place of any equation
 
 
 def _never(*parameters: Value) -> Value:
-    """Contact begins at the mudline."""
+    """Return 0: contact begins at the mudline."""
     return 0.0 * parameters[0]
 
 
@@ -188,9 +188,9 @@ class NormalLaw(Law):
     """A law of the reaction along the normal of the seabed, without history.
 
     Attributes:
-        reaction: (penetration z, diameter D, *parameters) to force and stiffness d force / d z: per unit length for a
-            law of elements, of the node for a law of nodes. It is asked for z of any size and sign, and counts where
-            z > onset. Not for a law with tables.
+        reaction: (penetration z, diameter D, *parameters) to force and stiffness d force / d z, per unit length for a
+            law of elements, of the node for a law of nodes. It is called with z of any size and sign, and used where z
+            > onset. Not for a law with tables.
         steepest: (z, D, *parameters) to the largest stiffness between the onset and z; z may be infinite.
         onset: (*parameters) to the penetration at which contact begins.
     """
@@ -205,17 +205,18 @@ class NormalLaw(Law):
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class PathLaw(NormalLaw):
-    """A normal law whose force depends on the path of an element; `reaction` and `steepest` are those of its first way.
+    """A normal law whose force depends on the path of an element.
 
-    An element remembers some numbers; the last of them is an event of its present way, which is sought only when a step
-    may come to it. A step to z = max(depth, 0) is `begin`, `locate` where `pending` says so, and `advance`.
+    `reaction` and `steepest` are those of the first loading. An element has a memory of some numbers. The last of them
+    is an event of its present branch, computed only when a step may reach it. A step to z = max(depth, 0) is `begin`,
+    `locate` if `pending` requires it, and `advance`.
 
     Attributes:
-        start: what an element remembers that never touched the seabed.
-        begin: (z, memory) to the memory with a reversal, where going to z is one.
-        pending: (z, memory) to which event has to be known, from 1 on, 0 for none.
-        locate: of each event (D, memory, parameters) to where it is.
-        advance: (z, D, memory, parameters) to force, stiffness d force / d z on going on in this direction, and memory.
+        start: memory of an element that never touched the seabed.
+        begin: (z, memory) to the memory, with a reversal if going to z is one.
+        pending: (z, memory) to the number of the event that must be known, from 1 on, 0 for none.
+        locate: for each event (D, memory, parameters) to its z.
+        advance: (z, D, memory, parameters) to force, stiffness d force / d z of continued motion, and memory.
     """
 
     start: tuple[float, ...]
@@ -234,7 +235,7 @@ class PathLaw(NormalLaw):
         parameters: tuple[FloatArray, ...],
         out: tuple[FloatArray, FloatArray],
     ) -> None:
-        """Write force and stiffness (steps, k) at depths of elements, and what they remember behind, `held` (k, c)."""
+        """Write force and stiffness (steps, k) at depths of elements; update the memory `held` (k, c) in place."""
         count = len(self.start)
         memory = tuple(held[:, :count].T)
         for deep, force, stiffness in zip(depth, *out, strict=True):
@@ -244,9 +245,9 @@ class PathLaw(NormalLaw):
             if pending.any():
                 event = memory[-1].copy()
                 for kind, locate in enumerate(self.locate, 1):
-                    (wanted,) = (pending == kind).nonzero()
-                    here = tuple(values[wanted] for values in memory), tuple(values[wanted] for values in parameters)
-                    event[wanted] = locate(diameter[wanted], *here)
+                    (rows,) = (pending == kind).nonzero()
+                    here = tuple(values[rows] for values in memory), tuple(values[rows] for values in parameters)
+                    event[rows] = locate(diameter[rows], *here)
                 memory = (*memory[:-1], event)
             force[...], stiffness[...], memory = self.advance(z, diameter, memory, parameters)
         held[:, :count] = np.stack(memory, axis=1)
@@ -272,7 +273,7 @@ _LAWS: dict[str, str | Law] = {
     "nodal damping": "linear:NODAL_DAMPING",
     "trench level": "trench:TRENCH_LEVEL",
 }
-"""Module and name of each law, or the law itself once it was asked for."""
+"""Module and name of each law, or the law itself after its first use."""
 MODULES = tuple(dict.fromkeys(str(place).partition(":")[0] for place in _LAWS.values()))
 """Modules of the laws of this package."""
 BUILT_IN = tuple(_LAWS)
@@ -281,7 +282,7 @@ BUILT_IN = tuple(_LAWS)
 
 @cache
 def law_module(name: str) -> ModuleType:
-    """Return a module of this package; sooner than an import in a function, and it waits as that does."""
+    """Return a module of this package, imported at the first call; a cached call is faster than an import statement."""
     return import_module(f"{__name__}.{name}")
 
 
@@ -294,20 +295,20 @@ def law_named(name: str) -> Law:
     """Return the law of this name.
 
     Raises:
-        ValueError: there is no such law.
+        ValueError: the law does not exist.
     """
-    found = _LAWS.get(name)
-    if found is None:
+    entry = _LAWS.get(name)
+    if entry is None:
         raise ValueError(f"unknown contact law {name!r}; known are {', '.join(_LAWS)}")
-    if isinstance(found, str):
-        module, _, attribute = found.partition(":")
+    if isinstance(entry, str):
+        module, _, attribute = entry.partition(":")
         law: Law = getattr(import_module(f"{__name__}.{module}"), attribute)
-        _LAWS[name] = found = law
-    return found
+        _LAWS[name] = entry = law
+    return entry
 
 
 def is_normal(name: str) -> bool:
-    """Whether the law of a name is one of the reaction along the normal."""
+    """Return True if the law of a name is a normal law."""
     return isinstance(law_named(name), NormalLaw)
 
 
@@ -315,7 +316,7 @@ def register(law: Law) -> NormalLaw:
     """Add a normal law of elements or nodes, and return it.
 
     Raises:
-        TypeError: it is not a normal law without history, or has no reaction or steepest stiffness.
+        TypeError: the law is not a normal law without history, or has no reaction or steepest stiffness.
         ValueError: another law has its name.
     """
     if not isinstance(law, NormalLaw) or law.history or law.tables or _no_equation in {law.reaction, law.steepest}:

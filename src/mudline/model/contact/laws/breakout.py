@@ -1,14 +1,14 @@
-"""Lateral resistance with a breakout that is had once: `LATERAL=PEAK-RESIDUAL` and `F114` of `*SEABED FRICTION`.
+"""Lateral resistance with a single breakout: `LATERAL=PEAK-RESIDUAL` and `F114` of `*SEABED FRICTION`.
 
-It scales the lateral limit mu_2 N of friction. s is the largest distance so far, in either sense, along u2 from the
-place of first contact, and d the displacement of the peak:
+The law scales the lateral limit mu_2 N of friction. s is the largest distance so far, in either direction, along u2
+from the place of first contact, and d the displacement of the peak:
 
-    share = 1 up to d, falls linearly to r at the displacement of the residual, r from then on.
+    share = 1 up to d, falls linearly to r at the displacement of the residual, r beyond.
 
-Up to d the node does not slip: the spring mu_2 N / d reaches the limit there. It is the spring of unloading too. s
+Up to d the node does not slip: the spring mu_2 N / d reaches the limit there. It is also the spring of unloading. s
 never falls; a node that loses its normal force starts again. d and r may grow with the embedment w = z/D of the node,
 the largest before s passed d, at the given positions: d = d_0 + d_1 w, r = min(1, r_0 + r_1 w^0.8). Beyond w = 1 they
-are those of 1 (inferred).
+have their values at 1 (inferred).
 """
 
 from __future__ import annotations
@@ -23,18 +23,18 @@ Numbers = tuple[Value, ...]
 F114_RESIDUAL = (0.32, 0.8)
 """Residual resistance over N, and its growth with (z/D)^0.8."""
 F114_DISPLACEMENTS = (0.02, 0.25, 1.5)
-"""Best estimates over D: of breakout, its growth with z/D, and of the residual."""
+"""Best estimates over D: breakout displacement, its growth with z/D, and residual displacement."""
 
 
 def reached(before: Numbers, distance: Value, embedment: Value, law: Numbers) -> Numbers:
-    """Return s and w behind a step to a distance, at an embedment; both `before` it, 0 at first contact."""
+    """Return s and w after a step to a distance, at an embedment; `before` has them before, 0 at first contact."""
     far, deep = before
     grows = (far <= law[0] + law[1] * deep) & (embedment > deep)
     return np.maximum(far, np.abs(distance)), where(grows, np.minimum(embedment, 1.0), deep)
 
 
 def shares(far: Value, deep: Value, law: Numbers) -> tuple[Value, Value, Value]:
-    """Return what is left of the limit, its fall with s, and the spring over that of w = 0."""
+    """Return the remaining share of the limit, its decrease per s, and the spring over the spring at w = 0."""
     peak = law[0] + law[1] * deep
     fall = np.maximum(1.0 - (law[2] + law[3] * np.float_power(deep, 0.8)), 0.0)
     span = law[4] - peak
@@ -42,20 +42,20 @@ def shares(far: Value, deep: Value, law: Numbers) -> tuple[Value, Value, Value]:
     return 1.0 - fall * into, where((into > 0.0) & (into < 1.0), fall / span, 0.0), law[0] / peak
 
 
-def _out_of_order(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
-    peak = given["peak_displacement"] + given["peak_growth"]
-    return given["residual_displacement"] <= peak, "its residual is reached no later than its peak"
+def _out_of_order(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    peak = parameters["peak_displacement"] + parameters["peak_growth"]
+    return parameters["residual_displacement"] <= peak, "its residual is reached no later than its peak"
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
-    """The fall of the lateral resistance behind its peak, as an amount; that of a large embedment is less steep."""
-    fall = reached.lateral * reached.normal_force * np.maximum(1.0 - given["residual"], 0.0)
-    return fall / (given["residual_displacement"] - given["peak_displacement"]), None
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """Return the decrease of the lateral resistance after its peak, as an amount; it is smaller at large embedment."""
+    fall = reached.lateral * reached.normal_force * np.maximum(1.0 - parameters["residual"], 0.0)
+    return fall / (parameters["residual_displacement"] - parameters["peak_displacement"]), None
 
 
 BREAKOUT = Law(
     name="breakout",
-    summary="a lateral breakout that is had once, and a residual",
+    summary="a single lateral breakout, then a residual",
     stage="friction",
     acts_on="nodes",
     parameters=(
@@ -69,7 +69,7 @@ BREAKOUT = Law(
     state="breakout",
     initial=lambda count, _: np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1),
     check=_out_of_order,
-    plan="with a lateral breakout that is had once, and a residual, where mu2 and Kt2 have no effect",
+    plan="with a single lateral breakout, then a residual, where mu2 and Kt2 have no effect",
     largest=_largest,
     equation="limit = mu2 N up to s = d, falling to r mu2 N; s the largest displacement so far",
     source="DNV-RP-F114, residual factor and best estimates of displacements, read at second hand",

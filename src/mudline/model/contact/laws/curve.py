@@ -2,7 +2,7 @@
 
     F = F_i + s_i (z / D - r_i),  dF/dz = s_i / D
 
-in the segment i that holds z / D; see `mudline.model.curves`. Where a curve pulls (F < 0) it is kept, or cut to 0.
+in the segment i that contains z / D; see `mudline.model.curves`. A negative force is kept, or cut to 0.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
 
 
 def on_segment(ratio: Value, start: Value, force: Value, slope: Value) -> Value:
-    """Return the force at a ratio of the segment that begins at `start` with this force and slope."""
+    """Return the force at a ratio of the segment with this start, force and slope."""
     return force + slope * (ratio - start)
 
 
 def steepest_slopes(curve: ForceCurve) -> FloatArray:
     """Return for each segment (n - 1,) the steepest slope between the mudline and its end."""
     first = int(curve.segment(np.zeros(1))[0])
-    found: FloatArray = np.concatenate(
+    slopes: FloatArray = np.concatenate(
         [np.full(first, curve.slopes[first]), np.maximum.accumulate(curve.slopes[first:])]
     )
-    return found
+    return slopes
 
 
 def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
     """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
 
-    At a point of the curve the segment to its right does not count yet; an infinite ratio asks for the whole curve.
+    At a point of the curve the segment to its right is not included; an infinite ratio includes the whole curve.
     """
     return steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
 

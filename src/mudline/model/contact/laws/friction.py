@@ -1,19 +1,20 @@
-"""Friction of nodes on the seabed: two directions, each a spring to the stick point, up to its Coulomb limit.
+"""Friction of nodes on the seabed: two directions, each with a spring to the stick point, up to its Coulomb limit.
 
-`*SEABED FRICTION`, and `FRICTION=` of `*SEABED PROPERTIES`. u1 runs along the line in the plane of the seabed and
-u2 = n x u1. With the elongations e_i from the stick point, the normal force N and the springs K_i (constant, or
-mu_i N / mobilisation length):
+`*SEABED FRICTION`, and `FRICTION=` of `*SEABED PROPERTIES`. u1 runs along the line in the plane of the seabed and u2 =
+n x u1. With the elongations e_i from the stick point, the normal force N and the springs K_i (constant, or mu_i N /
+mobilisation length):
 
-* BOX:      |f_i| <= mu_i N, each direction for itself;
-* ELLIPSE:  (f_1 / (mu_1 N))^2 + (f_2 / (mu_2 N))^2 <= 1; a trial outside is drawn back along its own direction. As
-  mu_2 goes to 0 the ellipse shrinks onto the u1 axis: with mu_2 = 0 exactly f_2 is 0 and u1 keeps its own limit, as in
-  the box, while for any mu_2 > 0 a trial with f_2 beyond its small limit lowers f_1 too.
+* BOX:      |f_i| <= mu_i N, independently for each direction;
+* ELLIPSE:  (f_1 / (mu_1 N))^2 + (f_2 / (mu_2 N))^2 <= 1; a trial force outside is scaled back along its own direction.
+  As mu_2 goes to 0 the ellipse shrinks onto the u1 axis. With mu_2 = 0 exactly f_2 is 0 and u1 keeps its own limit, as
+  in the box. For any mu_2 > 0 a trial with f_2 beyond its small limit lowers f_1 too.
 
-The scheme is the return mapping of elastic-plastic models: a trial force, brought back to its limit; the stick point of
-what slips is moved until the spring bears the limit. A node without normal force has no stick point. Stick points are
-points in space, resolved on the present u1 and u2: as long as a node sticks, the force depends on where it is and on
-the directions, not on how it came there. No closed loop gives work where K_1 = K_2 or where the directions stay as they
-are. Where they turn with the line and K_1 differs from K_2, turning them at an elongation g stores or releases up to
+The scheme is the return mapping of elastic-plastic models: a trial force is brought back to its limit, and the stick
+point of a slipping node is moved until the spring carries the limit. A node without normal force has no stick point.
+
+Stick points are points in space, resolved on the present u1 and u2. As long as a node sticks, the force depends on its
+position and on the directions, not on its path. No closed loop gives work where K_1 = K_2 or where the directions stay
+fixed. Where they turn with the line and K_1 differs from K_2, turning them at an elongation g stores or releases up to
 (K_1 - K_2) g^2 / 2, like a spring whose stiffness is changed under load.
 """
 
@@ -34,29 +35,29 @@ _FAR, _DROP = 2.0**-1000, 2.0**-550
 
 
 class FrictionState(IntEnum):
-    """What a direction of a node does."""
+    """State of a node in one direction."""
 
     NONE = -1
-    """There is no friction law."""
+    """No friction law."""
     OPEN = 0
     """No normal force, no stick point."""
     STICK = 1
     """Held by a spring to the stick point."""
     SLIP = 2
-    """At the limit; the stick point moves along."""
+    """At the limit; the stick point moves with the node."""
 
 
 def in_box(trial: Value, limit: Value) -> tuple[Value, Value]:
-    """Return the force of one direction in its spring, and whether it slips."""
+    """Return the force of one direction in its spring, and whether the direction slips."""
     force = np.maximum(np.minimum(trial, limit), 0.0 - limit)
     return force, force != trial
 
 
-def norm(one: Value, other: Value) -> Value:
-    """Return sqrt(one^2 + other^2) without squares that under- or overflow."""
-    one, other = np.abs(one), np.abs(other)
-    larger = np.maximum(one, other)
-    ratio = np.minimum(one, other) / np.maximum(larger, _TINY)
+def norm(a: Value, b: Value) -> Value:
+    """Return sqrt(a^2 + b^2) without squares that under- or overflow."""
+    a, b = np.abs(a), np.abs(b)
+    larger = np.maximum(a, b)
+    ratio = np.minimum(a, b) / np.maximum(larger, _TINY)
     return larger * np.sqrt(1.0 + ratio * ratio)
 
 
@@ -67,7 +68,7 @@ def on_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -
     drop = where(far, _DROP, 1.0)
     dropped_1, dropped_2 = trial_1 * drop, trial_2 * drop
     size = norm(dropped_1 / (limit_1 / drop), dropped_2 / (limit_2 / drop))
-    # a limit too large for a float64 makes NaN, which is refused: its part in the norm would be lost
+    # a limit too large for a float64 must give NaN, which is refused: its term in the norm would vanish
     share = 1.0 / np.maximum(size, 1.0) + (0.0 * limit_1 + 0.0 * limit_2)
     force_1 = where(far, dropped_1 / size * drop, trial_1 * share)
     force_2 = where(far, dropped_2 / size * drop, trial_2 * share)
@@ -76,16 +77,16 @@ def on_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -
 
 def in_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -> tuple[Value, Value, Value, Value]:
     """Return the forces of both directions in their springs, and whether each slips."""
-    able_1, able_2 = limit_1 > 0.0, limit_2 > 0.0
-    held_1, held_2 = where(able_1, trial_1, 0.0), where(able_2, trial_2, 0.0)
-    force_1, force_2, slips = on_ellipse(held_1, held_2, where(able_1, limit_1, 1.0), where(able_2, limit_2, 1.0))
+    limited_1, limited_2 = limit_1 > 0.0, limit_2 > 0.0
+    held_1, held_2 = where(limited_1, trial_1, 0.0), where(limited_2, trial_2, 0.0)
+    force_1, force_2, slips = on_ellipse(held_1, held_2, where(limited_1, limit_1, 1.0), where(limited_2, limit_2, 1.0))
     # a direction without a limit holds nothing
-    lost_1, lost_2 = np.logical_not(able_1) & (trial_1 != 0.0), np.logical_not(able_2) & (trial_2 != 0.0)
-    return force_1, force_2, slips | lost_1, slips | lost_2
+    free_1, free_2 = np.logical_not(limited_1) & (trial_1 != 0.0), np.logical_not(limited_2) & (trial_2 != 0.0)
+    return force_1, force_2, slips | free_1, slips | free_2
 
 
 def slip_distance(slips: Value, elongation: Value, force: Value, stiffness: Value) -> Value:
-    """Return how far the stick point moves: until the spring bears its force."""
+    """Return the displacement of the stick point after which the spring carries its force."""
     return where(slips, elongation - force / np.maximum(stiffness, _TINY), 0.0)
 
 
@@ -95,11 +96,12 @@ class FrictionLaw:
 
     Attributes:
         coefficients: (n, 2) Coulomb coefficients mu, >= 0; the limit is mu N.
-        stiffness: (n, 2) constant spring Kt, force per length, > 0; NaN where the mobilisation length holds.
-        mobilisation: (n, 2) mobilisation lengths, > 0: the spring is mu N / length; not looked at beside a stiffness.
-        ellipse: (n,) whether one elliptic criterion holds for both directions instead of one for each.
+        stiffness: (n, 2) constant spring Kt, force per length, > 0; NaN to use the mobilisation length.
+        mobilisation: (n, 2) mobilisation lengths, > 0: the spring is mu N / length; ignored where a stiffness is given.
+        ellipse: (n,) whether an elliptic criterion holds for both directions together instead of one for each.
         active: (n,) nodes that have a law.
-        turned: nodes (k,) whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
+        turned: (k,) nodes whose u1 is at an angle to +Y.
+        cosine, sine: (k,) cosine and sine of the angle.
     """
 
     coefficients: FloatArray
@@ -113,20 +115,20 @@ class FrictionLaw:
 
     @property
     def constant(self) -> BoolArray:
-        """Where (n, 2) the spring is constant."""
+        """Directions (n, 2) whose spring is constant."""
         return ~np.isnan(self.stiffness)
 
     @property
     def fixed(self) -> FloatArray:
-        """Stiffness (n, 2) of the springs that are constant, else 0."""
+        """Stiffness (n, 2) of the constant springs, else 0."""
         return np.where(self.constant, self.stiffness, 0.0)
 
     @property
     def rising(self) -> FloatArray:
-        """Stiffness (n, 2) of the springs for each unit of the normal force; 0 where they are constant."""
+        """Stiffness (n, 2) of the springs per unit of normal force; 0 where they are constant."""
         with np.errstate(all="ignore"):
-            found: FloatArray = np.where(self.constant, 0.0, self.coefficients / self.mobilisation)
-        return found
+            rate: FloatArray = np.where(self.constant, 0.0, self.coefficients / self.mobilisation)
+        return rate
 
     def springs(self, normal_force: FloatArray) -> FloatArray:
         """Return the stiffness (n, 2) of the springs under normal forces (n,) >= 0."""
@@ -135,10 +137,10 @@ class FrictionLaw:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class FrictionHistory:
-    """What friction remembers. It is never changed: a step gives a new one.
+    """History of friction. It is never changed: a step returns a new history.
 
     Attributes:
-        stick_points: (n, 3) points that the springs pull to; NaN for nodes that are open.
+        stick_points: (n, 3) points that the springs pull to; NaN for nodes out of contact.
         states: (n, 2) values of `FrictionState`.
     """
 
@@ -149,20 +151,21 @@ class FrictionHistory:
 
     @classmethod
     def initial(cls, active: BoolArray) -> FrictionHistory:
-        """Return the history of nodes (n,) that never touched the seabed; `active` ones have friction."""
+        """Return the history of nodes (n,) that never touched the seabed; `active` marks nodes with friction."""
         states = np.where(active, FrictionState.OPEN, FrictionState.NONE).astype(np.int8)
         return cls(np.full((3, len(active)), np.nan).T, np.stack([states, states]).T)
 
 
 class ExtraLimit(NamedTuple):
-    """What trenches add to the lateral limit of nodes (n,), against outward motion, and a breakout takes away.
+    """Changes of the lateral limit of nodes (n,) by trenches, against outward motion, and by a breakout (negative).
 
-    force: added force.
-    by_offset: its derivative by an offset.
-    by_normal_force: its derivative by N.
-    outward: +1 where motion along +u2 leads out of the trench, -1 where that along -u2 does, 0 for neither.
-    gradient: (n, 3) of the offset by the node's position with u2 held, for tangents.
-    by_angle: derivative of the offset by a turn of u1 and u2 about the normal, for tangents.
+    Attributes:
+        force: added limit.
+        by_offset: its derivative by an offset.
+        by_normal_force: its derivative by N.
+        outward: +1 if motion along +u2 leads out of the trench, -1 if motion along -u2 does, 0 for neither.
+        gradient: (n, 3) of the offset by the node's position with u2 held, for tangents.
+        by_angle: derivative of the offset by a turn of u1 and u2 about the normal, for tangents.
     """
 
     force: FloatArray
@@ -174,7 +177,7 @@ class ExtraLimit(NamedTuple):
 
     @classmethod
     def none(cls, nodes: int) -> Self:
-        """Return that of nodes without any."""
+        """Return no change of the limits of nodes."""
         force, offset, normal, outward, angle = np.zeros((5, nodes))
         return cls(force, offset, normal, outward, np.zeros((nodes, 3)), angle)
 
@@ -182,14 +185,15 @@ class ExtraLimit(NamedTuple):
 class FrictionForce(NamedTuple):
     """Friction on the pipe at nodes (n,), along u1 and u2.
 
-    force: (n, 2) force on the pipe.
-    by_position: (n, 2, 2) d force[i] / d (elongation along u_j), at one normal force and limit.
-    by_offset: (n, 2) d force[i] / d (offset from the centreline of a trench).
-    by_compression: (n, 2) d force[i] / d N.
-    elongation: (n, 2) displacement from the stick point before the step, along u1 and u2.
-    trial: (n, 2) forces in the springs before they are brought back to their limits.
-    dissipated: (n,) work done against slipping in this step, >= 0.
-    history: what the next step begins with.
+    Attributes:
+        force: (n, 2) force on the pipe.
+        by_position: (n, 2, 2) d force[i] / d (elongation along u_j), at fixed normal force and limit.
+        by_offset: (n, 2) d force[i] / d (offset from the centreline of a trench).
+        by_compression: (n, 2) d force[i] / d N.
+        elongation: (n, 2) displacement from the stick point before the step, along u1 and u2.
+        trial: (n, 2) forces in the springs before they are brought back to their limits.
+        dissipated: (n,) work done against slipping in this step, >= 0.
+        history: history for the next step.
     """
 
     force: FloatArray
@@ -210,10 +214,10 @@ def slide(
     compression: FloatArray,
     extra: ExtraLimit | None = None,
 ) -> FrictionForce:
-    """Move nodes to `points` (n, 3) under normal forces `compression` (n,); one step with its derivatives.
+    """Return friction, with derivatives, of a step of nodes to `points` (n, 3) under normal forces `compression` (n,).
 
-    `directions` are u1 and u2, each (n, 3). A node without normal force is open and forgets its stick point; one that
-    is in contact again gets a new one where it stands. The drivers do the same without derivatives.
+    `directions` are u1 and u2, each (n, 3). A node without normal force is open and loses its stick point; a node in
+    contact again gets a new one at its position. The drivers do the same without derivatives.
     """
     closed = law.active & (compression > 0.0)
     before = closed & (history.states[:, 0] > FrictionState.OPEN)
@@ -239,7 +243,7 @@ def slide(
     change = _derivatives(law, _Trial(stiffness, elongation, trial, limit, slips), against, extra)
     return FrictionForce(
         np.subtract(0.0, held),
-        np.where(before[:, None, None], 0.0 - change[0], 0.0),  # where it touches down there is no force
+        np.where(before[:, None, None], 0.0 - change[0], 0.0),  # at touchdown there is no force yet
         np.where(closed[:, None], 0.0 - change[1], 0.0),
         np.where(closed[:, None], 0.0 - change[2], 0.0),
         elongation,
@@ -250,7 +254,7 @@ def slide(
 
 
 class _Trial(NamedTuple):
-    """Springs (n, 2), their elongations and trial forces, the limits, and what slips."""
+    """Springs (n, 2), their elongations and trial forces, the limits, and whether they slip."""
 
     stiffness: FloatArray
     elongation: FloatArray
@@ -267,7 +271,7 @@ _Change = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def _derivatives(law: FrictionLaw, step: _Trial, against: BoolArray, extra: ExtraLimit | None) -> _Change:
-    """A spring that sticks has its stiffness, one that slips follows its limit, which follows the normal force."""
+    """Return derivatives of the forces: by the spring's stiffness while sticking, by the limit while slipping."""
     rising = law.rising * step.elongation
     limit_by_normal, limit_by_offset = law.coefficients.copy(), np.zeros(step.trial.shape)
     if extra is not None:
@@ -281,25 +285,25 @@ def _derivatives(law: FrictionLaw, step: _Trial, against: BoolArray, extra: Extr
     by_normal = np.where(step.slips, side * limit_by_normal, rising)
     curved = law.ellipse & law.active
     if curved.any():
-        found = _ellipse(step.rows(curved), rising[curved], limit_by_offset[curved], limit_by_normal[curved])
-        for whole, values in zip((by_position, by_offset, by_normal), found, strict=True):
+        ellipse = _ellipse(step.rows(curved), rising[curved], limit_by_offset[curved], limit_by_normal[curved])
+        for whole, values in zip((by_position, by_offset, by_normal), ellipse, strict=True):
             whole[curved] = values
     return by_position, by_offset, by_normal
 
 
 def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal: FloatArray) -> _Change:
-    """Both directions together; the scale is the norm g of trial / limit, the force trial / g."""
+    """Return the derivatives of both directions together; with g the norm of trial / limit, the force is trial / g."""
     with np.errstate(all="ignore"):
-        able = step.limit > 0.0
-        limit = np.where(able, step.limit, 1.0)
-        trial = np.where(able, step.trial, 0.0)
+        limited = step.limit > 0.0
+        limit = np.where(limited, step.limit, 1.0)
+        trial = np.where(limited, step.trial, 0.0)
         share = trial / limit
         size = norm(share[:, 0], share[:, 1])[:, None]
         scale = np.maximum(size, 1.0)
-        unit = np.where((size > 1.0) & able, share / scale, 0.0)
+        unit = np.where((size > 1.0) & limited, share / scale, 0.0)
         # relative change of g with a trial force and, falling, with a limit
         by_trial, by_limit = unit / (limit * scale), unit * unit / limit
-        stiffness, rising = np.where(able, step.stiffness, 0.0), np.where(able, rising, 0.0)
+        stiffness, rising = np.where(limited, step.stiffness, 0.0), np.where(limited, rising, 0.0)
         force = trial / scale
         growth = by_trial * stiffness
         growth_by_offset = 0.0 - (by_limit * by_offset).sum(axis=1, keepdims=True)
@@ -310,11 +314,11 @@ def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal:
         return by_position, 0.0 - force * growth_by_offset, rising / scale - force * growth_by_normal
 
 
-def _plan(given: dict[str, FloatArray]) -> str:
-    constant = ~(np.isnan(given["axial_stiffness"]) & np.isnan(given["lateral_stiffness"]))
+def _plan(parameters: dict[str, FloatArray]) -> str:
+    constant = ~(np.isnan(parameters["axial_stiffness"]) & np.isnan(parameters["lateral_stiffness"]))
     parts = []
     if constant.any():
-        ellipses = int((constant & (given["elliptic"] > 0.0)).sum())
+        ellipses = int((constant & (parameters["elliptic"] > 0.0)).sum())
         criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
         parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
     if lengths := int((~constant).sum()):
@@ -322,12 +326,12 @@ def _plan(given: dict[str, FloatArray]) -> str:
     return "; ".join(parts)
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
-    """The spring of a node that sticks, the stiffer of both directions."""
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """Return the spring of a node that sticks, the stiffer of both directions."""
     springs = []
     for side in ("axial", "lateral"):
-        coefficient, constant = given[f"{side}_coefficient"], given[f"{side}_stiffness"]
-        rising = coefficient / given[f"{side}_mobilisation"]
+        coefficient, constant = parameters[f"{side}_coefficient"], parameters[f"{side}_stiffness"]
+        rising = coefficient / parameters[f"{side}_mobilisation"]
         spring = np.where(np.isnan(constant), np.where(rising > 0.0, rising * reached.normal_force, 0.0), constant)
         # a direction without a coefficient has no limit to stick below; trench walls add one
         springs.append(spring if reached.walls else np.where(coefficient > 0.0, spring, 0.0))

@@ -1,4 +1,4 @@
-"""Laws of constant stiffness or damping: normal laws, springs against uplift and to the side, the rigid seabed.
+"""Laws of constant stiffness or damping: normal laws, springs against uplift and lateral springs, the rigid seabed.
 
 `STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
 `*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
@@ -13,21 +13,21 @@ Force and slope dF/dz are continuous for h > 0.
 
     f = -k x for 0 < x <= extent, 0 elsewhere,
 
-x the height of the element above the point where its contact begins. It has no history, and acts beside an unloading
-line: where the element is above the seabed.
+x the height of the element above the point where its contact begins. It has no history. Together with an unloading line
+it acts only where the element is above the seabed.
 
-`LATERAL=` of `*SEABED PROPERTIES` is a spring to where the element touched down (INFERRED). It acts per unit length at
-the middle of an element that is in contact, along n x t, where t is the element's direction and n the mean normal of
-the seabed at its nodes (over a break of the seabed the mean of the normals on both sides). Half of the force goes to
-each node:
+`LATERAL=` of `*SEABED PROPERTIES` is a spring to the point where the element touched down (INFERRED). It acts per unit
+length at the middle of an element in contact, along n x t, where t is the element's direction and n the mean normal of
+the seabed at its nodes (over a break of the seabed the mean of the normals on both sides). Each node takes half of the
+force:
 
     f = -k ((n x t) . (x - x_touchdown)) (n x t).
 
 `DAMPING=` of `*SEABED CONTACT` damps inward motion in contact,
 
-    f = c v_n for an inward velocity v_n > 0 of what lies below the mudline, 0 outward.
+    f = c v_n for an inward velocity v_n > 0 of points below the mudline, 0 outward.
 
-It is added to the reaction, of which friction has a share, and never pulls.
+It is added to the reaction, which friction depends on, and never pulls.
 
 `TYPE=RIGID` is a constraint on the nodes, gap >= 0, and gives no force.
 """
@@ -43,7 +43,7 @@ from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.laws import Law, Moving, NormalLaw, Parameter, Reached, Value, where
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
-"""Half widths above this are halved in the sums, which would overflow."""
+"""Half widths above this are halved in sums that would overflow."""
 _SMALL_SHARE = 2.0**-960
 _LIFT = 2.0**60
 
@@ -145,18 +145,18 @@ NODAL = NormalLaw(
 )
 
 
-def _own_stiffness(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
-    return given["stiffness"], None
+def _own_stiffness(_reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    return parameters["stiffness"], None
 
 
 def _planned(what: str) -> Callable[[dict[str, FloatArray]], str]:
-    return lambda given: f"{counted(int((given['stiffness'] > 0.0).sum()), 'element')} with a spring {what}"
+    return lambda parameters: f"{counted(int((parameters['stiffness'] > 0.0).sum()), 'element')} with a spring {what}"
 
 
 def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Value, Value]:
     """Return the force per unit length at a height `uplift` above the seabed, and its stiffness -d force / d x."""
-    held = (uplift > 0.0) & (uplift <= extent)
-    return where(held, 0.0 - stiffness * uplift, 0.0), where(held, stiffness, 0.0)
+    acts = (uplift > 0.0) & (uplift <= extent)
+    return where(acts, 0.0 - stiffness * uplift, 0.0), where(acts, stiffness, 0.0)
 
 
 SUCTION_SPRING = Law(
@@ -182,14 +182,14 @@ def lateral_force(stiffness: Value, elongation: Value) -> Value:
 
 LATERAL = Law(
     name="lateral",
-    summary="spring to where the element touched down",
+    summary="spring to the touchdown point of the element",
     stage="lateral",
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,
     state="touchdown",
     initial=lambda count, _: np.full((count, 3), np.nan, order="F"),
-    plan=_planned("to where it touched down (inferred), in place of friction"),
+    plan=_planned("to its touchdown point (inferred), in place of friction"),
     largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",
     source="LATERAL= of *SEABED PROPERTIES (INFERRED)",
@@ -197,17 +197,17 @@ LATERAL = Law(
 
 
 def damping_force(z: Value, v: Value, damping: Value) -> Value:
-    """Return the force at a depth and a pull-out velocity."""
+    """Return the force at a depth and a pull-out velocity, both arrays or numbers."""
     return where((z > 0.0) & (v < 0.0), 0.0 - damping * v, 0.0)
 
 
-def _largest_damping(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
-    damping = np.where(given["damping"] > 0.0, given["damping"], np.nan)
+def _largest_damping(_reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    damping = np.where(parameters["damping"] > 0.0, parameters["damping"], np.nan)
     return 0.0 * damping, damping
 
 
-def _at(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
-    return np.where((step.z > 0.0) & (step.v < 0.0), given["damping"], 0.0)
+def _at(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
+    return np.where((step.z > 0.0) & (step.v < 0.0), parameters["damping"], 0.0)
 
 
 def _damping(name: str, summary: str, acts_on: str, parameter: Parameter) -> Law:

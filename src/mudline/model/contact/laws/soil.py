@@ -1,17 +1,18 @@
-"""Hysteretic penetration of `*SEABED SOIL`, after Randolph and Quiggin (2009): an element follows a path.
+"""Hysteretic penetration of `*SEABED SOIL`, after Randolph and Quiggin (2009): the force follows a path.
 
 With zeta = K_max z/D and the resistances P_u(z) = N_c s_u(z) D, against uplift P_s(z) = -f_suc P_u(z), the force P per
 unit length is, without the weight of the displaced soil,
 
 * at the largest penetration so far: P_i = P_u zeta/(1 + zeta);
-* on an uplift from (z0, P0): P0 - H (P0 - P_s), H = (zeta0 - zeta)/(A + zeta0 - zeta), A = max(0, P0 - P_s)/P_u(z0),
-  not above T = P_i, or 0 once P was 0 on it and where P0 <= 0; not below E P_s, E = exp((z - z_P)/(lambda_s z_max));
+* on an uplift from (z0, P0): P0 - H (P0 - P_s), H = (zeta0 - zeta)/(A + zeta0 - zeta), A = max(0, P0 - P_s)/P_u(z0).
+  Its upper bound is T = P_i, or 0 after P fell to 0 on it and where P0 <= 0. Its lower bound is E P_s,
+  E = exp((z - z_P)/(lambda_s z_max));
 * on a re-penetration from (z0, P0): P0 + H (P_u - P0), H = (zeta - zeta0)/(A + zeta - zeta0), A = (P_u - P0)/P_u(z0),
-  P_i from z0 = 0, not above max(P0, E P_i), E = exp(-lambda_r + (z - z_P)/z_max). Beyond z_max it meets P_i at z_m,
-  and goes on as that.
+  P_i from z0 = 0. Its upper bound is max(P0, E P_i), E = exp(-lambda_r + (z - z_P)/z_max). Beyond z_max it meets P_i at
+  z_m, and continues as P_i.
 
 Both E are at most 1, and 1 before there is a z_P, the penetration at which P last fell through 0. z_P and z_m follow
-from where the uplift, or the re-penetration, began: so forces depend on the path, and not on the steps along it.
+from the point where the uplift, or the re-penetration, began: forces depend on the path, and not on the steps along it.
 
 N_c = a (z/D)^b, below z/D = 0.1 N_c(0.1) (10 z/D)^(1/2); s_u = s_u0 + gradient z. Contact begins at z = 0.
 """
@@ -25,11 +26,11 @@ import numpy as np
 from mudline.model.contact.laws import Parameter, PathLaw, Value, every, where
 
 DOWN, UP, AGAIN = 0.0, 1.0, 2.0
-"""Ways: at the largest penetration so far, on an uplift, on a re-penetration."""
+"""Branches: largest penetration so far, uplift, re-penetration."""
 Numbers = tuple[Value, ...]
 
 _TRIALS, _HALF_OCTAVES = 60, 24
-"""Steps to an event at most, and how far from z_max a meeting is sought: 12 octaves of z."""
+"""Largest number of steps to an event, and range of the search beyond z_max: 12 octaves of z."""
 _CLOSE = 1e-15
 _SHALLOW = 0.1
 _UNKNOWN = -1.0
@@ -57,14 +58,14 @@ def initial(z: Value, diameter: Value, soil: Numbers) -> tuple[Value, Value]:
 def lift(z: Value, diameter: Value, weight: Value) -> tuple[Value, Value]:
     """Return the weight of the soil displaced by the circle of the pipe below the mudline, and its slope."""
     low = np.minimum(np.maximum(z / diameter, 0.0), 1.0)
-    half = np.sqrt(low * (1.0 - low))  # of the width at the mudline, over the diameter
-    area = 0.5 * _arcsine(np.sqrt(low)) - 0.5 * (1.0 - 2.0 * low) * half
-    return weight * diameter * diameter * area, weight * diameter * 2.0 * half
+    half_width = np.sqrt(low * (1.0 - low))  # half of the width at the mudline, over the diameter
+    area = 0.5 * _arcsine(np.sqrt(low)) - 0.5 * (1.0 - 2.0 * low) * half_width
+    return weight * diameter * diameter * area, weight * diameter * 2.0 * half_width
 
 
 def _arcsine(sine: Value) -> Value:
-    """Of 0 to 1: both backends have the same bits of square roots, not of arcs."""
-    for _ in range(3):  # of half of the angle
+    """Return the arcsine of 0 to 1: both backends have equal bits of square roots, not of arcs."""
+    for _ in range(3):  # the sine of half of the angle
         sine = sine / np.sqrt(2.0 + 2.0 * np.sqrt(np.maximum(1.0 - sine * sine, 0.0)))
     square, total = sine * sine, 0.0 * sine
     for power in range(21, 0, -2):
@@ -77,31 +78,35 @@ def _exp(exponent: Value) -> Value:
 
 
 def begin(z: Value, memory: Numbers) -> Numbers:
-    """Return the memory with a reversal, where going to z is one.
+    """Return the memory, with a reversal if going to z is one.
 
-    `memory` is z and P of the step before, way, z_max, z_P, z0, P0, and the event of this way, once it is known: where
-    an uplift falls through zero (0: nowhere above the mudline), or where a re-penetration meets P_i.
+    `memory` is z and P of the step before, branch, z_max, z_P, z0, P0, and the event of this branch, if known. The
+    event of an uplift is the z where P falls through zero (0: nowhere above the mudline), that of a re-penetration the
+    z where it meets P_i.
     """
-    before, force, way, deepest, fallen, z0, p0, event = memory
-    rises, sinks = (z < before) & (way != UP), (z > before) & (way == UP)
+    before, force, branch, deepest, fallen, z0, p0, event = memory
+    rises, sinks = (z < before) & (branch != UP), (z > before) & (branch == UP)
     turns = rises | sinks
-    way = where(rises, UP, where(sinks, AGAIN, way))
+    branch = where(rises, UP, where(sinks, AGAIN, branch))
     return (
-        before, force, way, deepest, fallen,
+        before, force, branch, deepest, fallen,
         where(turns, before, z0), where(turns, force, p0), where(turns, _UNKNOWN, event),
     )  # fmt: skip
 
 
 def pending(z: Value, memory: Numbers) -> Value:
-    """Return which event of a way has to be known for going to z: 1 of an uplift, 2 of a re-penetration, 0 for none."""
-    _, _, way, deepest, _, z0, p0, event = memory
+    """Return the event of a branch to be known for going to z: 1 of an uplift, 2 of a re-penetration, 0 for none."""
+    _, _, branch, deepest, _, z0, p0, event = memory
     unknown = event == _UNKNOWN
-    falls = unknown & (way == UP) & (p0 > 0.0) & (z < z0)
-    return where(falls, 1, where(unknown & (way == AGAIN) & (z > deepest), 2, 0))
+    falls = unknown & (branch == UP) & (p0 > 0.0) & (z < z0)
+    return where(falls, 1, where(unknown & (branch == AGAIN) & (z > deepest), 2, 0))
 
 
 def fall(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
-    """Where the uplift falls through zero: P <= 0 where P_u(z) (z_a - z) >= c, of which the largest root is wanted."""
+    """Return the z where the uplift falls through zero; 0 if nowhere above the mudline.
+
+    It is the largest root of P_u(z) (z_a - z) = c, as P <= 0 where the left side is at least c.
+    """
     strength, gradient, b, pace = soil[0], soil[1], soil[3], soil[4] / diameter
     z0, p0, suction = memory[5], memory[6], np.maximum(soil[5], 1e-300)
     steep = pace * ultimate(z0, diameter, soil)[0]
@@ -123,9 +128,9 @@ def fall(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
 
 
 def _narrowed(z: Value, low: Value, high: Value, value: Value, slope: Value) -> tuple[Value, Value, Value, Value]:
-    """One step, of Newton's or a halving, to where a value falls through 0 between low and high: z, both, if it stays.
+    """Return z, low, high and whether z is final, after a Newton step or a halving towards a fall through 0.
 
-    What stays is not moved by a further step: so single numbers may stop before others do.
+    A final z is not moved by a further step: so single numbers may stop before others do.
     """
     before = value >= 0.0
     low, high = where(before, z, low), where(before, high, z)
@@ -145,7 +150,7 @@ def _peak(exponent: Value, strength: Value, gradient: Value, top: Value) -> Valu
 
 
 def _short(z: Value, diameter: Value, memory: Numbers, least: Value, soil: Numbers) -> tuple[Value, Value]:
-    """Return what the form of a re-penetration lacks to reach P_i at z, > 0 before it does, and its slope."""
+    """Return the shortfall of the form of a re-penetration below P_i at z, > 0 before they meet, and its slope."""
     z0, p0, pace = memory[5], memory[6], soil[4] / diameter
     most, rise = ultimate(z, diameter, soil)
     rest, share = most - p0, 1.0 + pace * z
@@ -155,9 +160,9 @@ def _short(z: Value, diameter: Value, memory: Numbers, least: Value, soil: Numbe
 
 
 def meeting(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
-    """Where a re-penetration that has passed z_max meets P_i: from where its bound is P_i on; infinity for nowhere.
+    """Return the z where a re-penetration beyond z_max meets P_i; infinity for nowhere.
 
-    From P0 <= 0 it never does, from z0 = 0 at once.
+    The search begins where its bound is P_i. From P0 <= 0 they never meet, from z0 = 0 at once.
     """
     fallen, slow, z0, p0 = memory[4], soil[7], memory[5], memory[6]
     decayed = where(slow < 1.0, fallen / where(slow < 1.0, 1.0 - slow, 1.0), np.inf)
@@ -181,11 +186,11 @@ def meeting(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
 
 
 def advance(z: Value, diameter: Value, memory: Numbers, soil: Numbers) -> tuple[Value, Value, Numbers]:
-    """Return force, stiffness and the next memory at z; the stiffness is that of going on in the same direction."""
-    _, _, way, deepest, fallen, z0, p0, event = memory
-    falls = (way == UP) & (p0 > 0.0) & (event != _UNKNOWN) & (z <= event)
+    """Return force, stiffness and the next memory at z; the stiffness is that of continued motion."""
+    _, _, branch, deepest, fallen, z0, p0, event = memory
+    falls = (branch == UP) & (p0 > 0.0) & (event != _UNKNOWN) & (z <= event)
     fallen = where(falls, event, fallen)
-    way = where((way == AGAIN) & (event != _UNKNOWN) & (z >= event), DOWN, way)
+    branch = where((branch == AGAIN) & (event != _UNKNOWN) & (z >= event), DOWN, branch)
     beyond = z > deepest
     deepest = np.maximum(deepest, z)
     most, rise = ultimate(z, diameter, soil)
@@ -219,17 +224,17 @@ def advance(z: Value, diameter: Value, memory: Numbers, soil: Numbers) -> tuple[
     bound_slope, bound = where(bound < p0, 0.0, bound_slope), np.maximum(bound, p0)
     again_slope, again = where(again > bound, bound_slope, again_slope), np.minimum(again, bound)
 
-    force = where(way == DOWN, virgin, where(way == UP, up, again))
-    stiffness = where(way == DOWN, slope, where(way == UP, up_slope, again_slope))
+    force = where(branch == DOWN, virgin, where(branch == UP, up, again))
+    stiffness = where(branch == DOWN, slope, where(branch == UP, up_slope, again_slope))
     heavy, wide = lift(z, diameter, soil[8])
-    after = (z, force, way, deepest, fallen, z0, p0, event)
+    after = (z, force, branch, deepest, fallen, z0, p0, event)
     return force + heavy, stiffness + wide, after
 
 
 def _form(gone: Value, reach: Value, rise: Value, least: Value, pace: Value) -> tuple[Value, Value]:
-    """Return H reach, and its slope by depth on a re-penetration; that of an uplift has the sign of its own.
+    """Return H reach, and the slope by depth of the force P0 + H reach (re-penetration) or P0 - H reach (uplift).
 
-    `gone` is |zeta - zeta0|, `reach` the distance to the resistance, `rise` its growth with z.
+    `gone` is |zeta - zeta0|, `reach` the distance to the resistance, `rise` the growth of the resistance with z.
     """
     softness = reach / least
     whole = where(gone > 0.0, softness + gone, where(softness > 0.0, softness, 1.0))
@@ -238,9 +243,9 @@ def _form(gone: Value, reach: Value, rise: Value, least: Value, pace: Value) -> 
 
 
 def steepest(z: Value, diameter: Value, *soil: Value) -> Value:
-    """The stiffness K_max P_u/D behind a reversal at z; an infinite z stands for one diameter.
+    """Return the stiffness K_max P_u/D after a reversal at z; an infinite z stands for one diameter.
 
-    Near the mudline the initial path is steeper, up to half.
+    Near the mudline the initial path is steeper, by up to half.
     """
     held = where(z < np.inf, z, diameter)
     reversal = soil[4] / diameter * ultimate(held, diameter, soil)[0]
@@ -249,7 +254,7 @@ def steepest(z: Value, diameter: Value, *soil: Value) -> Value:
 
 
 def virgin(z: Value, diameter: Value, *soil: Value) -> tuple[Value, Value]:
-    """The initial path with the weight of the displaced soil."""
+    """Return the initial path with the weight of the displaced soil."""
     depth = np.maximum(z, 0.0)
     force, slope = initial(depth, diameter, soil)
     heavy, wide = lift(depth, diameter, soil[8])

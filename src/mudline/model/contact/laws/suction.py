@@ -7,13 +7,14 @@ The largest suction and the uplift at breakout are powers of the pull-out veloci
 
 with alpha_f = 1.12 D cu / D^n_f, n_f = 0.18, alpha_D = 0.98 D and n_D = 0.26 for a pipe of diameter D in soil of
 cohesion cu. The first law holds in any units of length, the second in SI only: Delta_B / D = 0.98 v^0.26. Over the
-uplift x, from where the compressive reaction vanishes, the suction is -F_max times a trapezoid of x / Delta_B.
+uplift x, from the point where the compressive reaction vanishes, the suction is -F_max times a trapezoid of x /
+Delta_B.
 
 Below the velocity v_r (regularisation) F_max is replaced by a parabola with the value and slope of the power at v_r and
 the value 0 at rest: there it is less than alpha_f v^n_f, by 20 % at v_r / 2 and 74 % at v_r / 10 for n_f = 0.18.
 
-F_max follows the velocity of the moment: the force vanishes as the motion stops. Delta_B follows the largest velocity
-of the episode, v_max: an element that slows down does not break out for that.
+F_max follows the present velocity: the force vanishes as the motion stops. Delta_B follows the largest velocity of the
+episode, v_max: slowing down does not cause a breakout.
 """
 
 from __future__ import annotations
@@ -34,22 +35,22 @@ _FORCE_NUMBER = 1.12
 _DEPTH_NUMBER = 0.98
 _BELOW_1 = float(np.nextafter(1.0, 0.0))
 _SLOWEST = float(np.nextafter(0.0, 1.0))
-"""Keeps 0 / 0 away at rest where there is no regularisation."""
+"""Least velocity, which avoids 0 / 0 at rest without a regularisation."""
 
 
 class SuctionState(IntEnum):
     """State of an element with a suction law."""
 
     FREE = 0
-    """No contact, and no suction to come: not touched yet, or broken out and come down again."""
+    """No contact and no suction: not touched yet, or broken out and come down again."""
     COMPRESSION = 1
     """The reaction of the seabed is compressive."""
     SUCTION = 2
-    """Moving up, between the loss of the reaction and breakout."""
+    """Moving up, between the loss of the reaction and breakout: suction mobilised."""
     HOLD = 3
-    """Lifted off and not moving up: no suction, and no breakout either."""
+    """Lifted off and not moving up: suction paused, no breakout."""
     BROKEN = 4
-    """Broken out, and still as far above as breakout was."""
+    """Broken out, and still at least as high as at breakout."""
 
 
 COMPRESSION, SUCTION, HOLD, BROKEN = 1, 2, 3, 4
@@ -58,8 +59,8 @@ COMPRESSION, SUCTION, HOLD, BROKEN = 1, 2, 3, 4
 def maximum_force(v: Value, factor: Value, exponent: Value, regularisation: Value) -> tuple[Value, Value]:
     """Return F_max per unit length and dF_max/dv at pull-out velocities v >= 0.
 
-    Below v_r the power is replaced by v_r^n ((2 - n) r + (n - 1) r^2), r = v / v_r. From n = 2 on the power is smooth
-    by itself (at n = 2 the two are one).
+    Below v_r the power is replaced by v_r^n ((2 - n) r + (n - 1) r^2), r = v / v_r. For n >= 2 the power is smooth by
+    itself (at n = 2 the two are equal).
     """
     pace = np.maximum(v, where(exponent < 2.0, np.maximum(regularisation, _SLOWEST), _SLOWEST))
     ratio = v / pace
@@ -69,7 +70,7 @@ def maximum_force(v: Value, factor: Value, exponent: Value, regularisation: Valu
 
 
 def breakout_uplift(v_max: Value, factor: Value, exponent: Value, regularisation: Value) -> Value:
-    """Return Delta_B for the largest pull-out velocity of the episode; v_r is the least velocity that counts."""
+    """Return Delta_B for the largest pull-out velocity of the episode; v_r is the least velocity used."""
     return factor * np.float_power(np.maximum(v_max, regularisation), exponent)
 
 
@@ -89,10 +90,10 @@ def trapezoid(share: Value, first: Value, second: Value) -> tuple[Value, Value]:
 def next_state(
     armed: Value, v_max: Value, state: Value, depth: Value, uplift: Value, v: Value
 ) -> tuple[Value, Value, Value]:
-    """Return armed, v_max and state of an element that is not compressed.
+    """Return armed, v_max and state of an element out of compression.
 
-    `v_max` is the largest velocity of the episode, that of this step included, and `depth` Delta_B for it. An armed
-    element holds where it does not move up, has broken out where uplift >= depth, and is else in suction.
+    `v_max` is the largest velocity of the episode, including this step, and `depth` the Delta_B for it. An armed
+    element is in HOLD if it does not move up, broken out if uplift >= depth, and else in suction.
     """
     beyond = uplift >= depth
     moving = armed & (v > 0.0)
@@ -126,9 +127,9 @@ def suction_damping(
 ) -> FloatArray:
     """Return d force / d v in the state SUCTION at constant uplift, for tangents.
 
-    Where the velocity is a new largest one of the episode (`before` is the largest one until then) and above v_r,
-    Delta_B grows with it, and the derivative holds that too: on the rise it may be positive. At a velocity equal to the
-    largest one so far it is that at constant Delta_B.
+    `before` is the largest velocity of the episode until this step. At a larger velocity, above v_r, Delta_B grows with
+    it, which the derivative includes: on the rise it may be positive. At a velocity equal to `before` Delta_B is taken
+    as constant.
     """
     with np.errstate(all="ignore"):
         depth = breakout_uplift(np.maximum(before, v), law.depth_factor, law.depth_exponent, law.regularisation)
@@ -138,17 +139,18 @@ def suction_damping(
         # The share falls with a growing depth: d share / d v = -share n_D / v.
         grows = v > np.maximum(before, law.regularisation)
         growth = force * part_slope * share * law.depth_exponent / v * grows
-        found: FloatArray = growth - force_slope * part
-    return found
+        rate: FloatArray = growth - force_slope * part
+    return rate
 
 
 class SuctionFactors(NamedTuple):
     """The two power laws, arrays (m,), in one system of units; velocity in its length unit per second.
 
-    force_factor: alpha_f, of the largest suction per unit length.
-    force_exponent: n_f.
-    depth_factor: alpha_D, of the uplift at breakout.
-    depth_exponent: n_D.
+    Attributes:
+        force_factor: alpha_f, of the largest suction per unit length.
+        force_exponent: n_f.
+        depth_factor: alpha_D, of the uplift at breakout.
+        depth_exponent: n_D.
     """
 
     force_factor: FloatArray
@@ -172,7 +174,7 @@ class SuctionLaw(NamedTuple):
 
     @property
     def counts_cycles(self) -> BoolArray:
-        """Where the cyclic factor is applied once per completed uplift cycle, down to its floor."""
+        """Elements whose cyclic factor is applied once per completed uplift cycle, down to its floor."""
         return ~np.isnan(self.cyclic_floor)
 
     @property
@@ -182,18 +184,18 @@ class SuctionLaw(NamedTuple):
 
     @property
     def least_depth(self) -> FloatArray:
-        """Delta_B before any velocity counts."""
+        """Delta_B at the least velocity."""
         depth: FloatArray = breakout_uplift(0.0, self.depth_factor, self.depth_exponent, self.regularisation)
         return depth
 
     @property
     def largest_factor(self) -> FloatArray:
-        """The largest cyclic factor that can be."""
+        """The largest possible cyclic factor."""
         return np.maximum(self.initial_factor, self.cyclic)
 
     @property
     def factor_per_cycle(self) -> FloatArray:
-        """What each completed cycle multiplies the factor by."""
+        """Multiplier of the cyclic factor for each completed cycle."""
         return np.where(self.counts_cycles, self.cyclic, 1.0)
 
 
@@ -202,8 +204,8 @@ def from_cohesion(
 ) -> SuctionFactors:
     """Return the power laws of elements (m,) from the soil's cohesion and the pipe's diameter.
 
-    `length_unit` in m and `force_unit` in N are the units of what is given and returned: 0.3048 and 4.4482216 for feet
-    and pounds. The laws are evaluated in SI and converted back.
+    `length_unit` in m and `force_unit` in N are the units of arguments and results: 0.3048 and 4.4482216 for feet and
+    pounds. The laws are evaluated in SI and converted back.
     """
     with np.errstate(all="ignore"):
         size = diameter * length_unit
@@ -215,14 +217,14 @@ def from_cohesion(
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SuctionHistory:
-    """What the elements (m,) remember. A step gives a new one and leaves the old one as it is.
+    """History of elements (m,) with suction. It is never changed: a step returns a new history.
 
     Attributes:
-        armed: there was compression since the last breakout.
+        armed: whether there was compression since the last breakout.
         state: values of `SuctionState`.
-        v_max: the largest pull-out velocity of the uplift episode, which begins when an armed element loses its
-            compressive reaction and ends with the next compression or with breakout. A broken element keeps that of
-            its breakout. 0 in all other states.
+        v_max: the largest pull-out velocity of the uplift episode. The episode begins when an armed element loses its
+            compressive reaction and ends with the next compression or with breakout. A broken element keeps the value
+            of its breakout. 0 in all other states.
         factor: the cyclic factor.
         depth: Delta_B for `v_max`.
     """
@@ -243,8 +245,8 @@ class SuctionHistory:
             return cls(nothing > 0.0, nothing.astype(np.int8), nothing, law.initial_factor, law.least_depth)
 
 
-def _crossed(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
-    return given["first_corner"] > given["second_corner"], "its first corner is above its second"
+def _crossed(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    return parameters["first_corner"] > parameters["second_corner"], "its first corner is above its second"
 
 
 def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -260,7 +262,7 @@ def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArra
 def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
     """Return |d force / d uplift| on the release of suction, per unit length, at steady pull-out velocities > 0 (m,).
 
-    F_max / ((1 - xc2) Delta_B): only a structure that is stiffer, per unit length, has one equilibrium there.
+    F_max / ((1 - xc2) Delta_B): a structure has a unique equilibrium there only if it is stiffer, per unit length.
     """
     with np.errstate(all="ignore"):
         force, _ = maximum_force(
@@ -271,22 +273,22 @@ def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
     return slope
 
 
-def _damping(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
-    found = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**given), step.before.factor)
-    return np.where(step.after.state == SUCTION, 0.0 - found, 0.0)
+def _damping(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
+    rate = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**parameters), step.before.factor)
+    return np.where(step.after.state == SUCTION, 0.0 - rate, 0.0)
 
 
-def _plan(given: dict[str, FloatArray]) -> str:
-    slow = sorted(set(given["regularisation"].tolist()))
+def _plan(parameters: dict[str, FloatArray]) -> str:
+    slow = sorted(set(parameters["regularisation"].tolist()))
     span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
     capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
-    elements = counted(len(given["regularisation"]), "element")
+    elements = counted(len(parameters["regularisation"]), "element")
     return f"{elements} after Bridge et al., with a state each{capped}"
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """The rise and the damping at the velocity that makes them largest; infinite where none does."""
-    law = SuctionLaw(**given)
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Return the rise and the damping at the velocity that makes them largest; infinite if no velocity does."""
+    law = SuctionLaw(**parameters)
     if reached.speed is not None:
         rise, damping = (
             rates if rates.ndim == 1 else np.fmax.reduce(rates, axis=0) for rates in suction_rates(law, reached.speed)
@@ -327,7 +329,7 @@ SUCTION_LAW = Law(
     velocities=True,
     history=True,
     state="suction",
-    initial=lambda _, given: SuctionHistory.initial(SuctionLaw(**given)),
+    initial=lambda _, parameters: SuctionHistory.initial(SuctionLaw(**parameters)),
     check=_crossed,
     plan=_plan,
     largest=_largest,

@@ -1,20 +1,20 @@
-"""Trenches of `*SEABED TRENCH`: resistance against sideways motion towards their walls (a phenomenological reading).
+"""Trenches of `*SEABED TRENCH`: resistance against lateral motion towards their walls (a phenomenological reading).
 
-y is the offset of a node from the centreline along u2. The lateral limit of its friction is raised, against outward
-motion only, by the share of each of its elements that lies in a trench, so that at the node between two blocks each
-block counts with half of the length of its own elements:
+y is the offset of a node from the centreline along u2. The lateral limit of its friction is raised against outward
+motion only, by the share of each of its elements in a trench. At the node between two blocks each block counts with
+half of the length of its own elements:
 
 * PEAK, a number: half length * PEAK * s(|y|), where s is 0 up to half of the bottom width, rises linearly to 1 at the
   middle of the wall and falls linearly to 0 at half of the upper width;
-* PEAK, a table: half length * p(|y|), p linear between the rows of the table, that of its first row below it and 0
-  beyond its last. A third column is the curvature behind a row: so corners are rounded off by parabolas (`rounded`). A
-  peak with a residual, or with rounded corners, is such a table; one whose last offset is infinite holds on;
+* PEAK, a table: half length * p(|y|), p linear between the rows of the table, equal to its first row below it and 0
+  beyond its last. A third column is the curvature after a row, for corners rounded by parabolas (`rounded`). A peak
+  with a residual, or with rounded corners, is such a table; an infinite last offset continues the last value;
 * WALL: N (tan theta + mu2) / (1 - mu2 tan theta) in place of mu2 N between the two widths, the sloped wall of a trench
-  with tan theta = depth / ((upper - bottom) / 2); at a node whose elements are not all in it, by their share of the
-  length.
+  with tan theta = depth / ((upper - bottom) / 2); at a node only some of whose elements are in the trench, by their
+  share of the length.
 
-The seabed level is the trench bottom. LOWERED makes gaps larger by the depth times w(|y|), w = 1 up to half of the
-bottom width, falling linearly to 0 at half of the upper width; the normal stays that of the seabed.
+The seabed level is the trench bottom. LOWERED increases gaps by the depth times w(|y|), w = 1 up to half of the bottom
+width, falling linearly to 0 at half of the upper width; the normal stays that of the seabed.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.laws import Law, Parameter, Value, where
 
 PEAK, WALL, TABLE, LEVEL = 0, 1, 2, 3
-"""Kinds of resistance, in tables of the drivers; and of a seabed that is lowered."""
+"""Kinds of resistance, and of a lowered seabed, in tables of the drivers."""
 
 
 def peak_share(distance: Value, inner: Value, outer: Value, steepness: Value) -> Value:
@@ -37,7 +37,7 @@ def peak_share(distance: Value, inner: Value, outer: Value, steepness: Value) ->
 
 
 def peak_slope(distance: Value, inner: Value, outer: Value) -> Value:
-    """Return d s / d distance; at the middle of the wall that of the inner half."""
+    """Return d s / d distance; at the middle of the wall the slope of the inner half."""
     half = 0.5 * (outer - inner)
     rising = (distance > inner) & (distance <= inner + half)
     falling = (distance > inner + half) & (distance < outer)
@@ -53,24 +53,24 @@ def wall_coefficient(depth: FloatArray, bottom: FloatArray, upper: FloatArray, f
     """Return (tan theta + mu2) / (1 - mu2 tan theta) - mu2; negative or infinite where the wall locks itself."""
     with np.errstate(all="ignore"):
         tangent = depth / (0.5 * (upper - bottom))
-        found: FloatArray = (tangent + friction) / (1.0 - friction * tangent) - friction
-    return found
+        increase: FloatArray = (tangent + friction) / (1.0 - friction * tangent) - friction
+    return increase
 
 
 def lowered(distance: Value, inner: Value, outer: Value) -> tuple[Value, Value]:
-    """Return w, the share of the depth by which the seabed lies lower, and its slope."""
+    """Return w, the share of the depth by which the seabed is lowered, and its slope."""
     part = np.minimum(np.maximum((outer - distance) / (outer - inner), 0.0), 1.0)
     return part, where((distance > inner) & (distance < outer), -1.0 / (outer - inner), 0.0)
 
 
 def diagram(inner: float, outer: float, peak: float, residual: tuple[float, float] | None) -> FloatArray:
-    """Return the rows (k, 2) of a peak resistance; `residual` is that beyond it, and where it is reached."""
+    """Return the rows (k, 2) of a peak resistance; `residual` is the resistance beyond it, and where it is reached."""
     rise = [(inner, 0.0), (0.5 * (inner + outer), peak)]
     return np.array([*rise, (outer, 0.0)] if residual is None else [*rise, residual[::-1], (np.inf, residual[0])])
 
 
 def shortest_side(points: FloatArray) -> float:
-    """Return the length of the shortest side of a diagram (k, 2), of which a half may be rounded off at each end."""
+    """Return the length of the shortest side of a diagram (k, 2), half of which may be rounded at each end."""
     places = points[np.isfinite(points[:, 0]), 0]
     sides = np.diff(places, prepend=-places[0])[0 if places[0] > 0.0 else 1 :]
     jumps = len(places) == len(points) and points[-1, 1] > 0.0  # to 0, a side without length
@@ -78,7 +78,7 @@ def shortest_side(points: FloatArray) -> float:
 
 
 def rounded(points: FloatArray, half_width: float) -> FloatArray:
-    """Return the rows (k, 3) of a diagram with parabolas of a half width in its corners: the third is the curvature."""
+    """Return the rows (k, 3) of a diagram with parabolas of a half width in its corners; the third is the curvature."""
     offset, resistance = points.T
     slope = np.concatenate([[0.0], np.diff(resistance) / np.diff(offset), [0.0]])
     rows = []
@@ -93,7 +93,7 @@ def rounded(points: FloatArray, half_width: float) -> FloatArray:
 
 
 def in_table(distance: Value, offset: Value, resistance: Value, slope: Value, curvature: Value) -> Value:
-    """Return the resistance per unit length behind the row of a table with these numbers.
+    """Return the resistance per unit length after the row of a table with these numbers.
 
     A distance below the first offset, or beyond the last, is taken as that offset.
     """
@@ -104,7 +104,7 @@ TableRows = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 
 
 def table_rows(table: FloatArray) -> TableRows:
-    """Return what `in_table` takes of each row of a table (k, 2) or (k, 3), with a row of zeros behind its last."""
+    """Return the columns for `in_table` of a table (k, 2) or (k, 3), with a row of zeros after its last."""
     offset, resistance = table[:, 0], table[:, 1]
     curvature = table[:, 2] if table.shape[1] > 2 else np.zeros(len(table))
     slope = np.append(np.diff(resistance) / np.diff(offset), 0.0)
@@ -114,17 +114,18 @@ def table_rows(table: FloatArray) -> TableRows:
 
 
 def table_row(table: TableRows, distance: FloatArray) -> IndexArray:
-    """Return the row (...,) that holds at each distance; see `in_table`."""
+    """Return the row (...,) that applies at each distance; see `in_table`."""
     offset = table[0]
     inside = np.searchsorted(offset[1:-1], distance, side="right")
     return np.where(distance > offset[-1], len(offset) - 1, inside)
 
 
 def share_of_piece(away: tuple[Value, Value, Value], span: tuple[Value, Value, Value], inverse: Value) -> Value:
-    """Return the share of a straight piece at which its nearest point lies, below 0 and above 1 beyond its ends.
+    """Return the share of a straight piece at its nearest point, below 0 and above 1 beyond its ends.
 
-    `away` is the vector from its start to the point, `span` that to its end, `inverse` 1 over the square of that; 0 for
-    a piece without length, whose nearest point is its start. Nearest points at one end of a piece go on to the next.
+    `away` is the vector from its start to the point, `span` the vector to its end, and `inverse` 1 / length^2.
+    `inverse` is 0 for a piece without length, whose nearest point is its start. A nearest point at an end continues on
+    the next piece.
     """
     return (away[0] * span[0] + away[1] * span[1] + away[2] * span[2]) * inverse
 
@@ -139,12 +140,12 @@ _CENTRELINE = tuple(
 )
 
 
-def _widths(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
-    return ~(given["upper"] > given["bottom"]), "the upper width of its trench is not above the bottom width"
+def _widths(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    return ~(parameters["upper"] > parameters["bottom"]), "the upper width of its trench is not above the bottom width"
 
 
 def _trench(name: str, summary: str, own: Parameter, plan: str, equation: str, *, tables: bool = False) -> Law:
-    """A law of a trench with a parameter of its own."""
+    """Return a law of a trench with a parameter of its own."""
     return Law(
         name=name,
         summary=summary,
@@ -176,9 +177,9 @@ TRENCH_TABLE = _trench(
 )
 TRENCH_LEVEL = _trench(
     "trench level",
-    "seabed that is lowered in a trench",
+    "lowered seabed in a trench",
     Parameter("depth", "L", "depth of the trench", above=True),
-    "where the seabed is lowered by depth and widths after all, along the normal of the seabed",
+    "where depth and widths lower the seabed, along its normal",
     "gap + depth w(|y|)",
 )
 TRENCH_WALL = _trench(

@@ -1,16 +1,16 @@
-"""Unloading and reloading of `*SEABED UNLOADING`, beside the virgin loading path of a normal law.
+"""Unloading and reloading of `*SEABED UNLOADING`, next to the virgin loading path of a normal law.
 
 At a new largest penetration z_max the reaction is that of the virgin path. Elsewhere it is that of a straight line
 through the deepest point (z_max, F_max) with the stiffness ku', down to 0 at the trench bottom z_p and 0 above it:
 
     F = max(0, F_max - ku' (z_max - z)),  z_p = z_max - F_max / ku'.
 
-ku' is the largest of the unloading stiffness that was given, the steepest slope that the virgin path reached, and the
-secant F_max / z_max. So the line lies nowhere above the virgin path, no closed loop gives work, and the trench bottom
-is never above the mudline. The secant counts only where the virgin path has a force F(0) > 0 at the mudline: the line
-is then steeper than the stiffness that was given, as a softer one would end above the mudline.
+ku' is the largest of the given unloading stiffness, the steepest slope that the virgin path reached, and the secant
+F_max / z_max. So the line lies nowhere above the virgin path, no closed loop gives work, and the trench bottom is never
+above the mudline. The secant matters only where the virgin path has a force F(0) > 0 at the mudline: the line is then
+steeper than the given stiffness, as a softer line would end above the mudline.
 
-All of it is a function of z_max alone.
+All values depend on z_max alone.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from mudline.model.contact.laws import Law, Parameter, Reached, Value, where
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class UnloadingHistory:
-    """What the elements (k,) remember. A step gives a new one and leaves the old one as it is.
+    """History of elements (k,) with an unloading law. It is never changed: a step returns a new history.
 
     Attributes:
         z_max: the largest penetration so far, 0 before the first contact.
@@ -61,10 +61,10 @@ def line_stiffness(stiffness: Value, z_max: Value, force_max: Value) -> Value:
 
 def trench_bottom(line: Value, z_max: Value, force_max: Value) -> Value:
     """Return z_p, between 0 and z_max; strictly below z_max where there is a force."""
-    # a bottom that rounds to z_max would leave no place for the reaction there
+    # a bottom that rounds to z_max would leave no room for the reaction there
     deepest = where(force_max > 0.0, np.nextafter(z_max, 0.0), z_max)
     bottom = np.minimum(z_max - force_max / line, deepest)
-    # a line to the mudline ends there, whatever its quotient rounds to
+    # a line to the mudline ends at 0, whatever its quotient rounds to
     return where(bottom > _ROUNDING * z_max, bottom, 0.0)
 
 
@@ -74,9 +74,9 @@ def on_line(z: Value, z_max: Value, force_max: Value, line: Value, bottom: Value
     return where(below, np.maximum(force_max - line * (z_max - z), 0.0), 0.0), where(below, line, 0.0)
 
 
-def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
-    """ku, or the steepest slope of the virgin path where that is steeper."""
-    return np.maximum(given["stiffness"], reached.virgin), None
+def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """Return ku, or the steepest slope of the virgin path if larger."""
+    return np.maximum(parameters["stiffness"], reached.virgin), None
 
 
 UNLOADING = Law(
@@ -87,7 +87,7 @@ UNLOADING = Law(
     parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
     history=True,
     state="unloading",
-    initial=lambda _, given: UnloadingHistory.initial(given["stiffness"]),
+    initial=lambda _, parameters: UnloadingHistory.initial(parameters["stiffness"]),
     plan="on unloading lines, from the deepest point so far",
     largest=_largest,
     equation="F = max(0, F_max - ku' (z_max - z)) below z_max",

@@ -1,7 +1,7 @@
-"""Seabed shapes: for points in space the signed gap to the seabed and its unit normal out of the soil.
+"""Seabed shapes: the signed gap of points in space to the seabed and its unit normal out of the soil.
 
-Angles are in degrees, X is up. Here are what every shape offers, a flat seabed, a uniform slope and planes; a profile
-(`profile`) and scattered points (`scattered`, which needs scipy) have modules of their own.
+Angles are in degrees, X is up. This module has the interface of all shapes, a flat seabed, a uniform slope and planes.
+A profile (`profile`) and scattered points (`scattered`, which needs scipy) have modules of their own.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
     """Return a copy of `values` as finite floats of `shape` (None: any length), or raise ValueError."""
     array = np.array(values, np.float64)
     if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
-        wanted = ", ".join("n" if n is None else str(n) for n in shape)
-        raise ValueError(f"{what} has shape {array.shape}; expected ({wanted})")
+        expected = ", ".join("n" if n is None else str(n) for n in shape)
+        raise ValueError(f"{what} has shape {array.shape}; expected ({expected})")
     wrong = np.argwhere(~(np.abs(array) <= LARGEST_COORDINATE))
     if len(wrong):
         index = tuple(wrong[0].tolist())
@@ -35,25 +35,25 @@ def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
 
 
 def checked_slope(what: str, degrees: float) -> None:
-    """Raise ValueError when a slope in degrees is not between -90 and 90, both excluded."""
+    """Raise ValueError for a slope in degrees that is not between -90 and 90, both excluded."""
     if not abs(degrees) < 90.0:
         raise ValueError(f"{what} is {degrees:g} degrees; expected more than -90 and less than 90")
 
 
 _CHUNK = 8192
-"""Points worked on at a time: the work arrays stay in the cache."""
+"""Points evaluated at a time: the work arrays stay in the cache."""
 STEEPEST = 1e150
-"""Largest slope of a surface: its square is finite."""
+"""Largest slope of a surface, whose square is finite."""
 
 
 class Seabed(ABC):
     """A seabed given as an elevation over the horizontal plane. Holds no state; may be shared by threads.
 
     Attributes:
-        faceted: the seabed is made of planes, so inside one the gradient of the gap is exactly the normal. False for
-            curved seabeds, whose gap is measured to the tangent plane above or below the point: the true gradient has a
-            term of curvature times gap, which a tangent with the normal held leaves out.
-        same_normal: the unit normal (3,), read-only, where all points share it; None where they do not.
+        faceted: whether the seabed consists of planes, on each of which the gradient of the gap is exactly the normal.
+            The gap of a curved seabed is measured to the tangent plane above or below the point. Its true gradient has
+            a term of curvature times gap, which a tangent with the normal held leaves out.
+        same_normal: the unit normal (3,), read-only, if all points share it; else None.
     """
 
     faceted: bool = True
@@ -71,7 +71,7 @@ class Seabed(ABC):
         """
 
     def gaps(self, points: FloatArray, gap: FloatArray) -> None:
-        """Write the gaps alone."""
+        """Write only the gaps."""
         self.locate(points, gap, np.empty(points.shape))
 
     @abstractmethod
@@ -80,17 +80,17 @@ class Seabed(ABC):
 
     @abstractmethod
     def describe(self) -> str:
-        """Say in a line what the seabed is, and what holds outside of it."""
+        """Return a description of the seabed in one line, including the region outside of it."""
 
 
 class SurfaceSeabed(Seabed):
-    """A seabed that knows its elevation and gradient at points in a row."""
+    """A seabed with an elevation and a gradient at points in a row."""
 
     chunk: ClassVar[int] = _CHUNK
 
     @abstractmethod
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return elevation and its derivatives to Y and Z at `y` (n,) and `z` (n,); elevation is NaN without a seabed.
+        """Return elevation and its derivatives by Y and Z at `y` (n,) and `z` (n,); elevation is NaN without a seabed.
 
         The derivatives have magnitudes up to `STEEPEST`.
         """
@@ -102,7 +102,7 @@ class SurfaceSeabed(Seabed):
         for start in range(0, len(rows), self.chunk):
             part = slice(start, start + self.chunk)
             x, y, z = np.ascontiguousarray(rows[part].T)
-            with np.errstate(over="ignore"):  # an elevation beyond the largest number makes an infinite gap
+            with np.errstate(over="ignore"):  # an elevation that overflows makes an infinite gap
                 level, along_y, along_z = self.surface(y, z)
                 upward = 1.0 / np.sqrt(1.0 + along_y * along_y + along_z * along_z)
                 flat_gap[part] = (x - level) * upward + 0.0
@@ -126,9 +126,9 @@ class SurfaceSeabed(Seabed):
 
 
 def heading(degrees: float) -> tuple[float, float]:
-    """Return cosine and sine of an angle in degrees, all digits of both; exact at the multiples of 90.
+    """Return cosine and sine of an angle in degrees with full precision; exact at the multiples of 90.
 
-    What is left of the angle beside a multiple of 90 is exact in degrees, and would not be in radians.
+    The remainder of the angle after a multiple of 90 is exact in degrees, and would not be in radians.
     """
     turned = math.fmod(degrees, 360.0)
     quarters = round(turned / 90.0)
@@ -140,12 +140,12 @@ def heading(degrees: float) -> tuple[float, float]:
 
 
 def _tangents(degrees: FloatArray) -> FloatArray:
-    """Return the tangents of angles above -90 and below 90 degrees, all digits also next to these."""
+    """Return the tangents of angles above -90 and below 90 degrees, with full precision near these bounds too."""
     with np.errstate(under="ignore"):
-        rest = 90.0 - np.abs(degrees)  # exact from 45 degrees on
-        steep = np.copysign(1.0 / np.tan(np.radians(rest)), degrees)
-        found: FloatArray = np.where(rest < 45.0, steep, np.tan(np.radians(degrees)))
-    return found
+        from_vertical = 90.0 - np.abs(degrees)  # exact from 45 degrees on
+        steep = np.copysign(1.0 / np.tan(np.radians(from_vertical)), degrees)
+        tangents: FloatArray = np.where(from_vertical < 45.0, steep, np.tan(np.radians(degrees)))
+    return tangents
 
 
 _UP = np.array([1.0, 0.0, 0.0])
@@ -163,20 +163,20 @@ class FlatSeabed(Seabed):
         normal[...] = _UP
 
     def gaps(self, points: FloatArray, gap: FloatArray) -> None:
-        """Write the heights."""
-        np.add(points[..., 0], 0.0, out=gap)  # a sum with 0 knows no -0
+        """Write the heights above X = 0."""
+        np.add(points[..., 0], 0.0, out=gap)  # adding 0 turns -0 into 0
 
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
         """Return elevations, see `Seabed`."""
         return np.zeros(np.broadcast_shapes(np.shape(y), np.shape(z)))
 
     def describe(self) -> str:
-        """Say what the seabed is."""
+        """Return the description of the seabed."""
         return "one flat seabed at X = 0"
 
 
 class SlopingSeabed(Seabed):
-    """A plane through the origin, without end.
+    """An infinite plane through the origin.
 
     Args:
         slope_degrees: steepest slope, above -90 and below 90; positive rises towards the direction.
@@ -201,7 +201,7 @@ class SlopingSeabed(Seabed):
 
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
         """Write gaps and normals, see `Seabed`."""
-        # As a product with the normal, not by the elevation: near a wall that is a large number times a small one.
+        # a product with the normal: near a wall the elevation would be a large number times a small one
         upward, along_y, along_z = 0.25 * self.same_normal  # quarters first: their sum cannot overflow
         with np.errstate(over="ignore"):
             quarter = points[..., 0] * upward + points[..., 1] * along_y + points[..., 2] * along_z
@@ -211,18 +211,18 @@ class SlopingSeabed(Seabed):
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
         """Return elevations, see `Seabed`."""
         with np.errstate(over="ignore"):
-            level = self._rise * (self._half[0] * np.asarray(y) + self._half[1] * np.asarray(z))  # see the halves
+            level = self._rise * (self._half[0] * np.asarray(y) + self._half[1] * np.asarray(z))  # see the halves above
             return np.asarray(level + 0.0, np.float64)
 
     def describe(self) -> str:
-        """Say what the seabed is."""
+        """Return the description of the seabed."""
         return f"plane through the origin, slope {self._slope:g} deg, direction {self._direction:g} deg, without end"
 
 
 class PlanesSeabed(SurfaceSeabed):
-    """Planes, each with a horizontal extent: the highest at a place is the seabed, of equals the later one.
+    """Planes, each with a horizontal extent: the highest plane at a place is the seabed, the later one of two equals.
 
-    Without extents planes make valleys; a ridge needs them. A place in no plane's extent has no seabed.
+    Without extents planes form valleys; a ridge needs extents. A place outside of all extents has no seabed.
 
     Args:
         points: a point of each plane (k, 3): X is the elevation.
@@ -262,7 +262,7 @@ class PlanesSeabed(SurfaceSeabed):
         return level, along_y[plane], along_z[plane]
 
     def _highest(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, IndexArray]:
-        """Return the highest elevation at each place and the plane it is of, -1 for none."""
+        """Return the highest elevation at each place and the index of its plane, -1 for none."""
         best, plane = np.full(len(y), -np.inf), np.full(len(y), -1, np.intp)
         for number, (point, (cosine, sine), rise) in enumerate(
             zip(self._points, self._headings, self._rises, strict=True)
@@ -275,11 +275,11 @@ class PlanesSeabed(SurfaceSeabed):
             for edge, sign, place in zip(self._bounds[number], (1.0, -1.0) * 2, (y, y, z, z), strict=True):
                 if np.isfinite(edge):
                     wins &= (place - edge) * sign >= 0.0
-            best, plane = np.where(wins, level, best), np.where(wins, number, plane)  # without branches: quicker
+            best, plane = np.where(wins, level, best), np.where(wins, number, plane)  # without branches: faster
         return best, plane
 
     def describe(self) -> str:
-        """Say what the seabed is."""
+        """Return the description of the seabed."""
         planes = len(self._points)
         bounded = int(np.isfinite(self._bounds).any(axis=1).sum())
         if planes == 1:
@@ -290,14 +290,14 @@ class PlanesSeabed(SurfaceSeabed):
 
 
 def _checked_bounds(bounds: ArrayLike | None, planes: int) -> FloatArray:
-    """Return bounds (planes, 4) with the lower not above the upper."""
+    """Return bounds (planes, 4); raise ValueError if a lower bound is above the upper."""
     free = np.broadcast_to([-np.inf, np.inf, -np.inf, np.inf], (planes, 4))
-    given = np.array(free if bounds is None else bounds, np.float64)
-    if given.shape != (planes, 4):
-        raise ValueError(f"the planes' bounds have shape {given.shape}; expected ({planes}, 4)")
+    array = np.array(free if bounds is None else bounds, np.float64)
+    if array.shape != (planes, 4):
+        raise ValueError(f"the planes' bounds have shape {array.shape}; expected ({planes}, 4)")
     for axis, low, high in (("Y", 0, 1), ("Z", 2, 3)):
-        least, most = given[:, low], given[:, high]
+        least, most = array[:, low], array[:, high]
         for number in np.flatnonzero(~((least <= most) & (least < np.inf) & (most > -np.inf))).tolist():
             extent = f"{axis} from {least[number]:g} to {most[number]:g}"
             raise ValueError(f"plane {number + 1} has {extent}; expected the smallest, then the largest")
-    return given
+    return array

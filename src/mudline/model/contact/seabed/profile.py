@@ -1,4 +1,4 @@
-"""The seabed of a 2D profile: a curve over one horizontal direction, the same all along the other."""
+"""The seabed of a 2D profile: a curve over one horizontal direction, constant along the other."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class ProfileSeabed(SurfaceSeabed):
     A place on a point belongs to the segment on the side of larger Y. Cubic profiles have slope 0 at both ends.
 
     Args:
-        y: the points' horizontal coordinate (n,), n >= 2.
-        elevation: their elevation X (n,).
+        y: horizontal coordinates of the points (n,), n >= 2.
+        elevation: elevations X of the points (n,).
         interpolation: between points: LINEAR, CUBIC SPLINE (continuous curvature) or CUBIC BESSEL (continuous slope).
-        direction_degrees: turns the profile from +Y counter-clockwise about X: it is taken at Y cos + Z sin.
+        direction_degrees: direction of the profile from +Y, counter-clockwise about X; its coordinate is Y cos + Z sin.
 
     Raises:
-        ValueError: fewer than two points, one Y with two elevations, a slope beyond 1e149, an unknown interpolation,
-            or a value that is not finite. (A point that is given twice counts once.)
+        ValueError: fewer than two points, one Y with two elevations, a slope beyond 1e149, an unknown interpolation, or
+            a value that is not finite. (A repeated point counts once.)
     """
 
     def __init__(
@@ -61,20 +61,20 @@ class ProfileSeabed(SurfaceSeabed):
         return level, slope * cosine, slope * sine
 
     def describe(self) -> str:
-        """Say what the seabed is."""
+        """Return the description of the seabed."""
         ends = f"Y = {self._y[0]:g} to {self._y[-1]:g}, flat beyond"
         return f"{_NAMES[self._how]} through {len(self._y)} points, {ends}, direction {self._direction:g} deg"
 
 
 def _sorted_points(y: ArrayLike, elevation: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return the points by rising Y, each once."""
+    """Return the points in ascending order of Y, without repeats."""
     places = checked("Y of the profile", y, None)
     levels = checked("elevation of the profile", elevation, len(places))
     points = np.unique(np.column_stack([places, levels]) + 0.0, axis=0)
     twice = np.flatnonzero(np.diff(points[:, 0]) == 0.0)
     if twice.size:
-        (place, one), (_, other) = points[twice[0] : twice[0] + 2].tolist()
-        raise ValueError(f"the profile has elevations {one:g} and {other:g} at Y = {place!r}; expected one for each Y")
+        (place, first), (_, last) = points[twice[0] : twice[0] + 2].tolist()
+        raise ValueError(f"the profile has elevations {first:g} and {last:g} at Y = {place!r}; expected one for each Y")
     if len(points) < 2:
         raise ValueError(f"the profile has {len(points)} different points; expected two or more")
     return points[:, 0].copy(), points[:, 1].copy()
@@ -97,8 +97,8 @@ def _pieces(y: FloatArray, x: FloatArray, interpolation: Interpolation) -> tuple
         largest = np.abs(chord) + np.abs(slopes[:-1]) + np.abs(slopes[1:])  # the cubic is nowhere 9 times as steep
     steep = np.flatnonzero(~(9.0 * largest < STEEPEST))
     if steep.size:
-        one, other = y[steep[0] : steep[0] + 2].tolist()
-        raise ValueError(f"the profile is too steep from Y = {one!r} to {other!r}; expected points further apart")
+        begin, end = y[steep[0] : steep[0] + 2].tolist()
+        raise ValueError(f"the profile is too steep from Y = {begin!r} to {end!r}; expected points further apart")
     columns = {"origin": (y[0], y[:-1], y[-1]), "level": (x[0], x[:-1], x[-1]), "first": (0.0, slopes[:-1], 0.0)}
     if interpolation != "LINEAR":
         columns |= {"width": (1.0, h, 1.0), "second": (0.0, second, 0.0), "third": (0.0, third, 0.0)}
@@ -106,13 +106,13 @@ def _pieces(y: FloatArray, x: FloatArray, interpolation: Interpolation) -> tuple
 
 
 def bessel_slopes(h: FloatArray, c: FloatArray) -> FloatArray:
-    """Slope of the parabola through a point and its two neighbours: a curve with continuous slope."""
+    """Return the slopes at the points of parabolas through each point and its two neighbours: continuous slope."""
     share = h[1:] / (h[:-1] + h[1:])
     return np.concatenate([[0.0], share * c[:-1] + (1.0 - share) * c[1:], [0.0]])
 
 
 def spline_slopes(h: FloatArray, c: FloatArray) -> FloatArray:
-    """Slopes with which the curvature is continuous too: share m- + 2 m + (1 - share) m+ = 3 (Bessel's slope).
+    """Return the slopes of continuous curvature: share m- + 2 m + (1 - share) m+ = 3 (Bessel's slope).
 
     The system is diagonally dominant, so elimination needs no pivots.
     """

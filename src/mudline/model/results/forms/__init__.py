@@ -1,7 +1,7 @@
-"""The forms of result files: what each holds, and what all of them are given.
+"""Formats of result files: their contents, and the writers they share.
 
-A form has a module, imported when it is asked for, with `opened(output)`: a context with a `Writer`. It takes columns
-of a few steps at a time and writes them as they come, so that a long series is never in memory as text.
+Each format has a module, imported when needed, with `opened(output)`: a context with a `Writer`. It takes columns of a
+few steps at a time and writes them at once, so that a long series is never in memory as text.
 """
 
 from __future__ import annotations
@@ -20,23 +20,24 @@ import numpy as np
 from mudline.basics.installed import install_hint
 from mudline.basics.quantities import RESULT_FORMAT, time_unit
 from mudline.model.contact import Plan
-from mudline.model.contact.columns import Column, Table
+from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.frames import array_name
-from mudline.model.contact.result import Part
-from mudline.model.results.against import Comparison
+from mudline.model.contact.result import ResultPart
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.totals import First, line_steps
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats
 
 
-class Form(NamedTuple):
-    """A form of result files.
+class ResultForm(NamedTuple):
+    """A format of result files.
 
     Attributes:
-        summary: what is in a file, for the documentation, Markdown.
-        beside: the tables that go to files of their own.
-        library, extra: what writes it, and the extra of mudline that brings it; "" where nothing is needed.
+        summary: contents of a file, for the documentation, Markdown.
+        beside: the tables that have files of their own.
+        library: library that writes it; "" if none is needed.
+        extra: extra of mudline that installs the library; "" if none is needed.
     """
 
     summary: str
@@ -46,21 +47,21 @@ class Form(NamedTuple):
 
 
 FORMS = {
-    "csv": Form("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
-    "json": Form("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
-    "npz": Form(
+    "csv": ResultForm("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
+    "json": ResultForm("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
+    "npz": ResultForm(
         "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last "
         "axis of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines); `units` and "
         "`format`"
     ),
-    "parquet": Form(
+    "parquet": ResultForm(
         "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
         f"`{install_hint('frames')}`",
         ("nodes", "summary"),
         "pyarrow",
         "frames",
     ),
-    "xlsx": Form(
+    "xlsx": ResultForm(
         "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
         f"`{install_hint('excel')}`",
         (),
@@ -68,33 +69,35 @@ FORMS = {
         "excel",
     ),
 }
-"""By suffix."""
+"""Formats by suffix."""
 TEXTS = ("csv", "json")
-"""Forms that standard output has too."""
+"""Formats that standard output has too."""
 
 More = Mapping[str, object]
-"""Further keys of JSON with their values."""
-Columns = Mapping[str, Sequence[Column]]
-"""The columns of some steps, by the names of their tables."""
+"""Additional keys of JSON with their values."""
+NamedTables = Mapping[str, ResultTable]
+"""Tables of results, by name."""
+Columns = Mapping[str, Sequence[ResultColumn]]
+"""The columns of some steps, by table name."""
 Write = Callable[[Iterator[str]], None]
-"""Writes text in pieces."""
+"""Function that writes text in pieces."""
 
 
 class FormError(ValueError):
-    """A form has no place for so many rows."""
+    """A format cannot hold so many rows."""
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
-    """What a file holds, whatever its form.
+class FileContent:
+    """Contents of a file in any format.
 
     Attributes:
-        rows: the number of rows of a step, by the names of the tables.
+        rows: number of rows of a step, by table name.
         units: the unit system.
         format: name and version.
-        head: what JSON has in front of the tables.
-        times: (steps,) the time of each step; None where there are no steps.
-        array_name: gives the name of an array from those of a table and a column.
+        head: keys of JSON in front of the tables.
+        times: (steps,) the time of each step; None without steps.
+        array_name: returns the name of an array from the names of a table and a column.
     """
 
     rows: Mapping[str, int]
@@ -109,36 +112,36 @@ class Contents:
         """Number of steps; 1 without times."""
         return 1 if self.times is None else len(self.times)
 
-    def timed(self, table: str, columns: Sequence[Column], start: int, count: int) -> list[Column]:
-        """The flat columns of a table, with one of times in front if there are any."""
+    def timed(self, table: str, columns: Sequence[ResultColumn], start: int, count: int) -> list[ResultColumn]:
+        """Return the flat columns of a table, after a column of times if there are any."""
         flat = [part for column in columns for part in column.flat()]
         if self.times is None:
             return flat
         times = np.broadcast_to(self.times[start : start + count, np.newaxis], (count, self.rows[table]))
-        return [Column("time", times, unit=time_unit(self.units)), *flat]
+        return [ResultColumn("time", times, unit=time_unit(self.units)), *flat]
 
 
 class Writer(Protocol):
-    """Writes the columns of all tables of a file, or of several, a few steps at a time."""
+    """Writer of the columns of all tables of a file, or of several, a few steps at a time."""
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
-        """Write the steps from `start` on; `beside` are values for each of them, for which only JSON has a place."""
+        """Write the steps from `start` on; `beside` are values for each of them that only JSON can hold."""
 
     def finish(self, more: More) -> None:
-        """Write what is known only after the last step."""
+        """Write values that are known only after the last step."""
 
 
 class Sink:
-    """Passes the results of an evaluation on to a writer, as the columns of tables; to nothing without a writer.
+    """Consumer that passes the results of an evaluation to a writer, as the columns of tables.
 
-    JSON has the lines of all steps behind them, and no table of lines.
+    Without a writer nothing is written. JSON has the lines of all steps after them, and no table of lines.
     """
 
-    def __init__(self, evaluation: Evaluation, tables: Mapping[str, Table], writer: Writer | None, form: str) -> None:
+    def __init__(self, evaluation: Evaluation, tables: NamedTables, writer: Writer | None, form: str) -> None:
         self._evaluation, self._tables, self._writer = evaluation, tables, writer
         self._lines = First(partial(line_steps, evaluation), None if form == "json" else 0)
 
-    def take(self, part: Part) -> None:
+    def take(self, part: ResultPart) -> None:
         """Write some steps. Raises OSError."""
         if self._writer is None:
             return
@@ -150,62 +153,62 @@ class Sink:
             beside = {"restrained": [ids[step].tolist() for step in restrained]}
         self._writer.write(columns, part.start, part.count, beside)
 
-    def finish(self, warnings: Sequence[ContactWarning] = (), comparison: Comparison | None = None) -> None:
-        """Write what comes behind the last step. Raises OSError."""
+    def finish(self, warnings: Sequence[ContactWarning] = (), comparison: ResultComparison | None = None) -> None:
+        """Write the data that follow the last step. Raises OSError."""
         if self._writer is not None:
             more: dict[str, object] = {
                 "summary": [row.row() for row in self._lines.rows],
                 "positions": self._evaluation.source,
-                "warnings": [one.row() for one in warnings],
+                "warnings": [warning.row() for warning in warnings],
             }
             self._writer.finish(more if comparison is None else more | {"against": comparison.summary()})
 
 
-def tables_of(evaluation: Evaluation, form: str, elements: Table, only: str | None = None) -> dict[str, Table]:
-    """Return the tables of results in a form, or one of CSV; JSON has the lines behind the last step."""
-    made = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
-    names = ("elements", "nodes") if form == "json" else made if only is None else (only,)
-    return {name: made[name]() for name in names}
+def tables_of(evaluation: Evaluation, form: str, elements: ResultTable, only: str | None = None) -> NamedTables:
+    """Return the tables of results in a format, or one table of CSV; JSON has the lines after the last step."""
+    makers = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
+    names = ("elements", "nodes") if form == "json" else makers if only is None else (only,)
+    return {name: makers[name]() for name in names}
 
 
-def contents_of(evaluation: Evaluation, tables: Mapping[str, Table]) -> Contents:
-    """Return what a file with these tables of results holds."""
+def contents_of(evaluation: Evaluation, tables: NamedTables) -> FileContent:
+    """Return the contents of a file with these tables of results."""
     rows = {name: table.rows for name, table in tables.items()}
     plan = {"plan": plan_rows(evaluation.model.plan)}
-    return Contents(rows, evaluation.scene.units, head=plan, times=evaluation.time)
+    return FileContent(rows, evaluation.scene.units, head=plan, times=evaluation.time)
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
-    """Where the contents of a file go: its form, and open files of a folder, one for each table or one for all.
+class ResultOutput:
+    """Destination of the contents of a file: its format, and open files in a folder, one for each table or one for all.
 
-    `tracked` shows how far a long loop over a list is.
+    `tracked` shows the progress of a long loop over a list.
     """
 
     form: str
-    contents: Contents
+    contents: FileContent
     streams: Sequence[BinaryIO]
     folder: Path
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
 
     def opened(self) -> AbstractContextManager[Writer]:
-        """Return a context with what writes. Raises FormError, and ImportError as `form_module` does."""
-        found: AbstractContextManager[Writer] = form_module(self.form).opened(self)
-        return found
+        """Return a context with the writer. Raises FormError, and ImportError as `form_module` does."""
+        context: AbstractContextManager[Writer] = form_module(self.form).opened(self)
+        return context
 
 
 def form_module(form: str) -> ModuleType:
-    """Return the module of a form; raises ImportError without the library that it needs."""
+    """Return the module of a format; raises ImportError without the library that it needs."""
     return import_module(f"{__name__}.{'text' if form in TEXTS else form}")
 
 
 def table_path(path: Path, table: str) -> Path:
-    """Return the file of another table beside that of the elements."""
+    """Return the file of another table next to that of the elements."""
     return path.with_name(f"{path.stem}-{table}{path.suffix}")
 
 
 def plan_rows(plan: Plan) -> list[dict[str, Any]]:
-    """The stages of a plan."""
+    """Return the stages of a plan as rows."""
     return [{"stage": stage.stage, "active": stage.active, "why": stage.why} for stage in plan]
 
 
@@ -213,8 +216,8 @@ def plan_rows(plan: Plan) -> list[dict[str, Any]]:
 
 
 @dataclass(frozen=True, slots=True)
-class Tables:
-    """Tables that are whole, by their names: flat columns (rows,) without steps; `more` is what JSON has besides."""
+class ResultTables:
+    """Whole tables by name: flat columns (rows,) without steps; `more` are additional keys of JSON."""
 
     columns: Columns
     format: str
@@ -222,12 +225,12 @@ class Tables:
     more: More
 
     @property
-    def contents(self) -> Contents:
-        """What a file with them holds; arrays have the name of the table in front."""
+    def contents(self) -> FileContent:
+        """Contents of a file with these tables; the name of an array begins with that of its table."""
         rows = {name: len(columns[0].values) for name, columns in self.columns.items()}
-        return Contents(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
+        return FileContent(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
 
     def write(self, writer: Writer) -> None:
-        """Write them. Raises OSError."""
+        """Write the tables. Raises OSError."""
         writer.write(self.columns, 0, 1, {})
         writer.finish({})

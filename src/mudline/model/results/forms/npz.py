@@ -10,28 +10,28 @@ from typing import IO, Any
 
 import numpy as np
 
-from mudline.model.contact.columns import Column, Values
-from mudline.model.results.forms import Columns, More, Output, Writer
+from mudline.model.contact.columns import ResultColumn, Values
+from mudline.model.results.forms import Columns, More, ResultOutput, Writer
 
 _PACKED = 1 << 18
-"""Values that are packed at a time."""
+"""Values packed at a time."""
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Writer]:
-    """What writes one archive."""
+def opened(output: ResultOutput) -> Iterator[Writer]:
+    """Yield the writer of an archive."""
     with ExitStack() as temporary:
         yield NpzWriter(output, temporary)
 
 
 class NpzWriter:
-    """The names of the columns as arrays: elements (steps, m), nodes (steps, n), vectors (steps, n, 3).
+    """Writer of the columns as arrays: elements (steps, m), nodes (steps, n), vectors (steps, n, 3).
 
-    A single state without a time has no axis for steps. Texts that are null elsewhere are empty. An archive takes one
-    array after the other, so what changes is in nameless files until the end, in the folder of the archive.
+    A single state without a time has no axis for steps. Texts that are null in other formats are empty. An archive
+    takes one array after the other, so values that change are in nameless files in its folder until the end.
     """
 
-    def __init__(self, output: Output, temporary: ExitStack) -> None:
+    def __init__(self, output: ResultOutput, temporary: ExitStack) -> None:
         self._output, self._contents, self._temporary = output, output.contents, temporary
         self._arrays: dict[str, _Array] = {}
 
@@ -46,7 +46,7 @@ class NpzWriter:
                 self._arrays[name].take(column)
 
     def finish(self, more: More) -> None:
-        """Write the archive; it has no place for more. Raises OSError."""
+        """Write the archive; it cannot hold `more`. Raises OSError."""
         del more
         times, steps = self._contents.times, self._contents.steps
         with zipfile.ZipFile(self._output.streams[0], "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
@@ -62,9 +62,9 @@ class NpzWriter:
 
 
 class _Array:
-    """An array on its way: what no step changes in memory, the others in a file of numbers."""
+    """An array to be written: values that no step changes in memory, other values in a file of numbers."""
 
-    def __init__(self, column: Column, file: IO[bytes] | None) -> None:
+    def __init__(self, column: ResultColumn, file: IO[bytes] | None) -> None:
         self.over_steps = column.over_steps
         self.shape = column.values.shape if column.steady else column.values.shape[1:]
         self._texts = np.array([name or "" for name in column.names], dtype=np.str_) if column.names else None
@@ -72,13 +72,13 @@ class _Array:
         self.dtype = self._kept if self._texts is None else self._texts.dtype
         self._steady, self._file = column.values, file
 
-    def take(self, column: Column) -> None:
+    def take(self, column: ResultColumn) -> None:
         """Keep the values of some steps."""
         if self._file is not None:
             self._file.write(np.ascontiguousarray(column.values).data)
 
     def pieces(self, steps: int) -> Iterator[Values]:
-        """All values of so many steps, in their order, flat."""
+        """Yield all values of so many steps, in order, flat."""
         if self._file is None:
             row = self._steady.ravel()
             together = min(steps, max(1, _PACKED // max(row.size, 1)))

@@ -10,23 +10,23 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from mudline.model.contact.frames import arrow_of
-from mudline.model.results.forms import Columns, Contents, More, Output, Writer
+from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, Writer
 
 GROUP = 1 << 18
-"""Rows of a group, as soon as there are so many."""
+"""Rows from which on a group is written."""
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Writer]:
-    """What writes a file for each table."""
+def opened(output: ResultOutput) -> Iterator[Writer]:
+    """Yield the writer of a file for each table."""
     with ExitStack() as files:
         yield ParquetWriter(output.contents, dict(zip(output.contents.rows, output.streams, strict=True)), files)
 
 
 class ParquetWriter:
-    """The columns of CSV: vectors as three, no value as null; texts are kept once in each group of rows."""
+    """Writer of the columns of CSV: vectors as three, missing values as null; texts are stored once per group."""
 
-    def __init__(self, contents: Contents, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
+    def __init__(self, contents: FileContent, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
         self._contents, self._streams, self._files = contents, streams, files
         self._writers: dict[str, pq.ParquetWriter] = {}
         self._waiting: dict[str, list[pa.Table]] = {table: [] for table in streams}
@@ -41,18 +41,18 @@ class ParquetWriter:
                 self._flush(table)
 
     def finish(self, more: More) -> None:
-        """Write what waits; a table has no place for more. Raises OSError."""
+        """Write the waiting rows; a table cannot hold `more`. Raises OSError."""
         del more
         for table in self._waiting:
             self._flush(table)
 
     def _flush(self, table: str) -> None:
-        """Write what waits as one group of rows."""
+        """Write the waiting rows as one group."""
         if not self._waiting[table]:
             return
         group = pa.concat_tables(self._waiting[table])
         if table not in self._writers:
-            made = pq.ParquetWriter(self._streams[table], group.schema, compression="zstd")
-            self._writers[table] = self._files.enter_context(made)
+            opened_writer = pq.ParquetWriter(self._streams[table], group.schema, compression="zstd")
+            self._writers[table] = self._files.enter_context(opened_writer)
         self._writers[table].write_table(group, row_group_size=max(len(group), 1))
         self._waiting[table] = []

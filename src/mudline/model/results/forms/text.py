@@ -1,4 +1,4 @@
-"""Results as text: CSV, a table each, and JSON, one document."""
+"""Results as text: CSV, one file per table, and JSON, one document."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ import numpy as np
 from pydantic_core import to_json
 
 from mudline.basics.quantities import csv_lines
-from mudline.model.contact.columns import Column, Values
-from mudline.model.results.forms import Columns, Contents, More, Output, Tables, Write, Writer
+from mudline.model.contact.columns import ResultColumn, Values
+from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, ResultTables, Write, Writer
 
 _BLOCK = 8192
-"""Rows spelled at a time: the texts of a large model are never all in memory."""
+"""Rows formatted at a time: the text of a large model is never in memory as a whole."""
 _PIECE = 1000
 """Rows written at a time."""
 
@@ -26,38 +26,38 @@ T = TypeVar("T")
 Row = tuple[str, ...]
 
 
-def opened(output: Output) -> AbstractContextManager[Writer]:
-    """What writes a CSV for each table, or one JSON."""
+def opened(output: ResultOutput) -> AbstractContextManager[Writer]:
+    """Return a context with the writer of a CSV for each table, or of one JSON."""
     contents, writes = output.contents, [text_into(stream) for stream in output.streams]
     if output.form == "json":
         return nullcontext(JsonWriter(contents, writes[0]))
     return nullcontext(CsvWriter(contents, dict(zip(contents.rows, writes, strict=True))))
 
 
-def text_writer(form: str, contents: Contents, write: Write, table: str = "elements") -> Writer:
-    """Return what writes one table as "csv", or all of them as "json"."""
+def text_writer(form: str, contents: FileContent, write: Write, table: str = "elements") -> Writer:
+    """Return the writer of one table as "csv", or of all tables as "json"."""
     return CsvWriter(contents, {table: write}) if form == "csv" else JsonWriter(contents, write)
 
 
-def write_text(tables: Tables, form: str, write: Write, table: str) -> None:
+def write_text(tables: ResultTables, form: str, write: Write, table: str) -> None:
     """Write whole tables as "json", or one of them as "csv"."""
     tables.write(text_writer(form, tables.contents, write, table))
 
 
 def text_into(stream: BinaryIO) -> Write:
-    """Return what writes text into a file as UTF-8; half a surrogate pair, as a name may hold, is escaped."""
+    """Return a function that writes text into a file as UTF-8; half a surrogate pair, as in a name, is escaped."""
     return lambda pieces: stream.writelines(piece.encode("utf-8", "backslashreplace") for piece in pieces)
 
 
 @dataclass(frozen=True, slots=True)
 class Spelling:
-    """How a form spells a name, and that there is no value."""
+    """Text of a name, and of a missing value, in a format."""
 
     name: Callable[[str], str]
     nothing: str
 
     def column(self, values: Values, names: tuple[str | None, ...] = (), blank: int | None = None) -> list[str]:
-        """The values of a column; numbers read back to the same double; NaN, inf and `blank` are no value."""
+        """Return the values of a column as text, numbers with all digits; NaN, inf and `blank` are missing values."""
         if not values.size:
             return []
         if blank is not None:
@@ -70,8 +70,8 @@ class Spelling:
             return numbers
         return [self.nothing if text == "null" else text for text in numbers]
 
-    def rows(self, columns: Sequence[Column], steps: int, rows: int) -> Iterator[Row]:
-        """The rows of some steps, one step behind the other, from flat columns."""
+    def rows(self, columns: Sequence[ResultColumn], steps: int, rows: int) -> Iterator[Row]:
+        """Yield the rows of some steps, one step after the other, from flat columns."""
         for first, last, block in blocks(steps, rows, _BLOCK):
             texts = [
                 self.column(column.values[block], column.names, column.blank) * (last - first)
@@ -83,7 +83,7 @@ class Spelling:
 
 
 def blocks(steps: int, rows: int, most: int) -> Iterator[tuple[int, int, slice]]:
-    """Pieces of steps with at most so many rows: whole steps together, or a part of the rows of one."""
+    """Yield pieces of steps with at most so many rows: several whole steps, or a part of the rows of one step."""
     if rows > most:
         for step in range(steps):
             yield from ((step, step + 1, slice(start, start + most)) for start in range(0, rows, most))
@@ -93,9 +93,9 @@ def blocks(steps: int, rows: int, most: int) -> Iterator[tuple[int, int, slice]]
 
 
 def _batched(rows: Iterable[T]) -> Iterator[list[T]]:
-    """Rows in lists that are written at once."""
-    rest = iter(rows)
-    while piece := list(islice(rest, _PIECE)):
+    """Yield rows in lists that are written together."""
+    remaining = iter(rows)
+    while piece := list(islice(remaining, _PIECE)):
         yield piece
 
 
@@ -105,9 +105,9 @@ _CSV = Spelling(lambda name: next(csv_lines([[name]])).removesuffix("\n"), "")
 
 
 class CsvWriter:
-    """A table each: `time` in front when there are times, `units` at the end."""
+    """Writer of one file per table: `time` in front if there are times, `units` at the end."""
 
-    def __init__(self, contents: Contents, writes: Mapping[str, Write]) -> None:
+    def __init__(self, contents: FileContent, writes: Mapping[str, Write]) -> None:
         self._contents, self._writes = contents, writes
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
@@ -117,11 +117,11 @@ class CsvWriter:
             write(self._pieces(table, columns[table], start, count))
 
     def finish(self, more: More) -> None:
-        """Write nothing: a table has no place for more."""
+        """Write nothing: a table cannot hold `more`."""
 
-    def _pieces(self, table: str, columns: Sequence[Column], start: int, count: int) -> Iterator[str]:
+    def _pieces(self, table: str, columns: Sequence[ResultColumn], start: int, count: int) -> Iterator[str]:
         rows = self._contents.rows[table]
-        units = Column("units", np.zeros(rows, np.int32), (self._contents.units, None), over_steps=False)
+        units = ResultColumn("units", np.zeros(rows, np.int32), (self._contents.units, None), over_steps=False)
         flat = [*self._contents.timed(table, columns, start, count), units]
         if start == 0:
             yield ",".join(column.name for column in flat) + "\n"
@@ -135,17 +135,17 @@ _JSON = Spelling(partial(json.dumps, ensure_ascii=False), "null")
 
 
 class JsonWriter:
-    """One document, a row on a line; with times, the rows are under `steps`."""
+    """Writer of one document, a row on a line; with times, the rows are under `steps`."""
 
-    def __init__(self, contents: Contents, write: Write) -> None:
+    def __init__(self, contents: FileContent, write: Write) -> None:
         self._contents, self._write = contents, write
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
-        """Write some steps; before the first, what is in front of them."""
+        """Write some steps; before the first, the head."""
         self._write(self._steps(columns, start, count, beside))
 
     def finish(self, more: More) -> None:
-        """Write the end, with further keys."""
+        """Write the end, with additional keys."""
         end = "" if self._contents.times is None else "]"
         self._write(iter([end, *(f",\n {_pair(key, value)}" for key, value in more.items()), "}\n"]))
 
@@ -169,7 +169,7 @@ class JsonWriter:
 
 
 def _pair(key: str, value: object) -> str:
-    """A key with its value; a list of objects has a line for each."""
+    """Return a key with its value; a list of objects has a line for each."""
     if isinstance(value, list) and value and isinstance(value[0], dict):
         return f'"{key}": ' + "".join(_list(map(_dumped, value), "  "))
     return f'"{key}": {_dumped(value)}'
@@ -179,7 +179,7 @@ def _dumped(value: object) -> str:
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
 
-def _objects(columns: Sequence[Column], rows: Iterable[Row]) -> Iterator[str]:
+def _objects(columns: Sequence[ResultColumn], rows: Iterable[Row]) -> Iterator[str]:
     fields = (f'"{column.name}": {"[%s, %s, %s]" if column.vector else "%s"}' for column in columns)
     template = "{" + ", ".join(fields) + "}"
     return (template % row for row in rows)

@@ -14,27 +14,27 @@ from xlsxwriter.worksheet import Worksheet
 
 from mudline.basics.quantities import finite
 from mudline.basics.short_repr import cut
-from mudline.model.contact.columns import Column
-from mudline.model.results.forms import Columns, Contents, FormError, More, Output, Writer
+from mudline.model.contact.columns import ResultColumn
+from mudline.model.results.forms import Columns, FileContent, FormError, More, ResultOutput, Writer
 from mudline.model.results.forms.text import blocks
 
 SHEET_ROWS = 1_048_576
-"""Rows of a sheet."""
+"""Rows of a sheet, at most."""
 _HEADINGS = 2
-"""Rows of them: names and units."""
+"""Rows of headings: names and units."""
 _CELL_LETTERS = 32_767
-"""Characters of a cell."""
+"""Characters of a cell, at most."""
 _NARROW, _WIDE = 10, 40
 """Widths of columns in characters."""
 _BLOCK = 4096
 """Rows written at a time."""
 _CREATED = datetime(2000, 1, 1, tzinfo=UTC)
-"""The date in a workbook, which says nothing: the same results give the same bytes."""
+"""Fixed date of workbooks: the same results give the same bytes."""
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Writer]:
-    """What writes one workbook. Raises FormError where a sheet has no place for all rows of a table."""
+def opened(output: ResultOutput) -> Iterator[Writer]:
+    """Yield the writer of a workbook. Raises FormError if a sheet cannot hold all rows of a table."""
     contents = output.contents
     for table, rows in contents.rows.items():
         if contents.steps * rows > SHEET_ROWS - _HEADINGS:
@@ -48,24 +48,24 @@ def opened(output: Output) -> Iterator[Writer]:
         finally:
             for sheet in book.worksheets():
                 sheet.row_data_fh.close()
-            book.fileclosed = True  # after a fault it must not write itself when it is thrown away
+            book.fileclosed = True  # after an error it must not write itself when it is deleted
 
 
 class WorkbookWriter:
-    """A sheet of each table: names, units, then the rows; `time` in front when there are times.
+    """Writer of one sheet per table: names, units, then the rows; `time` in front if there are times.
 
-    Texts are texts whatever they begin with, numbers read back to the same double; no value is an empty cell. The rows
-    are in temporary files in the folder of the workbook until the end.
+    A text stays a text whatever its first character. Numbers read back to the same double; a missing value is an empty
+    cell. The rows are in temporary files in the folder of the workbook until the end.
     """
 
-    def __init__(self, book: Any, contents: Contents) -> None:  # noqa: ANN401 - xlsxwriter has no types
+    def __init__(self, book: Any, contents: FileContent) -> None:  # noqa: ANN401 - xlsxwriter has no types
         self._book, self._contents = book, contents
         book.use_zip64()
         book.set_properties({"created": _CREATED})
         book.set_custom_property("mudline.format", contents.format)
         book.set_custom_property("mudline.units", contents.units)
         self._bold, self._italic = book.add_format({"bold": True}), book.add_format({"italic": True})
-        self._sheets = {name: book.add_worksheet(name, worksheet_class=_Sheet) for name in contents.rows}
+        self._sheets = {name: book.add_worksheet(name, worksheet_class=_ExactSheet) for name in contents.rows}
         self._rows = dict.fromkeys(contents.rows, _HEADINGS)
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
@@ -81,15 +81,15 @@ class WorkbookWriter:
                     self._rows[table] += 1
 
     def finish(self, more: More) -> None:
-        """Write the workbook; it has no place for more. Raises OSError."""
+        """Write the workbook; it cannot hold `more`. Raises OSError."""
         del more
         try:
             self._book.close()
         except XlsxWriterException as error:
             raise OSError(str(error)) from error
 
-    def _head(self, sheet: Any, columns: Sequence[Column]) -> None:  # noqa: ANN401 - as above
-        """Write names and units, which stay in sight as the first columns do."""
+    def _head(self, sheet: Any, columns: Sequence[ResultColumn]) -> None:  # noqa: ANN401 - as above
+        """Write names and units, which stay in view, as do the first columns."""
         for place, column in enumerate(columns):
             longest = max((len(name) for name in column.names if name), default=_NARROW)
             sheet.set_column(place, place, min(max(_NARROW, len(column.name), longest) + 2, _WIDE))
@@ -98,16 +98,16 @@ class WorkbookWriter:
         sheet.freeze_panes(_HEADINGS, 1 + (self._contents.times is not None))
 
 
-class _Sheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
-    """A sheet whose numbers have all their digits; those of xlsxwriter have 16."""
+class _ExactSheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
+    """A sheet whose numbers have all their digits; xlsxwriter writes 16."""
 
     def _xml_number_element(self, number: float, attributes: Sequence[tuple[str, object]] = ()) -> None:
         about = "".join(f' {key}="{value}"' for key, value in attributes)
         self.fh.write(f"<c{about}><v>{number!r}</v></c>")
 
 
-def _cells(column: Column, first: int, last: int, block: slice) -> Sequence[object]:
-    """The values of some rows of some steps; None for no value."""
+def _cells(column: ResultColumn, first: int, last: int, block: slice) -> Sequence[object]:
+    """Return the values of some rows of some steps; None for a missing value."""
     values: list[Any] = column.cut(first, last)[:, block].ravel().tolist()
     if column.names:
         texts = [None if name is None else _text(name) for name in column.names]
@@ -118,5 +118,5 @@ def _cells(column: Column, first: int, last: int, block: slice) -> Sequence[obje
 
 
 def _text(name: str) -> str:
-    """A name as a cell can hold it; half a surrogate pair is escaped."""
+    """Return a name as a cell can hold it; half a surrogate pair is escaped."""
     return cut(name.encode("utf-8", "backslashreplace").decode(), _CELL_LETTERS)

@@ -1,4 +1,4 @@
-"""The plots, in one style: curves, models, and results in panels. Needs matplotlib (extra `plot`)."""
+"""Plots in one style: curves, models, and results in panels. Needs matplotlib (extra `plot`)."""
 
 from __future__ import annotations
 

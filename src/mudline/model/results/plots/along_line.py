@@ -1,4 +1,4 @@
-"""Panels over arc length: the line on the seabed; forces, embedment and stiffness of a step, extents of all steps."""
+"""Panels over arc length: the line on the seabed; forces, embedment and stiffness of a step, extremes of all steps."""
 
 from __future__ import annotations
 
@@ -30,19 +30,23 @@ from mudline.model.results.totals import carried
 from mudline.model.scene.numbering import Floats, Indices
 
 MOST_LINES = 6
-"""Lines that are drawn."""
+"""Largest number of drawn lines."""
 _BESIDE = 0.15
 """Part of the stretch in contact that is drawn on both sides of it."""
 _CHANGE = 0.01
-"""Part of the deepest embedment by which that of neighbours differs where contact changes."""
+"""Change of the embedment between neighbours where contact changes, as a part of the deepest embedment."""
 _MARKED = 80
-"""Slipping nodes of a line that are marked."""
+"""Largest number of marked slipping nodes of a line."""
 
 
 class DrawnLine(NamedTuple):
-    """A line within the stretch and one element beside it: its number, from 0, its style, elements and nodes.
+    """A line within the stretch, and one element on both sides of it.
 
-    `elements` are the evaluated ones, `element_arcs` the arc lengths of their middles, `node_arcs` those of the nodes.
+    Attributes:
+        number: its number, from 0.
+        style: its style.
+        elements, element_arcs: its evaluated elements, and the arc lengths of their middles.
+        nodes, node_arcs: its nodes and their arc lengths.
     """
 
     number: int
@@ -53,12 +57,12 @@ class DrawnLine(NamedTuple):
     node_arcs: Floats
 
 
-class Stretch:
-    """The lines that are drawn, and the stretch of arc length that all panels along them show: where contact changes.
+class DrawnStretch:
+    """The drawn lines, and the stretch of arc length of all panels along them: where contact changes.
 
     Attributes:
-        limits: the least and the largest arc length that is drawn.
-        beyond: what is not drawn, in words: parts of the line that lie on the seabed without a change.
+        limits: the least and the largest drawn arc length.
+        beyond: text about parts that are not drawn: parts of the line that lie on the seabed without a change.
         lines: the drawn lines: those that touch the seabed first.
         left_out: the number of lines that are not drawn.
     """
@@ -99,7 +103,7 @@ class Stretch:
             )
 
     def _changes(self, line: int) -> Indices:
-        """The elements of a line where contact changes: it begins or ends, or the embedment differs, at any step."""
+        """Return the elements of a line where contact begins or ends, or the embedment changes, at any step."""
         data, elements = self.data, self.data.given.lines.elements[line]
         elements = elements[np.isin(elements, data.elements)]
         touched, deepest = data.touched[elements], float(np.nan_to_num(data.depth.most).max(initial=0.0))
@@ -109,7 +113,7 @@ class Stretch:
         return elements[np.union1d(at, at + 1)]
 
     def name(self, line: DrawnLine) -> str:
-        """Return what a line is called in a legend."""
+        """Return the name of a line in a legend."""
         ids = self.data.given.element_ids[self.data.given.lines.elements[line.number]]
         return f"line {line.number + 1}: elements {ids[0]} to {ids[-1]}"
 
@@ -126,8 +130,8 @@ class Stretch:
         axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
 
 
-def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw the seabed reaction of the elements; that on the nodes, where only springs of nodes act."""
+def force(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+    """Draw the seabed reaction of the elements, or on the nodes if only springs of nodes act."""
     result, units = data.drawn.result, data.given.units
     _extents(axes, data, data.force, stretch)
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
@@ -146,8 +150,8 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     zero_line(axes)
 
 
-def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw the embedment of the elements, downwards; what hangs high above does not hide how deep the rest lies."""
+def embedment(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+    """Draw the embedment of the elements, downwards; parts that hang high do not hide the embedment of the others."""
     _extents(axes, data, data.depth, stretch)
     _of_elements(axes, data.drawn.result.depth, stretch)
     axes.axhline(0.0, color=SEABED, linewidth=1.2, zorder=1)
@@ -160,31 +164,31 @@ def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
 
 
-def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def stiffness(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the stiffness of the seabed under the elements."""
     _of_elements(axes, data.drawn.result.stiffness, stretch)
     axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
 
 
-def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw what holds the line down per unit length, with the states of suction, when the pull is largest."""
+def suction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+    """Draw the pull of the seabed per unit length, with the states of suction, at the step of the largest pull."""
     chosen = data.largest["pull"]
     pull, states = np.maximum(0.0 - chosen.result.force, 0.0), chosen.result.state
     _of_elements(axes, pull, stretch, mark=False)
     if states is not None:
         drawn = np.concatenate([line.elements for line in stretch.lines])
         for name, style in STATE_STYLES.items():
-            mine = drawn[states[drawn] == STATES.index(name)]
-            if mine.size:
-                shown = mine[thinned(pull[mine], 400)]
+            in_state = drawn[states[drawn] == STATES.index(name)]
+            if in_state.size:
+                shown = in_state[thinned(pull[in_state], 400)]
                 points = data.given.lines.element_arc[shown], pull[shown]
                 axes.plot(*points, style.marker, markersize=4, color=style.color, label=name, zorder=4)
     legend(axes, note=_step_note(data, chosen))
     axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
 
 
-def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw the axial and the lateral force on the nodes, crossed where they slip, when the largest of them acts."""
+def friction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+    """Draw the axial and the lateral force on the nodes, crossed where they slip, at the step of the largest force."""
     chosen = data.largest["friction"]
     forces, slips = chosen.result.friction, False
     if forces is None:
@@ -205,7 +209,7 @@ def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     legend(axes, note=_step_note(data, chosen))
 
 
-def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
+def _of_elements(axes: Axes, values: Floats, stretch: DrawnStretch, *, mark: bool = True) -> None:
     """Draw values (m,) of the elements over the arc length of their middles."""
     for line in stretch.lines:
         style = line.style if mark else line.style._replace(marker="")
@@ -213,13 +217,13 @@ def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = T
     widen(axes, np.concatenate([np.zeros(0), *(values[line.elements] for line in stretch.lines)]))
 
 
-def _extents(axes: Axes, data: PlotData, found: Extents, stretch: Stretch) -> None:
-    """Shade what lies between the least and the largest values of the elements over the steps of a series."""
+def _extents(axes: Axes, data: PlotData, extents: Extents, stretch: DrawnStretch) -> None:
+    """Shade the range between the least and the largest values of the elements over the steps of a series."""
     if data.steps == 1:
         return
     for line in stretch.lines:
-        kept = thinned(found.most[line.elements])
-        least, most = found.least[line.elements[kept]], found.most[line.elements[kept]]
+        kept = thinned(extents.most[line.elements])
+        least, most = extents.least[line.elements[kept]], extents.most[line.elements[kept]]
         label = "least to largest of all steps" if line is stretch.lines[0] else None
         axes.fill_between(
             line.element_arcs[kept], least, most, color=line.style.color, alpha=0.2, linewidth=0.0, label=label
@@ -228,42 +232,42 @@ def _extents(axes: Axes, data: PlotData, found: Extents, stretch: Stretch) -> No
 
 
 def when(data: PlotData, step: int) -> str:
-    """Return the time of a step, in words; "" for a state without one."""
+    """Return the time of a step, as text; "" for a state without a time."""
     if data.times is None:
         return "" if data.steps == 1 else f"step {step}"
     return f"time {float(data.times[step]):.6g} {time_unit(data.given.units)}".rstrip()
 
 
 def _step_note(data: PlotData, chosen: Chosen) -> str:
-    """The time of a step, for a panel of a series that shows another one than the others do."""
+    """Return the time of a step, for a panel of a series that shows another step than the other panels."""
     return f"at {when(data, chosen.step)}" if data.steps > 1 else ""
 
 
 # ----------------------------------------------------------------------------------------------- the line on the seabed
 
 _HIGHEST = (25.0, 5.0)
-"""How high above the seabed a line is drawn, as a multiple of the deepest embedment and of the largest diameter."""
+"""Height above the seabed up to which a line is drawn, in deepest embedments and in largest diameters."""
 _LABELLED_POINTS = 3
-"""Touchdown points whose arc length is written beside them, if there are no more."""
+"""Number of touchdown points up to which their arc length is written next to them."""
 
 
-def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def line(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
     heights, seabed, touching = data.drawn.heights, data.drawn.seabed, False
-    for one in stretch.lines:
-        drawn = thinned(data.drawn.result.gap[one.nodes])
-        arcs, nodes = one.node_arcs[drawn], one.nodes[drawn]
+    for drawn_line in stretch.lines:
+        drawn = thinned(data.drawn.result.gap[drawn_line.nodes])
+        arcs, nodes = drawn_line.node_arcs[drawn], drawn_line.nodes[drawn]
         axes.plot(arcs, seabed[nodes], color=SEABED, linewidth=1.2, zorder=1)
-        axes.plot(arcs, heights[nodes], linewidth=1.1, zorder=3, **one.style.line)
-        touching |= _thick(axes, data, one)
+        axes.plot(arcs, heights[nodes], linewidth=1.1, zorder=3, **drawn_line.style.line)
+        touching |= _thick(axes, data, drawn_line)
     _crop(axes, data, stretch)
     _touchdown_points(axes, data, stretch)
     if len(stretch.lines) == 1:
         _soil(axes, data.drawn, stretch.lines[0])
     axes.set_ylabel(NODES["x"].axis(data.given.units))
     handles: list[Artist] = [
-        Line2D([], [], **one.style.line, marker=one.style.marker, label=stretch.name(one))
-        for one in (stretch.lines if len(stretch.lines) > 1 else ())
+        Line2D([], [], **drawn_line.style.line, marker=drawn_line.style.marker, label=stretch.name(drawn_line))
+        for drawn_line in (stretch.lines if len(stretch.lines) > 1 else ())
     ]
     if stretch.left_out:
         handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
@@ -273,8 +277,8 @@ def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     legend(axes, [*handles, *axes.get_legend_handles_labels()[0]])
 
 
-def _crop(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
+def _crop(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+    """Crop parts that hang so high that nothing of the contact with the seabed would be seen."""
     sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
     most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
     nodes = np.concatenate([line.nodes for line in stretch.lines])
@@ -287,23 +291,23 @@ def _crop(axes: Axes, data: PlotData, stretch: Stretch) -> None:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
-def _thick(axes: Axes, data: PlotData, one: DrawnLine) -> bool:
-    """Draw the elements of a line that touch the seabed over it; return whether there are any."""
+def _thick(axes: Axes, data: PlotData, drawn_line: DrawnLine) -> bool:
+    """Draw the elements of a line that touch the seabed over it; return True if there are any."""
     lines, heights = data.given.lines, data.drawn.heights
-    here = np.flatnonzero(carried(data.drawn.result)[lines.elements[one.number]])
-    arcs, along = lines.node_arcs(one.number, data.given.length), heights[lines.nodes[one.number]]
+    here = np.flatnonzero(carried(data.drawn.result)[lines.elements[drawn_line.number]])
+    arcs, along = lines.node_arcs(drawn_line.number, data.given.length), heights[lines.nodes[drawn_line.number]]
     here = here[thinned(np.nan_to_num(along[here]))] if here.size else here
     x, y = (gapped(values[here], values[here + 1]) for values in (arcs, along))
-    axes.plot(x, y, color=one.style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
+    axes.plot(x, y, color=drawn_line.style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
     return bool(here.size)
 
 
-def _touchdown_points(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Mark where the lines come down on the seabed or leave it."""
+def _touchdown_points(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+    """Mark the touchdown points of the lines."""
     low, high = stretch.limits
-    found = data.touchdown_points([line.number for line in stretch.lines])
-    points = sorted((one for one in found if low <= one.arc_length <= high), key=lambda one: one.arc_length)
-    mark_touchdown(axes, [one.arc_length for one in points], [one.x for one in points])
+    at_step = data.touchdown_points([line.number for line in stretch.lines])
+    points = sorted((point for point in at_step if low <= point.arc_length <= high), key=lambda point: point.arc_length)
+    mark_touchdown(axes, [point.arc_length for point in points], [point.x for point in points])
     unit = unit_names(data.given.units).length
     for number, point in enumerate(points if len(points) <= _LABELLED_POINTS else ()):
         right, above = point.arc_length < 0.5 * (low + high), number % 2 == 0
@@ -327,16 +331,16 @@ def mark_touchdown(axes: Axes, x: list[float], y: list[float]) -> None:
         axes.plot(x, y, "v", color="black", markerfacecolor="white", markersize=size, label="touchdown point", zorder=5)
 
 
-def _soil(axes: Axes, chosen: Chosen, one: DrawnLine) -> None:
-    """Fill what lies below the seabed."""
-    drawn = thinned(chosen.result.gap[one.nodes])
-    level = chosen.seabed[one.nodes[drawn]]
+def _soil(axes: Axes, chosen: Chosen, drawn_line: DrawnLine) -> None:
+    """Fill the area below the seabed."""
+    drawn = thinned(chosen.result.gap[drawn_line.nodes])
+    level = chosen.seabed[drawn_line.nodes[drawn]]
     if not np.isfinite(level).any():
         return
     lowest, highest = axes.get_ylim()
     least = float(np.nanmin(level))
     bottom = min(lowest, least - 0.12 * (highest - least))
     if is_number(bottom, highest):
-        axes.fill_between(one.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
+        axes.fill_between(drawn_line.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
         margin = 0.1 if len(axes.texts) > 1 else 0.04  # for the labels of touchdown points at the top
         axes.set_ylim(bottom, highest + margin * (highest - bottom))

@@ -1,4 +1,4 @@
-"""Force over embedment, and other curves of a deck; evaluated points on their curves, paths of chosen elements."""
+"""Plots of force over embedment and of other curves; evaluated points on curves, paths of chosen elements."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from mudline.model.scene.numbering import Indices, Mask
 _MARGIN = 0.15
 """Part of its largest ratio by which a curve is drawn beyond its last point."""
 _MARKS = {"values asked for": ("at", "x", 8.0), "static embedment": ("static", "D", 7.0)}
-"""Points of a curve that are marked: their key in a row, marker and size."""
+"""Marked points of a curve: their key in a row, marker and size."""
 
 
 @drawing()
@@ -43,8 +43,8 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
     A current profile is drawn with the elevation upward.
 
     Args:
-        rows: as of `curve_rows`: name, kind, points and values asked for; of other curves than those of the seabed also
-            keyword, axes, units, ends and reach.
+        rows: rows of `curve_rows`: name, kind, points and values asked for; of curves other than those of the seabed
+            also keyword, axes, units, ends and reach.
         units: system of units.
     """
     kinds: dict[tuple[str, ...], list[dict[str, Any]]] = {}
@@ -87,10 +87,10 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
 
 
 def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
-    """Draw a curve as far as it is known, with its marks; a current profile upward."""
+    """Draw a curve within its known range, with its marks; a current profile upward."""
     ratios, forces = np.array(row["points"]).T
     reach = row.get("reach", (None, None))
-    low, high = (given if end is None else end for end, given in zip(reach, ratios[[0, -1]], strict=True))
+    low, high = (outermost if end is None else end for end, outermost in zip(reach, ratios[[0, -1]], strict=True))
     known = np.unique(np.clip(ratios, low, high))
     ratios, forces = known, np.interp(known, ratios, forces)
     upward = -1 if row["kind"] == OF_CURRENT else 1
@@ -99,10 +99,10 @@ def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
     axes.plot(*(ratios, forces)[::upward], color=style.color, linewidth=1.3, marker=marker, markersize=3.5, label=name)
     marked = []
     for key, shape, size in _MARKS.values():
-        for one in row.get(key, ()):
-            if one["force"] is not None:
-                axes.plot(*(one["ratio"], one["force"])[::upward], shape, **_mark(style.color, size))
-                marked.append(one["ratio"])
+        for mark in row.get(key, ()):
+            if mark["force"] is not None:
+                axes.plot(*(mark["ratio"], mark["force"])[::upward], shape, **_mark(style.color, size))
+                marked.append(mark["ratio"])
     far = ratios[-1] * (1.0 + _MARGIN)
     for end, inner, to in ((0, 1, min([0.0, *marked])), (-1, -2, max([far, *marked]))):
         if reach[end] is not None:
@@ -134,7 +134,7 @@ def _mark(color: str, size: float) -> dict[str, Any]:
 _NAMED = 6
 _SHORT_NAME = 24
 _PALEST = 0.65
-"""How much of the colour of a point is white at the first step; none is at the last."""
+"""Share of white in the colour of a point at the first step; 0 at the last step."""
 
 
 def on_curves(axes: Axes, data: PlotData) -> None:
@@ -143,15 +143,15 @@ def on_curves(axes: Axes, data: PlotData) -> None:
     used = np.unique(every.curve)
     for place, index in enumerate(used.tolist()):
         style, curve = style_of(place), data.given.curves[index]
-        mine = np.flatnonzero(every.curve == index)
-        mine = mine[np.argsort(every.step[mine], kind="stable")]
-        ratio, force = every.ratio[mine], every.force[mine]
+        rows = np.flatnonzero(every.curve == index)
+        rows = rows[np.argsort(every.step[rows], kind="stable")]
+        ratio, force = every.ratio[rows], every.force[rows]
         far = float(ratio.max(initial=curve.ratios[-1]))
         knots = np.unique([0.0, *curve.ratios[(curve.ratios > 0.0) & (curve.ratios < far)], far])
         axes.plot(knots, curve.evaluate(knots)[0], **style.line, linewidth=1.2, zorder=2)
         for above, pull in _springs(data, index, float(ratio.min(initial=0.0))):
             axes.plot([above, 0.0], [pull, 0.0], **style.line, linewidth=1.2, zorder=2)
-        part = every.step[mine] / (data.steps - 1) if data.steps > 1 else np.ones(len(mine))
+        part = every.step[rows] / (data.steps - 1) if data.steps > 1 else np.ones(len(rows))
         pale = _PALEST * (1.0 - part[:, np.newaxis])
         axes.scatter(
             ratio,
@@ -162,7 +162,7 @@ def on_curves(axes: Axes, data: PlotData) -> None:
             edgecolors=style.color,
             linewidths=0.3,
             zorder=3,
-            rasterized=len(mine) > 1000,
+            rasterized=len(rows) > 1000,
         )
         label = legend_name(str(curve.name), _SHORT_NAME) if place < _NAMED else None
         axes.plot([], [], **style.line, marker=style.marker, markersize=4, label=label)
@@ -176,23 +176,23 @@ def on_curves(axes: Axes, data: PlotData) -> None:
 def _springs(data: PlotData, curve: int, least: float) -> list[list[float]]:
     """Return the ends of the lines below ratio 0: the suction springs of the elements that follow a curve.
 
-    Each end is a ratio, not less than the `least` one of the evaluated points, and the force there. Springs that are
-    many are not all drawn.
+    Each end is a ratio, not less than the `least` ratio of the evaluated points, and the force there. Of many springs
+    only some are drawn.
     """
     spring = data.given.assigned.get("suction spring")
     if spring is None or least >= 0.0:
         return []
-    size, mine = data.given.diameter[spring.rows], data.given.curve_index[spring.rows] == curve
+    size, followers = data.given.diameter[spring.rows], data.given.curve_index[spring.rows] == curve
     above = np.maximum(-spring["extent"] / size, least)
-    ends = np.column_stack([above, spring["stiffness"] * size * above])[mine]
-    found: list[list[float]] = np.unique(ends, axis=0)[:_NAMED].tolist()
-    return found
+    ends = np.column_stack([above, spring["stiffness"] * size * above])[followers]
+    springs: list[list[float]] = np.unique(ends, axis=0)[:_NAMED].tolist()
+    return springs
 
 
 # ----------------------------------------------------------------------------------------------- force over penetration
 
 _ARROWS = 12
-"""Arrow heads on a path."""
+"""Number of arrow heads on a path."""
 _GOING = (("moving down", Style(COLORS[0], "-", "")), ("moving up", Style(COLORS[1], "--", "")))
 
 
@@ -207,9 +207,9 @@ def loop(axes: Axes, data: PlotData, place: int) -> None:
 
 
 def draw_path(axes: Axes, path: Cycle) -> None:
-    """Draw a path with arrow heads: by state where there are states, else by whether the pipe moves down or up.
+    """Draw a path with arrow heads: by state if there are states, else by downward and upward motion.
 
-    A pipe that hangs still (`hold`) is a point of its path, and marked as one.
+    A pipe that hangs still (`hold`) is marked as a point of its path.
     """
     groups: list[tuple[str, Style, Mask]] = []
     if path.state is not None:
@@ -218,13 +218,13 @@ def draw_path(axes: Axes, path: Cycle) -> None:
             groups.append((name, look, path.state == STATES.index(name)))
     else:
         down = np.diff(path.penetration, prepend=path.penetration[0]) >= 0.0
-        groups = [(name, style, way) for (name, style), way in zip(_GOING, (down, ~down), strict=True)]
+        groups = [(name, style, moves) for (name, style), moves in zip(_GOING, (down, ~down), strict=True)]
     arrows = _arrow_steps(path)
-    for name, style, mine in groups:
-        here = np.flatnonzero(mine)
+    for name, style, shown in groups:
+        here = np.flatnonzero(shown)
         if here.size:
             _ways(axes, path, here, style, name)
-            for at in arrows[mine[arrows]].tolist():
+            for at in arrows[shown[arrows]].tolist():
                 start, end = ((path.penetration[k], path.force[k]) for k in (at - 1, at))
                 shape = {"arrowstyle": "-|>", "color": style.color, "mutation_scale": 13.0, "shrinkA": 0, "shrinkB": 0}
                 axes.annotate("", end, start, arrowprops=shape, zorder=4)
@@ -235,7 +235,7 @@ def draw_path(axes: Axes, path: Cycle) -> None:
 
 
 def _ways(axes: Axes, path: Cycle, here: Indices, style: Style, name: str) -> None:
-    """Draw the way to each of some steps, from the step before; a stop is a point."""
+    """Draw the path to each of some steps, from the step before; a stop is a point."""
     runs = np.split(here, np.flatnonzero(np.diff(here) > 1) + 1)
     x, y = (
         np.concatenate([np.append(values[[max(run[0] - 1, 0), *run]], np.nan) for run in runs])
@@ -255,7 +255,7 @@ def _ways(axes: Axes, path: Cycle, here: Indices, style: Style, name: str) -> No
 
 
 def _arrow_steps(path: Cycle) -> Indices:
-    """Steps at even distances on the path, as it is seen: each direction is a part of its span."""
+    """Return steps evenly spaced along the drawn path: each direction counts as a part of its span."""
     with np.errstate(all="ignore"):
         both = (np.nan_to_num(values) for values in (path.penetration, path.force))
         moves = np.hypot(*(np.diff(values) / (float(np.ptp(values)) or 1.0) for values in both))
@@ -265,5 +265,5 @@ def _arrow_steps(path: Cycle) -> Indices:
     steps = steps[(steps > 0) & (steps < len(far))]
     moved = np.diff(far)[steps - 1] > 0.0
     known = np.isfinite(path.force[steps]) & np.isfinite(path.force[steps - 1])
-    found: Indices = steps[moved & known]
-    return found
+    shown: Indices = steps[moved & known]
+    return shown

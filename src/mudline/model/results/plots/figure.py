@@ -1,4 +1,4 @@
-"""The figure of results: which panels it has, where they stand, what they share, the title; panels over time."""
+"""The figure of results: its panels, their layout, shared axes and title; panels over time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.results.plot_data import Extents, PlotData
 from mudline.model.results.plots import along_line
-from mudline.model.results.plots.along_line import Stretch, when
+from mudline.model.results.plots.along_line import DrawnStretch, when
 from mudline.model.results.plots.curves import loop, on_curves
 from mudline.model.results.plots.style import (
     COLORS,
@@ -36,15 +36,15 @@ from mudline.model.results.plots.style import (
 )
 
 MOST_PANELS = 6
-"""More have letters that nobody reads on half a page."""
+"""Largest number of panels: with more, letters are too small on half a page."""
 _HEIGHT = 2.3
-"""Of a row of panels, inch."""
+"""Height of a row of panels, inch."""
 _CAPTION = 100
-"""Characters of a line of the caption."""
+"""Largest number of characters of a line of the caption."""
 
 
 class Panel(NamedTuple):
-    """A panel: its name, its horizontal axis, and what draws it."""
+    """A panel: its name, its horizontal axis, and the function that draws it."""
 
     name: str
     axis: Literal["arc length", "time", "own"]
@@ -52,16 +52,16 @@ class Panel(NamedTuple):
 
 
 def panels_of(data: PlotData) -> list[Panel]:
-    """Return the panels that the results have something to show in, at most `MOST_PANELS`, as they are drawn.
+    """Return the panels for which the results have data, at most `MOST_PANELS`, in the order of drawing.
 
-    Of more than that, those are left out that an engineer would miss least: the last ones below.
+    The list in this function is in the order of importance: panels beyond the limit are left out.
     """
-    # The force of a rigid seabed is not known: no panel shows it as 0.
+    # the force of a rigid seabed is not known: no panel shows it as 0
     touched = bool((data.touched & (data.given.law != LawKind.RIGID)).any())
-    stretch, lined = Stretch(data), data.elements.size > 0
+    stretch, lined = DrawnStretch(data), data.elements.size > 0
     touches_down = any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
 
-    def along(name: str, draw: Callable[[Axes, PlotData, Stretch], None]) -> Panel:
+    def along(name: str, draw: Callable[[Axes, PlotData, DrawnStretch], None]) -> Panel:
         return Panel(name, "arc length", lambda axes: draw(axes, data, stretch))
 
     loops = [Panel("loop", "own", partial(loop, data=data, place=place)) for place in range(len(data.looped))]
@@ -76,17 +76,17 @@ def panels_of(data: PlotData) -> list[Panel]:
         (lined, along("embedment", along_line.embedment)),
         (touched and data.steps == 1, along("stiffness", along_line.stiffness)),
     )
-    found = [*loops, *(panel for needed, panel in others if needed)][:MOST_PANELS]
-    return sorted(found, key=lambda panel: ("arc length", "own", "time").index(panel.axis))
+    panels = [*loops, *(panel for needed, panel in others if needed)][:MOST_PANELS]
+    return sorted(panels, key=lambda panel: ("arc length", "own", "time").index(panel.axis))
 
 
 @drawing()
 def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
-    """Return the figure of results; `caption` is what is doubtful, below the title."""
-    panels, stretch = panels_of(data), Stretch(data)
+    """Return the figure of results; `caption` has the warnings, below the title."""
+    panels, stretch = panels_of(data), DrawnStretch(data)
     columns = 1 if len(panels) <= 2 else 2
     wide = len(panels) % columns
-    """An odd number of panels: the first one is as wide as the figure."""
+    """With an odd number of panels the first is as wide as the figure."""
     rows = max(1, -(-len(panels) // columns))
     title = "\n".join([_title(data, panels, stretch), *textwrap.wrap(printable(caption, LONGEST_MESSAGE), _CAPTION)])
     figure = new_figure(0.2 + 0.17 * (1 + title.count("\n")) + _HEIGHT * rows)
@@ -102,7 +102,7 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
         finish(axes)
         drawn[max(column, 0)].append(axes)
         before = panels[place - 1] if row > 0 and place > wide else None
-        if before is not None and before.axis == panel.axis != "own":  # the one above leaves the labels to it
+        if before is not None and before.axis == panel.axis != "own":  # the panel above shares the labels
             drawn[column][-2].tick_params(labelbottom=False)
             drawn[column][-2].set_xlabel("")
     for group in drawn:
@@ -114,8 +114,8 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
     return figure
 
 
-def _title(data: PlotData, panels: Sequence[Panel], stretch: Stretch) -> str:
-    """What is drawn, and which step and which part panels along the line show."""
+def _title(data: PlotData, panels: Sequence[Panel], stretch: DrawnStretch) -> str:
+    """Return the title: the deck, and the step and the part of the line that panels along the line show."""
     source = "" if data.given.names is None else data.given.names.source
     title = f"Seabed contact of {printable(source, _CAPTION)}" if source else "Seabed contact"
     at = when(data, data.drawn.step)
@@ -129,13 +129,13 @@ def _title(data: PlotData, panels: Sequence[Panel], stretch: Stretch) -> str:
 
 
 def plot_panel(result: ContactResult, axes: Axes, name: str, *, elements: Sequence[int] = ()) -> Axes:
-    """Draw one panel of the figure of a result; raises ValueError where it has none of that name."""
+    """Draw one panel of the figure of a result; raises ValueError if it has none of that name."""
     data = PlotData.of_result(result, elements)
     panels = {panel.name: panel for panel in panels_of(data)}
     expect_word(name, "panel", tuple(panels), f"one of {', '.join(panels)}")
     panels[name].draw(axes)
     if panels[name].axis == "arc length":
-        Stretch(data).show(axes)
+        DrawnStretch(data).show(axes)
     finish(axes)
     return axes
 
@@ -155,7 +155,7 @@ def plot_result(
 # ----------------------------------------------------------------------------------------------------- panels over time
 
 
-def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+def touchdown(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     """Draw the arc length of the first and the last touchdown point of each line over time."""
     several = len(stretch.lines) > 1
     for line in stretch.lines:
@@ -164,8 +164,8 @@ def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:
         name = f"line {line.number + 1}" if several else "first touchdown point" if two else "touchdown point"
         _band(axes, data, first, line.style, name)
         if two:
-            other = Style(line.style.color if several else COLORS[1], ":" if several else "--", line.style.marker)
-            _band(axes, data, last, other, None if several else "last touchdown point")
+            last_style = Style(line.style.color if several else COLORS[1], ":" if several else "--", line.style.marker)
+            _band(axes, data, last, last_style, None if several else "last touchdown point")
     axes.set_ylabel(labelled("arc length of touchdown", unit_names(data.given.units).length))
     legend(axes)
 
@@ -177,7 +177,7 @@ def reaction(axes: Axes, data: PlotData) -> None:
 
 
 def _band(axes: Axes, data: PlotData, values: Extents, style: Style, label: str | None) -> None:
-    """Draw a figure over time; where steps are too many, the band between its least and largest values."""
+    """Draw a figure over time; for many steps, the band between its least and largest values."""
     times = data.bin_times
     if np.array_equal(values.least, values.most, equal_nan=True):
         draw_line(axes, times, values.most, style, label, most_marked=25)

@@ -1,4 +1,4 @@
-"""The line of a deck where it is evaluated: elevation over the seabed and plan, by set. Needs matplotlib."""
+"""Plot of the line of a deck where it is evaluated: elevation over the seabed and plan, by set. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from mudline.model.scene.numbering import Indices
 
 _MOST_SETS = 7
 _WIDTHS = (3.2, 2.2, 1.2)
-"""Of the lines of the sets, in turn: they differ without colours."""
+"""Widths of the lines of the sets, in turn: they differ without colours."""
 _AXES = "XYZ"
 
 
 def can_draw(scene: Scene) -> bool:
-    """Whether some element has two nodes with coordinates."""
+    """Return True if an element has two nodes with coordinates."""
     return bool(_drawn(scene).size)
 
 
 @drawing()
 def model_figure(scene: Scene, data: PlotData | None) -> Figure:
-    """Return elevation and plan; `data` has positions, seabed and touchdown points, if they are known.
+    """Return elevation and plan; `data` has positions, seabed and touchdown points, if known.
 
     Nodes without a position are at the deck's own coordinates.
     """
@@ -80,18 +80,18 @@ def _nodes(scene: Scene) -> Indices:
 
 
 def _by_set(scene: Scene) -> list[tuple[str, Indices]]:
-    """The elements by the set that gives them their law, the largest sets first; the rest last, as one."""
+    """Return the elements by the set that assigns their law, the largest sets first; small sets together at the end."""
     drawn = _drawn(scene)
     names = np.array([scene.law_sets[index] or "without a law" for index in drawn.tolist()])
-    found, counts = np.unique(names, return_counts=True)
-    order = found[np.argsort(-counts, kind="stable")]
+    sets, counts = np.unique(names, return_counts=True)
+    order = sets[np.argsort(-counts, kind="stable")]
     groups = [(str(name), drawn[names == name]) for name in order[:_MOST_SETS]]
     others = drawn[np.isin(names, order[_MOST_SETS:])]
     return [*groups, (f"{len(order) - _MOST_SETS} more sets", others)] if others.size else groups
 
 
 def _draw_ground(axes: Axes, data: PlotData, along: int, up: int) -> None:
-    """The seabed below the line, in elevation, and the touchdown points."""
+    """Draw the seabed below the line, in elevation, and the touchdown points."""
     positions = data.drawn.result.positions
     if positions is None:
         return
@@ -104,5 +104,5 @@ def _draw_ground(axes: Axes, data: PlotData, along: int, up: int) -> None:
             axes.plot(place, level[kept], color=SEABED, linewidth=1.2, linestyle="--", zorder=1)
         axes.plot([], [], color=SEABED, linestyle="--", label="seabed")
     points = data.touchdown_points(data.lines)
-    x, y = ([(one.x, one.y, one.z)[axis] for one in points] for axis in (along, up))
+    x, y = ([(point.x, point.y, point.z)[axis] for point in points] for axis in (along, up))
     mark_touchdown(axes, x, y)

@@ -1,4 +1,4 @@
-"""Errors over run time on logarithmic axes, with steps that are marked. Needs matplotlib."""
+"""Errors over run time on logarithmic axes, with marked steps. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from mudline.model.scene.numbering import Floats, Mask
 
 _LEAST = 1e-5
-"""Smaller errors are drawn as this one."""
+"""Least error drawn; smaller errors are drawn at this value."""
 _GOALS = (1.0, 2.0, 5.0)
-"""In percent."""
+"""Marked errors in percent."""
 _PERCENT, _MILLI = 1e2, 1e3
 _STAR: dict[str, Any] = {"markersize": 15, "markeredgecolor": "black", "zorder": 5}
-"""How the deck's own step is marked."""
+"""Marker of the deck's own step."""
 
 
 def draw_run_times(axes: Axes, run_times: Floats, errors: Floats, marked: Mask, names: Sequence[str]) -> None:

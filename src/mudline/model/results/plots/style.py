@@ -1,4 +1,4 @@
-"""The one style of all plots: colours, markers, fonts, axes, legends, safe texts, thinning of long rows, files."""
+"""The style of all plots: colours, markers, fonts, axes, legends, safe texts, thinned lines, files."""
 
 from __future__ import annotations
 
@@ -20,29 +20,29 @@ from mudline.basics.short_repr import cut
 from mudline.model.scene.numbering import Floats, Indices
 
 WIDTH = 8.0
-"""Of a figure, inch."""
+"""Width of a figure, inch."""
 MOST_POINTS = 4000
-"""Points of a line that are drawn."""
+"""Largest number of drawn points of a line."""
 MOST_MARKED = 60
-"""Points of longer lines are not marked one by one."""
+"""Number of points of a line up to which each is marked."""
 LONGEST_NAME = 40
-"""Letters of a name that are shown."""
+"""Largest number of letters of a name."""
 _LEAST = 0.01
 """Least span of a scale, as a part of the largest value on it."""
 _TICKS = {"steps": [1, 2, 2.5, 5, 10]}
 _SETTINGS: dict[Any, Any] = {"font.size": 9.0, "svg.hashsalt": "mudline", "pdf.fonttype": 42}
-"""Of matplotlib; with the salt the same figure has the same ids."""
+"""Settings of matplotlib; with the salt equal figures have equal ids."""
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
-"""Distinct for colour-blind eyes (Okabe and Ito)."""
+"""Colours that colour-blind people can distinguish (Okabe and Ito)."""
 SEABED = "#8c6d46"
 LIGHT = "#e9dfd0"
-"""The soil below the seabed."""
+"""Colour of the soil below the seabed."""
 _MARKERS = "os^DvPX*"
 
 
 class Style(NamedTuple):
-    """How one of several curves of a panel is drawn: without colours they still differ."""
+    """Style of one of several curves of a panel; they differ without colours too."""
 
     color: str
     linestyle: Literal["-", "--", "-.", ":"]
@@ -63,7 +63,7 @@ STATE_STYLES = {
     "hold": Style(COLORS[4], "-", "o"),
     "broken": Style(COLORS[2], "-.", "x"),
 }
-"""Of the states of suction."""
+"""Styles of the states of suction."""
 
 
 def style_of(place: int) -> Style:
@@ -86,13 +86,13 @@ def drawing() -> Iterator[None]:
 
 
 def new_figure(height: float) -> Figure:
-    """Return a figure of a height in inch."""
+    """Return a figure with a height in inch."""
     return Figure(figsize=(WIDTH, height), layout="constrained", dpi=150)
 
 
 @drawing()
 def save(figure: Figure, form: str, stream: BinaryIO) -> None:
-    """Write a figure as "png", "svg" or "pdf"; the same one gives the same bytes."""
+    """Write a figure as "png", "svg" or "pdf"; equal figures give equal bytes."""
     dates: dict[str, dict[str, Any]] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     figure.savefig(stream, format=form, metadata=dates.get(form))
 
@@ -101,38 +101,38 @@ def save(figure: Figure, form: str, stream: BinaryIO) -> None:
 
 
 def printable(text: str, most: int = LONGEST_NAME) -> str:
-    """Return a text of a deck as it can be shown: cut, with a mark for what does not print."""
+    """Return a text of a deck for display: cut, with a mark for letters that do not print."""
     return "".join(char if char.isprintable() else "\ufffd" for char in cut(text.replace("\t", " "), most))
 
 
 def legend_name(text: str, most: int = LONGEST_NAME) -> str:
-    """Return a name of a deck for a legend, which leaves out what begins with an underscore."""
+    """Return a name of a deck for a legend; matplotlib would leave out a name that begins with an underscore."""
     shown = printable(text, most)
     return f" {shown}" if shown.startswith("_") else shown
 
 
 def legend(axes: Axes, handles: Sequence[Artist] = (), *, title: str = "", note: str = "", columns: int = 3) -> None:
-    """Add a legend above the axes, where it covers nothing, of these or all labelled artists; a note is its last text.
+    """Add a legend above the axes, where it covers nothing, of `handles` or all labelled artists.
 
-    Its texts are taken as they are: a name of a deck may look like a formula.
+    A note is its last text. Its texts are not parsed: a name of a deck may look like a formula.
     """
-    found = list(handles or axes.get_legend_handles_labels()[0])
+    artists = list(handles or axes.get_legend_handles_labels()[0])
     if note:
-        found.append(Line2D([], [], linestyle="none", label=note))
-    made = axes.legend(
-        handles=found,
+        artists.append(Line2D([], [], linestyle="none", label=note))
+    drawn = axes.legend(
+        handles=artists,
         title=title or None,
         alignment="left",
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
-        ncols=columns if len(found) <= columns else min(columns, 2),
+        ncols=columns if len(artists) <= columns else min(columns, 2),
         fontsize="small",
         frameon=False,
         borderaxespad=0.1,
         handlelength=2.2,
         columnspacing=1.2,
     )
-    for text in made.get_texts():
+    for text in drawn.get_texts():
         text.set_parse_math(False)
 
 
@@ -140,10 +140,10 @@ def legend(axes: Axes, handles: Sequence[Artist] = (), *, title: str = "", note:
 
 
 def finish(axes: Axes) -> None:
-    """Set plain numbers and a grid, as every panel has them; ticks that were placed already stay."""
+    """Set plain numbers and a grid, as in every panel; ticks set earlier stay."""
     for axis in (axes.xaxis, axes.yaxis):
         numbers = ScalarFormatter(useOffset=False)
-        numbers.set_powerlimits((-5, 10))  # no power of ten that a reader would have to apply
+        numbers.set_powerlimits((-5, 10))  # otherwise a reader would have to apply a power of ten
         axis.set_major_formatter(numbers)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=7, **_TICKS))
     figure = axes.figure
@@ -157,12 +157,12 @@ def finish(axes: Axes) -> None:
 
 
 def zero_line(axes: Axes) -> None:
-    """Draw where the ordinate is 0."""
+    """Draw a line at ordinate 0."""
     axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
 
 
 def widen(axes: Axes, values: Floats) -> None:
-    """Give an axis of values that hardly change a span of a hundredth of their size: no scale shows rounding."""
+    """Widen the axis of values that hardly change to a hundredth of their size: no scale shows rounding."""
     known = values[np.isfinite(values)]
     if known.size and 0.0 < float(np.ptp(known)) < (least := _LEAST * float(np.abs(known).max())):
         low, high = float(known.min()), float(known.max())
@@ -197,7 +197,7 @@ def gapped(begin: Floats, end: Floats) -> Floats:
 def draw_line(
     axes: Axes, x: Floats, y: Floats, style: Style, label: str | None = None, *, most_marked: int = MOST_MARKED
 ) -> None:
-    """Draw a line with a marker at each point; without markers where the points are too many, and then thinned."""
+    """Draw a line with a marker at each point; a line with too many points is thinned and has no markers."""
     kept = thinned(y)
     marker = style.marker if len(kept) <= most_marked else ""
     axes.plot(x[kept], y[kept], **style.line, linewidth=1.3, marker=marker, markersize=3.5, label=label)
