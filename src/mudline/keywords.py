@@ -1,6 +1,6 @@
-"""The classes of the keywords, such as `Ocean` of `*OCEAN`: what `Deck.blocks` finds and `Deck.add` takes.
+"""Classes of the keywords, such as `Ocean` of `*OCEAN`: `Deck.blocks` finds and `Deck.add` takes them.
 
-`help(mudline.keywords.Ocean)` says what the fields mean, with units, ranges and defaults.
+`help(mudline.keywords.Ocean)` explains the fields, with units, ranges and defaults.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ _ENTRIES = {entry.name: entry for entry in ENTRIES if not entry.kept}
 
 
 def __getattr__(name: str) -> type[Block]:
-    """A class, whose module is imported when it is first used."""
+    """Import the module of a class when the class is first used."""
     if name not in _ENTRIES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = globals()[name] = catalogue.load(_ENTRIES[name])
-    found.__doc__ = "\n".join([f"*{_ENTRIES[name].keyword}: {found.summary}", "", *field_lines(found)])
-    return found
+    keyword_class = globals()[name] = catalogue.load(_ENTRIES[name])
+    keyword_class.__doc__ = "\n".join(
+        [f"*{_ENTRIES[name].keyword}: {keyword_class.summary}", "", *field_lines(keyword_class)]
+    )
+    return keyword_class
 
 
 def __dir__() -> list[str]:

@@ -1,6 +1,7 @@
-"""Findings as the XML of test reports: a suite a file, a failed case a finding, one passed case for a clean file.
+"""Findings as JUnit XML: a test suite for each file, a failed test case for each finding.
 
-The text of a failure is there twice: some readers show the attribute, others the element.
+A file without findings has one passed test case. The text of a failure is written twice, as attribute and as element
+content, since readers show one of the two.
 """
 
 from __future__ import annotations
@@ -12,18 +13,18 @@ from mudline.checks.output import LintRun, visible
 from mudline.language.diagnostics import Diagnostic
 
 SUMMARY = (
-    "XML of test reports: a suite a file, a failed case a finding, "
-    "one passed case for a clean file; texts as attribute and element"
+    "JUnit XML: a test suite for each file, a failed test case for each finding "
+    "or one passed case for a file without findings"
 )
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """The document in pieces; all files that were linted are in it, in their order."""
+    """Yield the pieces of the document; all linted files are in it, in their order."""
     by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
-    for found in diagnostics:
-        by_file.setdefault(found.file, []).append(found)
-    cases = sum(len(found) or 1 for found in by_file.values())
-    failures = sum(len(found) for found in by_file.values())
+    for findings in diagnostics:
+        by_file.setdefault(findings.file, []).append(findings)
+    cases = sum(len(findings) or 1 for findings in by_file.values())
+    failures = sum(len(findings) for findings in by_file.values())
     yield '<?xml version="1.0" encoding="UTF-8"?>\n'
     yield f'<testsuites name="mudline" tests="{cases}" failures="{failures}" errors="0">\n'
     for name, listed in by_file.items():
@@ -47,5 +48,5 @@ def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
 
 
 def _value(text: str) -> str:
-    """An attribute in quotes; what XML forbids does not print either, and is replaced."""
+    """Return an attribute in quotes, with characters that XML forbids replaced."""
     return quoteattr(visible(text))
