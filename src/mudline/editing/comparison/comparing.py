@@ -1,4 +1,4 @@
-"""The differences of two decks: values by name or number, and laws and sections element by element."""
+"""Differences of two decks: values by name or number, and laws and sections element by element."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from mudline.model.scene.seabed import SeabedShape
 
 
 def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Difference]:
-    """The semantic differences of two decks; an empty list where they mean the same.
+    """Return the semantic differences of two decks; an empty list if both mean the same.
 
-    `tolerance` is the allowed difference of two numbers over the larger one. Raises DeckError for a deck of which
-    something could not be read, or in which an equation has no value.
+    `tolerance` is the allowed difference of two numbers relative to the larger number. Raises DeckError for a deck with
+    parts that could not be read, or with an equation without a value.
     """
     pair = Pair(Side(before), Side(after), Tolerance(tolerance))
     pair.one.require()
@@ -47,13 +47,13 @@ def _units(pair: Pair) -> Iterator[Difference]:
 
 
 def _floor(pair: Pair) -> Iterator[Difference]:
-    """The points of the seabed from files; those in the deck are compared with its blocks."""
+    """Yield the differences of seabed points from files; points in the deck are compared with its blocks."""
     if pair.one.scene.seabed.file or pair.other.scene.seabed.file:
         yield from seabed_points(pair)
 
 
 def seabed_points(pair: Pair) -> Iterator[Difference]:
-    """The points of a profile or a surface, in whatever order, if they differ."""
+    """Yield the difference of the points of a profile or a surface; their order does not count."""
     old, new = pair.one.scene.seabed, pair.other.scene.seabed
     same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
     if not same:
@@ -65,28 +65,28 @@ def _sorted(floor: SeabedShape) -> np.ndarray[tuple[int, ...], np.dtype[np.float
     return floor.points[np.lexsort(floor.points.T[::-1])] if len(floor.points) else floor.points
 
 
-# ------------------------------------------------------------------------------------------ what has a name or a number
+# ------------------------------------------------------------------------------------------ by name or by number
 
 
 def _nodes(pair: Pair) -> Iterator[Difference]:
-    """Coordinates of the nodes."""
+    """Yield the differences of node coordinates."""
     yield from _numbered("nodes", pair.one.scene.nodes, pair.other.scene.nodes, pair)
     yield from _labelled("NODE", "nodes", pair)
 
 
 def _elements(pair: Pair) -> Iterator[Difference]:
-    """Nodes of the elements; numbers are names here, so the tolerance does not apply."""
+    """Yield the differences of element nodes; numbers are names here, so the tolerance does not apply."""
     tables = pair.one.scene.table.numbered, pair.other.scene.table.numbered
     yield from _numbered("elements", *tables, replace(pair, tolerance=Tolerance()))
     yield from _labelled("ELEMENT", "elements", pair)
 
 
-def _common(one: Numbered, other: Numbered) -> tuple[Indices, Indices]:
-    """Indices in each of the numbers that both have."""
-    if np.array_equal(one.ids, other.ids):
-        same = np.arange(len(one.ids), dtype=np.intp)
+def _common(first: Numbered, second: Numbered) -> tuple[Indices, Indices]:
+    """Return the indices in each table of the numbers that both have."""
+    if np.array_equal(first.ids, second.ids):
+        same = np.arange(len(first.ids), dtype=np.intp)
         return same, same
-    at = other.indices(one.ids)
+    at = second.indices(first.ids)
     here = np.flatnonzero(at >= 0)
     return here, at[here]
 
@@ -103,7 +103,7 @@ def _numbered(group: str, first: Numbered, second: Numbered, pair: Pair) -> Iter
 
 
 def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
-    """Coordinates of a node, or the whole numbers of an element's nodes; their place."""
+    """Return the coordinates of a node, or the nodes of an element, with their place."""
     values = [plain(value) for value in table.values[index].tolist()]
     if group == "elements":
         values = [int(value) if isinstance(value, float) else value for value in values]
@@ -111,7 +111,7 @@ def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
 
 
 def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
-    """Rows with a {label} instead of a number."""
+    """Yield the differences of rows with a {label} in place of a number."""
     first, second = _label_rows(pair.one, keyword, group), _label_rows(pair.other, keyword, group)
     for key in sorted(first.keys() - second.keys()):
         yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
@@ -139,7 +139,7 @@ _KINDS = {False: "curves", True: "curves of sets"}
 
 
 def _parameters(pair: Pair) -> Iterator[Difference]:
-    """Values of the parameters."""
+    """Yield the differences of parameter values."""
     first, second = pair.one.parameters, pair.other.parameters
     for name in dict.fromkeys([*first.values, *second.values]):
         old, new = first.values.get(name), second.values.get(name)
@@ -156,7 +156,7 @@ _NO_MEMBERS = Members()
 
 
 def _sets(pair: Pair) -> Iterator[Difference]:
-    """Members of the element sets; ALL has all elements."""
+    """Yield the differences of the members of element sets; ALL has all elements."""
     first, second = pair.one.scene.set_table.named, pair.other.scene.set_table.named
     written, others = _written(pair.one), _written(pair.other)
     for name in dict.fromkeys([*first, *second]):
@@ -179,11 +179,11 @@ def _text(members: Members) -> str:
 
 
 def _written(side: Side) -> dict[str, Members]:
-    """Members of sets as their lines give them, for sets with elements that the deck does not define."""
-    found: dict[str, Members] = {}
+    """Return members of sets as written, for sets with elements that the deck does not define."""
+    members_by_name: dict[str, Members] = {}
     for _, block in side.scene.deck.blocks("ELEMENT SETS"):
         for entry in block.sets:
-            members = found.setdefault(folded(str(entry.name)), Members())
+            members = members_by_name.setdefault(folded(str(entry.name)), Members())
             for member in entry.members:
                 if subset := getattr(member, "subset", None):
                     members.words.add(f"SUBSET={folded(str(subset))}")
@@ -191,13 +191,13 @@ def _written(side: Side) -> dict[str, Members]:
                     members.words |= {folded(item) for item in listed if isinstance(item, Label)}
                     whole = [item for item in listed if isinstance(item, int)]
                     members.arrays.append(np.array(whole, dtype=np.int64))
-                if given := getattr(member, "generate", None):
-                    members.ranges += _generated(given.start, given.end, given.increment)
-    return found
+                if generated := getattr(member, "generate", None):
+                    members.ranges += _generated(generated.start, generated.end, generated.increment)
+    return members_by_name
 
 
 def _generated(start: object, end: object, step: object) -> list[tuple[int, int, int]]:
-    """The range of a GEN=; none where it is not one."""
+    """Return the range of a GEN=; an empty list if it is invalid."""
     step = 1 if step is None else step
     if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
         return []
@@ -205,7 +205,7 @@ def _generated(start: object, end: object, step: object) -> list[tuple[int, int,
 
 
 def _curves(pair: Pair) -> Iterator[Difference]:
-    """Points of the force-embedment curves; of several of one name the last one counts."""
+    """Yield the differences of points of the force-embedment curves; the last curve of a name applies."""
     first, second = _by_name(pair.one), _by_name(pair.other)
     for name in dict.fromkeys([*first, *second]):
         old, new = first.get(name), second.get(name)
@@ -245,22 +245,22 @@ def _by_name(side: Side) -> dict[str, SceneCurve]:
 
 
 def _points(curve: SceneCurve) -> Floats:
-    """The points in ascending order, each once."""
+    """Return the points in ascending order, each once."""
     return np.unique(curve.points, axis=0) if len(curve.points) else curve.points
 
 
 def shown_points(curve: SceneCurve) -> Value:
-    """The points of a curve in ascending order, as a difference shows them."""
+    """Return the points of a curve in ascending order, as a difference shows them."""
     return [[plain(value) for value in row] for row in _points(curve).tolist()]
 
 
 def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
-    """The force of a point, and its place."""
+    """Return the force of a point, and its place."""
     at = np.flatnonzero((curve.points == point).all(axis=1))
     return point[1].item(), curve.point(int(at[0])) if len(at) else curve.where
 
 
-# ------------------------------------------------------------------------------------------------- what elements follow
+# ---------------------------------------------------------------------------------------- laws and sections of elements
 
 Values = dict[str, object]
 
@@ -275,9 +275,10 @@ class Followed:
 
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
-    """Elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
+    """Yield elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
 
-    For elements with one record in both decks, or a record of one deck only, the difference of the record is reported.
+    If the elements have the same record in both decks, or a record in one deck only, the difference of the record is
+    reported instead.
     """
     yield from follow_differently("laws", _laws, pair)
     yield from follow_differently("sections", _sections, pair)
@@ -289,21 +290,21 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
 def follow_differently(
     group: str, read: Callable[[Side], Followed], pair: Pair, descriptions: Mapping[int, str] | None = None
 ) -> Iterator[Difference]:
-    """Differences of the entries of elements that both decks have.
+    """Yield the differences between the entries of elements that both decks have.
 
-    `descriptions` are of the elements to compare, by their number, where they are not those of the decks.
+    `descriptions` describes the elements to compare by their number, if they are not those of the decks.
     """
-    one, other = pair.one, pair.other
-    here, there = _common(one.scene.table.numbered, other.scene.table.numbered)
+    before, after = pair.one, pair.other
+    here, there = _common(before.scene.table.numbered, after.scene.table.numbered)
     if descriptions is not None:
-        chosen = np.isin(one.scene.element_ids[here], list(descriptions))
+        chosen = np.isin(before.scene.element_ids[here], list(descriptions))
         here, there = here[chosen], there[chosen]
     if not len(here):
         return
-    first, second = read(one), read(other)
+    first, second = read(before), read(after)
     width = len(second.entries) + 1
     followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
-    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly follow the same
+    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly have the same
     for both in sorted(set(followed[starts].tolist())):
         i, j = both // width - 1, both % width - 1
         places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
@@ -315,8 +316,8 @@ def follow_differently(
         ]
         if not names:
             continue
-        elements = _called(one.scene.element_ids[here[followed == both]], descriptions)
-        lines = one.line(places[0]), other.line(places[1])
+        elements = _called(before.scene.element_ids[here[followed == both]], descriptions)
+        lines = before.line(places[0]), after.line(places[1])
         for name in names:
             where = f"{elements}/{group}" + (f"/{name}" if name else "")
             values = cast("Value", old.get(name)), cast("Value", new.get(name))
@@ -329,8 +330,8 @@ def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> s
     return "; ".join(dict.fromkeys(descriptions[number] for number in ids.tolist()))
 
 
-def _entry(found: Followed, index: int) -> Values:
-    return found.entries[index] if index >= 0 else {}
+def _entry(followed: Followed, index: int) -> Values:
+    return followed.entries[index] if index >= 0 else {}
 
 
 def _laws(side: Side) -> Followed:
@@ -368,17 +369,17 @@ def _bed(side: Side) -> Followed:
 
 
 def numbers_given(given: Mapping[str, Any]) -> Values:
-    """Given values, without NaN; pairs are split into longitudinal and transverse."""
-    found: Values = {}
+    """Return the given values without NaN; pairs are split into longitudinal and transverse."""
+    numbers: Values = {}
     for name, value in given.items():
         pair = zip(("longitudinal ", "transverse "), value, strict=True) if isinstance(value, tuple) else [("", value)]
-        found |= {axis + name: plain(number) for axis, number in pair if not np.isnan(number)}
-    return found
+        numbers |= {axis + name: plain(number) for axis, number in pair if not np.isnan(number)}
+    return numbers
 
 
 def _extension(side: Side, keyword: str) -> Followed:
-    found = side.scene.extensions.get(keyword)
-    if found is None:
+    extension = side.scene.extensions.get(keyword)
+    if extension is None:
         return Followed([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
-    pairs = zip(found.entries, found.places, strict=True)
-    return Followed([_record(side, entry, place) for entry, place in pairs], found.places, found.of_element)
+    pairs = zip(extension.entries, extension.places, strict=True)
+    return Followed([_record(side, entry, place) for entry, place in pairs], extension.places, extension.of_element)
