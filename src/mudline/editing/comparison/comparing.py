@@ -267,7 +267,7 @@ Values = dict[str, object]
 
 @dataclass(frozen=True, slots=True)
 class Followed:
-    """The entries of one kind, the entry of each element (-1 for none), and their places."""
+    """Entries of one kind, the entry of each element (-1 for none), and their places."""
 
     entries: Sequence[Values]
     places: Sequence[Where]

@@ -34,9 +34,15 @@ from mudline.model.scene.seabed import SeabedShape, parse_profile
 
 @dataclass(frozen=True, slots=True)
 class Migration:
-    """A migrated deck: the scenes before and after, the new deck and its content, the new files beside it by name.
+    """A migrated deck.
 
-    `replaced` counts the legacy blocks by keyword.
+    Attributes:
+        before: scene before migration.
+        after: scene after migration.
+        deck: the new deck.
+        content: content of its file.
+        files: new files next to the deck, by name.
+        replaced: number of legacy blocks by keyword.
     """
 
     before: Scene

@@ -30,7 +30,7 @@ from mudline.model.scene.laws import DIRECTIONS
 from mudline.model.scene.model import Scene
 from mudline.model.scene.restart import decks_before
 
-_MISSPELT = "{} may be a misspelt *{}{}: correct or remove it first"
+_MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
 
 
 def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:

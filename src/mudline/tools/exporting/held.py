@@ -1,4 +1,4 @@
-"""Which nodes a deck holds, in which degrees of freedom, and what became of the ends of its lines."""
+"""Nodes that a deck holds, in which degrees of freedom, and the report on the ends of its lines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NO_FREEDOMS: frozenset[int] = frozenset()
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """An end of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
+    """End of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
 
     node: int
     held: frozenset[int]
@@ -26,24 +26,24 @@ class End:
 
     @property
     def joins(self) -> bool:
-        """Whether lines join there and nothing else holds it."""
+        """True if lines join there and nothing else holds the node."""
         return not self.held & TRANSLATIONS
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """The degrees of freedom in which `*BOUNDARY` holds nodes, by their indices, and those that a vessel moves."""
+    """Degrees of freedom in which `*BOUNDARY` holds nodes, by their indices, and the nodes that a vessel moves."""
 
     freedoms: dict[int, frozenset[int]] = field(default_factory=dict)
     moved: set[int] = field(default_factory=set)
 
     def of(self, node: int) -> frozenset[int]:
-        """Those of a node."""
+        """Return the held degrees of freedom of a node."""
         return self.freedoms.get(node, _NO_FREEDOMS)
 
 
 def read_held(scene: Scene, report: Report) -> Held:
-    """What `*BOUNDARY` holds; displacements and types of other motions are added to the report."""
+    """Return the nodes held by `*BOUNDARY`; displacements and other types of motion are added to the report."""
     held = Held()
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
         for each in cast("Boundary", block).types:
@@ -61,7 +61,7 @@ def read_held(scene: Scene, report: Report) -> Held:
 
 
 def report_inside(scene: Scene, report: Report, held: Held, ends: set[int]) -> None:
-    """Add the nodes inside of lines that are held in a part of their degrees of freedom."""
+    """Report nodes inside lines that are held in some of their degrees of freedom."""
     inside: dict[str, list[int]] = {}
     for node in sorted(set(held.freedoms) - ends):
         inside.setdefault(", ".join(map(str, sorted(held.of(node)))), []).append(int(scene.node_ids[node]))
@@ -72,7 +72,7 @@ def report_inside(scene: Scene, report: Report, held: Held, ends: set[int]) -> N
 
 
 def report_ends(report: Report, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
-    """Add what became of the ends: held where they may move a little, on vessels, against rotation."""
+    """Report the ends: held although partly free, on vessels, fixed against rotation."""
     scene = report.scene
     places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for where in places:

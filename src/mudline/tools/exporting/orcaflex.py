@@ -1,7 +1,8 @@
-"""OrcaFlex: a text data file (YAML). One normal stiffness, or one nonlinear soil, holds for the whole seabed.
+"""OrcaFlex: a text data file (YAML). One normal stiffness, or one nonlinear soil, applies to the whole seabed.
 
-The source of the name of each data item is in `docs/export.md`. Units are those of the system SI there: metre, tonne,
-kilonewton. Penetration is that of the underside of the pipe, so the seabed lies half a diameter below that of the deck.
+`docs/export.md` has the source of the name of each data item. Units are those of the program's SI system: metre, tonne,
+kilonewton. The penetration is that of the invert of the pipe, so the seabed lies half a diameter below that of the
+deck.
 """
 
 from __future__ import annotations
@@ -45,25 +46,25 @@ _DEFAULTS = (
     ("suction_decay", 1.0),
     ("repenetration", 0.3),
 )
-"""Of the nonlinear soil model, by the parameters of `*SEABED SOIL`."""
+"""Defaults of the nonlinear soil model, by the parameters of `*SEABED SOIL`."""
 _BUOYANCY = 1.5
-"""Default of its factor of the weight of displaced soil."""
+"""Default factor of the weight of displaced soil."""
 
 Items = dict[str, object]
 
 
 def pieces(model: LineModel) -> list[list[Stretch]]:
-    """The sections of OrcaFlex along each line of the model: a line type has its friction."""
+    """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
     return [line.pieces(lambda each: (each.section, each.soil)) for line in model.lines]
 
 
 def segments(piece: Stretch) -> int:
-    """How many segments the target segment length, that of the shortest element, makes of a section."""
+    """Return the number of segments of a section: its length over the target segment length, the shortest element."""
     return max(1, round(float(piece.lengths.sum() / piece.lengths.min())))
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
-    """The text of the file by its name. Raises DeckError: lines join at a node that nothing holds, a slope above 45."""
+    """Return the text of the file by its name. Raises DeckError for lines joined at a free node and slopes above 45."""
     for end in model.ends:
         if end.joins:
             message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
@@ -89,7 +90,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
 
 
 def _rows(items: Items, margin: str) -> list[str]:
-    """Items as lines; a list of lists is a table, with a line for each of its rows."""
+    """Return items as lines; a list of lists is a table, with a line for each of its rows."""
     rows: list[str] = []
     for key, value in items.items():
         if key == "#":
@@ -113,7 +114,7 @@ def _value(value: object) -> str:
 # ------------------------------------------------------------------------------------------------------ line types
 
 Key = tuple[int, float, float]
-"""Of a line type: section, and the coefficients of friction along and across."""
+"""Key of a line type: section, and the coefficients of friction along and across."""
 
 
 def _key(model: LineModel, piece: Stretch) -> Key:
@@ -160,7 +161,7 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
 
 
 def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
-    """Where an end is, and the direction of the line there, from A to B."""
+    """Return the place of an end, and the direction of the line there, from A to B."""
     first = piece.nodes[0] == model.ends[index].node
     inner = piece.nodes[1] if first else piece.nodes[-2]
     place = model.places[model.ends[index].node]
@@ -174,9 +175,9 @@ def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
 def _environment(model: LineModel, soil: Soil) -> Items:
     shape = model.scene.seabed
     half = 0.5 * soil.diameter
-    said = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
+    law = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
     items: Items = {
-        "#": f"seabed: {said}",
+        "#": f"seabed: {law}",
         "Density": model.density / 1e3,
         "SeabedType": "Flat",
         "SeabedOrigin": [0.0, 0.0],
@@ -207,7 +208,7 @@ def _environment(model: LineModel, soil: Soil) -> Items:
 
 
 def _profile(model: LineModel, half: float) -> Items:
-    """The points of a profile; of any other seabed those below the first line, in the direction from end to end."""
+    """Return the points of a profile; for any other seabed those below the first line, from end to end."""
     shape, line, size = model.scene.seabed, model.lines[0], model.units.length
     if shape.kind is SeabedKind.PROFILE:
         rows = np.column_stack([shape.points[:, 0] * size, model.depth - shape.points[:, 1] * size + half])
