@@ -415,7 +415,7 @@ def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
-    """Return the deck of a text in a form. Invalid surrogates are replaced in keyword text, and refused in a document."""
+    """Return the deck of a text in a form; invalid surrogates are replaced in keyword text, refused in a document."""
     expect(text, "text", (str, bytes), "str or bytes")
     errors = "replace" if form == KEYWORD else "surrogatepass"
     data = text if isinstance(text, bytes) else text.encode(errors=errors)

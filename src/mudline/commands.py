@@ -165,15 +165,9 @@ def migrated(deck: Deck, beside: tuple[list[str], bool], *, verify: bool) -> Mig
 
     continued_by, extended = beside
     with naming_causes(deck):
-        migration = migrating.migrate(deck, continued_by, extended=extended)
-    verified = migrating.verify(migration) if verify and migration.replaced else None
-    return Migrated(
-        content=migration.content,
-        source=deck,
-        replaced=dict(migration.replaced),
-        files=migration.files,
-        verified=verified,
-    )
+        new = migrating.migrate(deck, continued_by, extended=extended)
+    verified = migrating.verify(new) if verify and new.replaced else None
+    return Migrated(content=new.content, source=deck, replaced=dict(new.replaced), files=new.files, verified=verified)
 
 
 def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
@@ -278,7 +272,8 @@ def diff_matrix(
     Args:
         before: the deck, or its file, with which the others are compared.
         decks: the other decks, or their files.
-        tolerance, strict: as in `diff`.
+        tolerance: as in `diff`.
+        strict: as in `diff`.
 
     Raises DeckError for a deck that has errors.
     """

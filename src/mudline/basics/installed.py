@@ -53,9 +53,9 @@ def project_addresses(name: str) -> dict[str, str]:
 
     Its metadata are read up to the description, without importlib.metadata, whose import takes too long.
     """
-    wanted = _normal(name)
+    normal_name = _normal(name)
     for folder in metadata_folders():
-        if _normal(os.path.basename(folder).partition("-")[0].removesuffix(".egg")) != wanted:  # noqa: PTH119 - hundreds
+        if _normal(os.path.basename(folder).partition("-")[0].removesuffix(".egg")) != normal_name:  # noqa: PTH119 - hundreds
             continue
         for file in ("METADATA", "PKG-INFO"):
             with suppress(OSError, UnicodeDecodeError), open(f"{folder}/{file}", encoding="utf-8") as stream:  # noqa: PTH123 - see above

@@ -1,4 +1,4 @@
-"""Check that no output of a run is also an input or another output."""
+"""Protection of the files of a run: no output is also an input or another output."""
 
 from __future__ import annotations
 

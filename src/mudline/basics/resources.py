@@ -9,12 +9,12 @@ from types import ModuleType
 
 
 def grammar_file(name: str) -> Path:
-    """Path of the grammar file `name`: the package's own copy first, the checkout's second."""
+    """Return the path of the grammar file `name`: the package's own copy first, the checkout's second."""
     return _own_file(f"grammar/{name}")
 
 
 def rule_file(code: str) -> Path:
-    """Path of the page of a rule, in the package or the checkout."""
+    """Return the path of the page of a rule, in the package or the checkout."""
     return _own_file(f"docs/rules/{code}.md")
 
 

@@ -15,7 +15,7 @@ _SHORT = 5
 class Effort:
     """Remaining budget of letters to compare; misspelt words that share it cost no more together.
 
-    Without budget there is no suggestion: of very many misspelt words only the first get one.
+    Without budget there is no suggestion: of very many misspelt words only the first get suggestions.
     """
 
     left: int = SPELLING_EFFORT
@@ -46,9 +46,9 @@ _MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
 _FEWEST_LETTERS = 4
 
 
-def same_marks(one: str, other: str) -> bool:
+def same_marks(first: str, second: str) -> bool:
     """Return True if two similar names may be a misspelling: "End 1" and "End 2" are different names."""
-    return _MARKS.findall(one.casefold()) == _MARKS.findall(other.casefold())
+    return _MARKS.findall(first.casefold()) == _MARKS.findall(second.casefold())
 
 
 def meant_names(word: str, known: Collection[str], effort: Effort | None = None) -> list[str]:
@@ -71,35 +71,35 @@ def equally_near(word: str, known: Collection[str], effort: Effort | None = None
     return [name for name in known if edits(word.casefold(), name.casefold(), most) <= most] if near else []
 
 
-def edits(one: str, other: str, most: int) -> int:
-    """Return how many letters to change, insert, drop or swap with a neighbour to turn `one` into `other`.
+def edits(first: str, second: str, most: int) -> int:
+    """Return how many letters to change, insert, drop or swap with a neighbour to turn `first` into `second`.
 
     More than `most` edits count as `most` + 1. Only the diagonals within `most` of the main diagonal are computed:
-    letter j of `other` is at j - i + `most` in row i.
+    letter j of `second` is at j - i + `most` in row i.
     """
     far = most + 1
-    if abs(len(one) - len(other)) > most:
+    if abs(len(first) - len(second)) > most:
         return far
-    start = next((i for i, pair in enumerate(zip(one, other, strict=False)) if pair[0] != pair[1]), None)
+    start = next((i for i, pair in enumerate(zip(first, second, strict=False)) if pair[0] != pair[1]), None)
     if start is None:
-        return abs(len(one) - len(other))
-    one, other = one[start:], other[start:]
+        return abs(len(first) - len(second))
+    first, second = first[start:], second[start:]
     width = 2 * most + 1
     # A row has one more place, which is also the place before its first (index -1) and keeps the value `far`.
     before: list[int] = []
     row = [far] * most + list(range(far)) + [far]
-    for i, letter in enumerate(one, 1):
+    for i, letter in enumerate(first, 1):
         two_before, before, row = before, row, [far] * (width + 1)
-        for k in range(max(0, most - i), min(width, len(other) + most - i + 1)):
+        for k in range(max(0, most - i), min(width, len(second) + most - i + 1)):
             j = i + k - most
             if j == 0:
                 row[k] = i
                 continue
-            target = other[j - 1]
+            target = second[j - 1]
             cost = min(before[k + 1] + 1, row[k - 1] + 1, before[k] + (letter != target))
-            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == target:
+            if i > 1 and j > 1 and letter == second[j - 2] and first[i - 2] == target:
                 cost = min(cost, two_before[k] + 1)
             row[k] = cost
         if min(row) > most:
             return far
-    return min(row[len(other) - len(one) + most], far)
+    return min(row[len(second) - len(first) + most], far)

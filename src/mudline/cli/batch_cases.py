@@ -115,11 +115,11 @@ def _in_folder(case: Case, folder: str) -> str:
     """Return the file named as the deck, from the deck's subfolder of the positions folder or from its top."""
     stem = str(PurePosixPath(case.inside).with_suffix(""))
     for start in dict.fromkeys((stem, case.name)):
-        found = [path.as_posix() for end in _POSITIONS if (path := Path(folder, f"{start}{end}")).is_file()]
-        if len(found) > 1:
-            raise click.ClickException(f"several files of positions: {', '.join(found)}")
-        if found:
-            return found[0]
+        files = [path.as_posix() for end in _POSITIONS if (path := Path(folder, f"{start}{end}")).is_file()]
+        if len(files) > 1:
+            raise click.ClickException(f"several files of positions: {', '.join(files)}")
+        if files:
+            return files[0]
     ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
     raise click.ClickException(f"its positions were not found: {Path(folder, stem).as_posix()} with {ends}")
 
@@ -227,9 +227,9 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[st
     return case_summary(series, file.name, warnings, order.case.result), warnings, names
 
 
-def _reason(found: Sequence[Diagnostic], name: str) -> str:
+def _reason(diagnostics: Sequence[Diagnostic], name: str) -> str:
     """Return the first of the diagnostics, and the count of the others."""
-    first = found[0]
+    first = diagnostics[0]
     place = f"line {first.line}" if first.file == name else f"{first.file}:{first.line}"
-    more = f" ({len(found) - 1} more)" if len(found) > 1 else ""
+    more = f" ({len(diagnostics) - 1} more)" if len(diagnostics) > 1 else ""
     return f"{place}: {first.code} {first.message}{more}"

@@ -121,7 +121,7 @@ def command(
     memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form, summary_only)))
     order = Order(cases[0], b"", inputs, folder, decks.units, summary_only)
     done, taken = _evaluated(selected, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
-    ranked = worst_first(one.row for one in done)
+    ranked = worst_first(result.row for result in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:
         _notify_warnings(done)
@@ -187,13 +187,13 @@ def _evaluated(
     taken = 0
     results = many_files(decks, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
     with _saved(memory, cases, first.output), closing(results):
-        for task, made in results:
-            if made is not None:
-                done[task.file] = made
-                if not made.row.failed:
-                    written = {name: state(str(first.output / name)) for name in made.written}
-                    held = {"row": made.row.row(), "warnings": made.warnings, "written": written}
-                    memory.put(task.key, held, [*made.read, *task.files])
+        for task, result in results:
+            if result is not None:
+                done[task.file] = result
+                if not result.row.failed:
+                    written = {name: state(str(first.output / name)) for name in result.written}
+                    held = {"row": result.row.row(), "warnings": result.warnings, "written": written}
+                    memory.put(task.key, held, [*result.read, *task.files])
             elif task.known is not None:
                 done[task.file] = task.known
                 taken += not task.known.row.failed

@@ -290,11 +290,11 @@ def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int],
 
 def summary_of(comparison: Comparison) -> str:
     """Return the number of differences, and of those of spelling."""
-    found, spelling = len(comparison.differences), len(comparison.spelling)
+    count, spelling = len(comparison.differences), len(comparison.spelling)
     if not spelling:
-        return counted(found, "difference") if found else "no difference"
+        return counted(count, "difference") if count else "no difference"
     beside = f"{counted(spelling, 'difference')} of spelling in superseded keywords"
-    return f"{counted(found, 'difference')}, and {beside} (--strict lists them)" if found else f"equivalent: {beside}"
+    return f"{counted(count, 'difference')}, and {beside} (--strict lists them)" if count else f"equivalent: {beside}"
 
 
 def _as_ranges(group: str, differences: Sequence[Difference]) -> tuple[list[tuple[str, str]], list[Difference]]:

@@ -25,50 +25,50 @@ _NARROWEST_LINE = 20
 _FOLLOWS = "    follows: "
 
 
-def print_findings(view: View, found: Iterable[Diagnostic], source: Source) -> None:
+def print_findings(view: View, findings: Iterable[Diagnostic], source: Source) -> None:
     """Print the findings of one file, each with its source line; with `-v` also the findings that follow from it."""
-    view.lines(_lines(found, source, view))
+    view.lines(_lines(findings, source, view))
 
 
-def _lines(found: Iterable[Diagnostic], source: Source, view: View) -> Iterator[Line]:
+def _lines(findings: Iterable[Diagnostic], source: Source, view: View) -> Iterator[Line]:
     width, encoding = min(view.width or EXCERPT_WIDTH, EXCERPT_WIDTH), (sys.stdout.encoding or "utf-8").lower()
-    for finding in found:
+    for finding in findings:
         yield _headline(finding, encoding)
         yield from excerpt(finding, source, width, encoding)
         for each in finding.following if view.verbose else ():
             yield [_FOLLOWS, *_headline(each, encoding)]
 
 
-def print_summary(view: View, found: Sequence[Diagnostic], files: int) -> None:
+def print_summary(view: View, findings: Sequence[Diagnostic], files: int) -> None:
     """Print how many findings of each severity there are in how many files."""
     parts: list[Part] = []
     for severity, style in STYLES.items():
-        if count := sum(finding.severity is severity for finding in found):
+        if count := sum(finding.severity is severity for finding in findings):
             word = f"{count} {severity.value}" if severity is Severity.INFO else counted(count, severity.value)
             parts += [", ", (word, style)]
     view.lines([["Found ", *parts[1:], f" in {counted(files, 'file')}."]])
 
 
-def _headline(found: Diagnostic, encoding: str) -> list[Part]:
-    style = STYLES[found.severity]
+def _headline(finding: Diagnostic, encoding: str) -> list[Part]:
+    style = STYLES[finding.severity]
     return [
-        (visible(f"{found.file}:{found.line}:{found.column}", encoding), "bold"),
+        (visible(f"{finding.file}:{finding.line}:{finding.column}", encoding), "bold"),
         ": ",
-        (found.severity.value, style),
+        (finding.severity.value, style),
         " ",
-        (found.code, style),
-        f" {visible(found.message, encoding)} ",
-        (f"[{found.slug}]", "dim"),
+        (finding.code, style),
+        f" {visible(finding.message, encoding)} ",
+        (f"[{finding.slug}]", "dim"),
     ]
 
 
-def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Line]:
+def excerpt(finding: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Line]:
     """Yield the source line with a mark under the fault; a long line is cut around it."""
-    line = _line_span(source, found.line)
-    number = str(found.line)
+    line = _line_span(source, finding.line)
+    number = str(finding.line)
     width = max(_NARROWEST_LINE, width - len(f" {number} | "))
-    start = min(line.start + found.column - 1, line.end)
-    end = min(line.start + found.end_column - 1, line.end) if found.end_line == found.line else line.end
+    start = min(line.start + finding.column - 1, line.end)
+    end = min(line.start + finding.end_column - 1, line.end) if finding.end_line == finding.line else line.end
     piece = _window(source.text, line, start, width, encoding)
     if not source.readable or not source.text[slice(*piece)].strip():
         yield []
@@ -81,7 +81,7 @@ def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-
     before = _cells(left + shown(piece.start, start))
     marks = "^" * max(1, _cells(shown(start, min(end, piece.end))))
     yield [(f" {number} | ", "cyan"), left + shown(*piece) + right]
-    yield [(f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, STYLES[found.severity])]
+    yield [(f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, STYLES[finding.severity])]
 
 
 def _line_span(source: Source, number: int) -> Span:

@@ -36,8 +36,8 @@ def command(*, decks: GivenDecks, check: bool, diff: bool, force_exclude: bool, 
     texts = [f"{counted(outcomes[outcome], 'file')} {word}" for outcome, word in words.items() if outcomes[outcome]]
     if texts and not view.quiet:
         click.echo(", ".join(texts), err=True)
-    found = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
-    return max(inputs.code, FOUND if found else DONE)
+    failing = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
+    return max(inputs.code, FOUND if failing else DONE)
 
 
 def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: bool, diff: bool) -> str:

@@ -56,10 +56,10 @@ class KnownFindings:
         except (TypeError, ValueError, LookupError, RecursionError):  # None, or what this program does not write
             return None
 
-    def put(self, key: str, found: Sequence[Diagnostic], coverage: Coverage, looked_at: Sequence[str]) -> None:
+    def put(self, key: str, findings: Sequence[Diagnostic], coverage: Coverage, looked_at: Sequence[str]) -> None:
         """Store the findings of a file and how much of it was read; they depend on the content at some paths."""
         covered = [*asdict(coverage).values()]
-        self.memory.put(key, [covered, *map(asdict, found)], looked_at)
+        self.memory.put(key, [covered, *map(asdict, findings)], looked_at)
 
     def look(self) -> None:
         """Look up the decks, as far as their contents may be kept in memory."""

@@ -114,7 +114,7 @@ def command(
     """
     given = Given(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
-    wanted = outputs(forms)
+    requested = outputs(forms)
     if baseline and recording:
         claim(baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
@@ -126,13 +126,13 @@ def command(
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
+        report = Report(requested, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.whole and not (baseline or recording):
             for file in inputs.files:
-                data, (found, coverage) = known.known[file]
+                data, (findings, coverage) = known.known[file]
                 limit = Severity(fail_on or configured.of(file.path).fail_on)
-                report.add(file.name, data, [*found], 0, limit)
+                report.add(file.name, data, [*findings], 0, limit)
                 report.coverage.add(coverage)
             report.finish()
             return max(inputs.code, FOUND if report.failing and not exit_zero else DONE)
@@ -147,7 +147,7 @@ def command(
         from mudline.cli import lint_run  # noqa: PLC0415 - as above
 
         lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, wanted.form)
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, requested.form)
         watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
     return once()
 

@@ -91,13 +91,13 @@ def lint_files(
                 if not deliver(inputs, file, data, content, report.view, diff=diff):
                     unfixed = replace(own, fixing=Fixing.NONE)
                     content, result = data, lint_one(file.name, data, unfixed, file.folder)  # noqa: PLW2901 - of the deck as it stays
-            found = list(result.found)
+            findings = list(result.found)
             if recorded is not None:
                 path = file.path or file.name
                 if recording:
-                    recorded.record(found, content, path)
-                found = recorded.unknown(found, content, path)
-            report.add(file.name, content, found, len(result.fixed), own.fail_on)
+                    recorded.record(findings, content, path)
+                findings = recorded.unknown(findings, content, path)
+            report.add(file.name, content, findings, len(result.fixed), own.fail_on)
             report.coverage.add(result.coverage)
     if documents:
         notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
@@ -139,8 +139,8 @@ def _lint_all(
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
         own = settings.of(file.path or file.name)
         if known is not None and file in known.known:
-            data, (found, coverage) = known.known[file]
-            return _Read(file, data, known=FileReport(file.name, found, coverage=coverage)), None
+            data, (findings, coverage) = known.known[file]
+            return _Read(file, data, known=FileReport(file.name, findings, coverage=coverage)), None
         data = file.read()
         key = "" if known is None or file.path is None else known.key(file, data)
         if known is not None and key and (remembered := known.get(key)) is not None:

@@ -78,8 +78,8 @@ def command(
     nowhere = run.counts[_WITHOUT] and not any(run.counts[name] for name in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
     if nowhere:
         notify(f"no deck has {change.path}")
-    found = run.counts[_CHANGED] and (check or diff)
-    return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or found else DONE)
+    would_change = run.counts[_CHANGED] and (check or diff)
+    return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or would_change else DONE)
 
 
 @dataclass(slots=True)

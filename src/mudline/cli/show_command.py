@@ -49,18 +49,18 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     form = _form(output, output_format)
     if form == "xlsx" and not has_library("xlsx"):
         return WRONG_USAGE
-    summary, found, errors = show(require_text(deck.load()))
+    summary, elements, errors = show(require_text(deck.load()))
     units = summary["units"]
     if output is not None:
-        write_tables(sheet_data(found, units), Path(output))
+        write_tables(sheet_data(elements, units), Path(output))
     elif form == "csv" or (form == "json" and sheet):
-        write_text(sheet_data(found, units), form, emit, "sheet")
+        write_text(sheet_data(elements, units), form, emit, "sheet")
     elif form == "json":
         emit_json(summary)
     else:
         if not sheet:
             _print_summary(summary, view)
-        tables = sheet_tables(found, units)
+        tables = sheet_tables(elements, units)
         if sheet and not tables:
             notify(f"{summary['file']}: the deck has no elements to list in a sheet")
         for table in tables:

@@ -160,11 +160,11 @@ def _judged(
     with closing(many_files(inputs, prepared, judge_file, progress, jobs=jobs)) as results:
         for data, result in results:
             if result is not None:
-                verdict, found = result
+                verdict, findings = result
                 total.add(verdict)
-                if found:
+                if findings:
                     progress.hide()
-                yield verdict, found, data
+                yield verdict, findings, data
     total.unreadable = len(inputs.undone)
 
 
@@ -174,8 +174,8 @@ def _judged(
 def _print_json(judged: Iterable[Judged], total: Total) -> None:
     """Print one JSON object; each deck is written as soon as it is judged."""
     mark = '{\n "decks": ['
-    for verdict, found, _ in judged:
-        row = {**verdict.row(), "findings": [as_object(each) for each in found]}
+    for verdict, findings, _ in judged:
+        row = {**verdict.row(), "findings": [as_object(each) for each in findings]}
         emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
         mark = ","
     end = "\n ]" if mark == "," else f"{mark}]"
@@ -185,10 +185,10 @@ def _print_json(judged: Iterable[Judged], total: Total) -> None:
 def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
     """Print the errors of each deck at once, and the table at the end, as all rows determine its widths."""
     verdicts = []
-    for verdict, found, data in judged:
+    for verdict, findings, data in judged:
         verdicts.append(verdict)
-        if found and not view.quiet:
-            print_findings(view, found, Source.from_bytes(data, verdict.file))
+        if findings and not view.quiet:
+            print_findings(view, findings, Source.from_bytes(data, verdict.file))
     if verdicts:
         printer = view.printer()
         printer.table(DisplayTable("Decks", _COLUMNS, verdicts))

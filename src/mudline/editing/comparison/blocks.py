@@ -70,24 +70,24 @@ class _Flattening:
         self.counts: dict[str, int] = {}
 
     def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
-        found: Flat = {}
+        flat: Flat = {}
         carried: dict[str, Entry] = {}
         for where, block in blocks:
             lists = [slot for slot in record_schema(type(block)).slots if self._keyed(slot)]
             own: Flat = {}
             self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
             if not lists:
-                found |= self._apart(own)
+                flat |= self._apart(own)
                 continue
             for name in block.facts.carried:
                 path = name.rstrip("_")
                 carried |= {path: own[path]} if path in own else {}
                 own = {**carried, **own}
             slot = lists[0]
-            self._records(getattr(block, slot.name) or [], where, slot, "", found, own)
-        return found
+            self._records(getattr(block, slot.name) or [], where, slot, "", flat, own)
+        return flat
 
-    def part(self, part: Part, where: Where, prefix: str, found: Flat, leave_out: str = "") -> None:
+    def part(self, part: Part, where: Where, prefix: str, flat: Flat, leave_out: str = "") -> None:
         """Add the declared fields of a part, below a prefix."""
         kind: type[Part] = type(part)
         for slot in record_schema(kind).slots:
@@ -95,27 +95,27 @@ class _Flattening:
             if slot.name == leave_out or value is None:
                 continue
             place = where.inside(slot.json)
-            self._value(value, slot, place, prefix + slot.json, found)
+            self._value(value, slot, place, prefix + slot.json, flat)
 
-    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, found: Flat) -> None:
+    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, flat: Flat) -> None:
         if isinstance(value, Table):
-            found.update(_table(value, slot, where, path))
+            flat.update(_table(value, slot, where, path))
         elif isinstance(value, Part):
-            self.part(value, where, path + "/", found)
+            self.part(value, where, path + "/", flat)
         elif isinstance(value, list) and value and isinstance(value[0], Record):
-            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, found, {})
+            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, flat, {})
         elif isinstance(value, list):
-            self._items(value, where, path, found)
+            self._items(value, where, path, flat)
         else:
-            found[path] = self._scalar(value, where)
+            flat[path] = self._scalar(value, where)
 
-    def _items(self, values: list[object], where: Where, path: str, found: Flat) -> None:
+    def _items(self, values: list[object], where: Where, path: str, flat: Flat) -> None:
         for index, item in enumerate(values):
             place = where.inside(index)
             if isinstance(item, Part):
-                self.part(item, place, f"{path}/{index + 1}/", found)
+                self.part(item, place, f"{path}/{index + 1}/", flat)
             else:
-                found[f"{path}/{index + 1}"] = self._scalar(item, place)
+                flat[f"{path}/{index + 1}"] = self._scalar(item, place)
 
     def _scalar(self, value: object, where: Where) -> Entry:
         if isinstance(value, float | int):
@@ -123,7 +123,7 @@ class _Flattening:
         return Entry(str(value), folded(str(value)), where)
 
     def _records(
-        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, found: Flat, shared: Flat
+        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, flat: Flat, shared: Flat
     ) -> None:
         """Add the records of a list, by name if they have names, else by position."""
         sticky: object = None
@@ -131,24 +131,24 @@ class _Flattening:
         for index, record in enumerate(records):
             place = where.inside(slot.json, index)
             key = key_slot(type(record))
-            path = start + self._title(record, key, index, found, start)
+            path = start + self._title(record, key, index, flat, start)
             values: Flat = {}
             if record.sticky:
                 sticky = getattr(record, record.sticky, None) or sticky
                 declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
                 values[f"{path}/{declared.json}"] = self._scalar(sticky or declared.about.default, place)
             self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
-            found[path] = Entry(None, None, place)
-            found |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
+            flat[path] = Entry(None, None, place)
+            flat |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
 
-    def _title(self, record: Record, key: FieldSpec | None, index: int, found: Flat, start: str) -> str:
+    def _title(self, record: Record, key: FieldSpec | None, index: int, flat: Flat, start: str) -> str:
         name = _identity(record) if key is None else getattr(record, key.name, None)
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
         if self.later_wins:
-            if start + title in found:
-                for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
-                    del found[path]
+            if start + title in flat:
+                for path in [path for path in flat if path == start + title or path.startswith(f"{start}{title}/")]:
+                    del flat[path]
             return title
         count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
         return title if count == 1 else f"{title}#{count}"
@@ -191,14 +191,16 @@ _Name = tuple[str, str]
 
 def blocks(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of modelled blocks by value, and of opaque blocks by data line."""
-    first, second = _modelled(pair.one), _modelled(pair.other)
+    first, second = _modelled(pair.before), _modelled(pair.after)
     for name in dict.fromkeys([*first, *second]):
         group = _group(name)
         before, after = first.get(name, []), second.get(name, [])
         if not before or not after:  # reported separately, as the block may have no values
-            yield pair.difference(group, group, *((None, found[0][0]) if found else None for found in (before, after)))
-        yield from flat_differences(group, flatten(pair.one, before), flatten(pair.other, after), pair)
-    lines, others = _lines(pair.one), _lines(pair.other)
+            yield pair.difference(
+                group, group, *((None, listed[0][0]) if listed else None for listed in (before, after))
+            )
+        yield from flat_differences(group, flatten(pair.before, before), flatten(pair.after, after), pair)
+    lines, others = _lines(pair.before), _lines(pair.after)
     for name in dict.fromkeys([*lines, *others]):
         yield from _opaque(name, lines.get(name, []), others.get(name, []), pair)
 
@@ -209,10 +211,10 @@ def flat_differences(group: str, before: Flat, after: Flat, pair: Pair) -> Itera
         old, new = before.get(path), after.get(path)
         if old and new and pair.tolerance.values(old.compared, new.compared):
             continue
-        where = f"{group}/{(pair.one if old else pair.other).path(path)}"
-        pair.said.update(_around(path, before, after))
-        held, found = ((entry.shown, entry.where) if entry else None for entry in (old, new))
-        yield pair.difference(group, where, held, found)
+        where = f"{group}/{(pair.before if old else pair.after).path(path)}"
+        pair.reported.update(_around(path, before, after))
+        held = ((entry.shown, entry.where) if entry else None for entry in (old, new))
+        yield pair.difference(group, where, *held)
 
 
 def _around(path: str, before: Flat, after: Flat) -> Iterator[tuple[Where | None, Where | None]]:

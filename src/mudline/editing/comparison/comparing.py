@@ -33,28 +33,28 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     parts that could not be read, or with an equation without a value.
     """
     pair = Pair(Side(before), Side(after), Tolerance(tolerance))
-    pair.one.require()
-    pair.other.require()
+    pair.before.require()
+    pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
     groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor)
-    return [*(found for differences in groups for found in differences(pair)), *of_keywords]
+    return [*(difference for differences in groups for difference in differences(pair)), *of_keywords]
 
 
 def _units(pair: Pair) -> Iterator[Difference]:
-    old, new = pair.one.scene.units, pair.other.scene.units
+    old, new = pair.before.scene.units, pair.after.scene.units
     if old != new:
         yield Difference("changed", "units", "units", old, new)
 
 
 def _floor(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of seabed points from files; points in the deck are compared with its blocks."""
-    if pair.one.scene.seabed.file or pair.other.scene.seabed.file:
+    if pair.before.scene.seabed.file or pair.after.scene.seabed.file:
         yield from seabed_points(pair)
 
 
 def seabed_points(pair: Pair) -> Iterator[Difference]:
     """Yield the difference of the points of a profile or a surface; their order does not count."""
-    old, new = pair.one.scene.seabed, pair.other.scene.seabed
+    old, new = pair.before.scene.seabed, pair.after.scene.seabed
     same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
     if not same:
         held = ((f"{len(floor.points)} points", floor.where) for floor in (old, new))
@@ -70,13 +70,13 @@ def _sorted(floor: SeabedShape) -> np.ndarray[tuple[int, ...], np.dtype[np.float
 
 def _nodes(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of node coordinates."""
-    yield from _numbered("nodes", pair.one.scene.nodes, pair.other.scene.nodes, pair)
+    yield from _numbered("nodes", pair.before.scene.nodes, pair.after.scene.nodes, pair)
     yield from _labelled("NODE", "nodes", pair)
 
 
 def _elements(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of element nodes; numbers are names here, so the tolerance does not apply."""
-    tables = pair.one.scene.table.numbered, pair.other.scene.table.numbered
+    tables = pair.before.scene.table.numbered, pair.after.scene.table.numbered
     yield from _numbered("elements", *tables, replace(pair, tolerance=Tolerance()))
     yield from _labelled("ELEMENT", "elements", pair)
 
@@ -112,7 +112,7 @@ def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
 
 def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
     """Yield the differences of rows with a {label} in place of a number."""
-    first, second = _label_rows(pair.one, keyword, group), _label_rows(pair.other, keyword, group)
+    first, second = _label_rows(pair.before, keyword, group), _label_rows(pair.after, keyword, group)
     for key in sorted(first.keys() - second.keys()):
         yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
     for key in sorted(second.keys() - first.keys()):
@@ -120,7 +120,7 @@ def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
 
 
 def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tuple[list[Value], Where]]:
-    found: dict[tuple[str, ...], tuple[list[Value], Where]] = {}
+    rows_by_key: dict[tuple[str, ...], tuple[list[Value], Where]] = {}
     for where, block in side.scene.deck.blocks(keyword):
         for index, entry in enumerate(block.entries):
             table = getattr(entry, name, None)
@@ -131,8 +131,8 @@ def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tu
                 numbers = enumerate(table.values[row, : table.lengths[row]].tolist())
                 cells: list[Value] = [table.words.get((row, column)) or plain(number) for column, number in numbers]
                 key = tuple(str(cell).casefold() for cell in cells)
-                found[key] = (cells, where.inside("entries", index, name, row))
-    return found
+                rows_by_key[key] = (cells, where.inside("entries", index, name, row))
+    return rows_by_key
 
 
 _KINDS = {False: "curves", True: "curves of sets"}
@@ -140,7 +140,7 @@ _KINDS = {False: "curves", True: "curves of sets"}
 
 def _parameters(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of parameter values."""
-    first, second = pair.one.parameters, pair.other.parameters
+    first, second = pair.before.parameters, pair.after.parameters
     for name in dict.fromkeys([*first.values, *second.values]):
         old, new = first.values.get(name), second.values.get(name)
         if old is None or new is None or not pair.tolerance.values(old, new):
@@ -157,20 +157,20 @@ _NO_MEMBERS = Members()
 
 def _sets(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of the members of element sets; ALL has all elements."""
-    first, second = pair.one.scene.set_table.named, pair.other.scene.set_table.named
-    written, others = _written(pair.one), _written(pair.other)
+    first, second = pair.before.scene.set_table.named, pair.after.scene.set_table.named
+    written, others = _written(pair.before), _written(pair.after)
     for name in dict.fromkeys([*first, *second]):
         if name == "all":
             continue
         old, new = first.get(name), second.get(name)
-        before = Members([pair.one.scene.element_ids[old.elements]]) if old else None
-        after = Members([pair.other.scene.element_ids[new.elements]]) if new else None
+        before = Members([pair.before.scene.element_ids[old.elements]]) if old else None
+        after = Members([pair.after.scene.element_ids[new.elements]]) if new else None
         if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
             before, after = written.get(name, _NO_MEMBERS), others.get(name, _NO_MEMBERS)
         if before is None or after is None or not before.same(after):
             title = old.name if old else new.name if new else name
             sides = (before, old), (after, new)
-            held = ((_text(members), found.where) if members and found else None for members, found in sides)
+            held = ((_text(members), group.where) if members and group else None for members, group in sides)
             yield pair.difference("element sets", f"element sets/{title}", *held)
 
 
@@ -206,7 +206,7 @@ def _generated(start: object, end: object, step: object) -> list[tuple[int, int,
 
 def _curves(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of points of the force-embedment curves; the last curve of a name applies."""
-    first, second = _by_name(pair.one), _by_name(pair.other)
+    first, second = _by_name(pair.before), _by_name(pair.after)
     for name in dict.fromkeys([*first, *second]):
         old, new = first.get(name), second.get(name)
         if old and new:
@@ -283,7 +283,7 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
     yield from follow_differently("laws", _laws, pair)
     yield from follow_differently("sections", _sections, pair)
     yield from follow_differently("bed", _bed, pair)
-    for keyword in dict.fromkeys([*pair.one.scene.extensions, *pair.other.scene.extensions]):
+    for keyword in dict.fromkeys([*pair.before.scene.extensions, *pair.after.scene.extensions]):
         yield from follow_differently(keyword.lower(), partial(_extension, keyword=keyword), pair)
 
 
@@ -294,7 +294,7 @@ def follow_differently(
 
     `descriptions` describes the elements to compare by their number, if they are not those of the decks.
     """
-    before, after = pair.one, pair.other
+    before, after = pair.before, pair.after
     here, there = _common(before.scene.table.numbered, after.scene.table.numbered)
     if descriptions is not None:
         chosen = np.isin(before.scene.element_ids[here], list(descriptions))
@@ -308,7 +308,7 @@ def follow_differently(
     for both in sorted(set(followed[starts].tolist())):
         i, j = both // width - 1, both % width - 1
         places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
-        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.said:  # the records
+        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.reported:  # the records
             continue
         old, new = _entry(first, i), _entry(second, j)
         names = [

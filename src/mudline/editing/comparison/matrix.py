@@ -38,8 +38,8 @@ def matrix(differences: Sequence[Sequence[Difference]]) -> list[DiffRow]:
     """
     base: dict[_Key, Value] = {}
     others: dict[_Key, dict[int, Value]] = {}
-    for deck, found in enumerate(_apart(differences)):
-        for key, difference in found:
+    for deck, of_deck in enumerate(_apart(differences)):
+        for key, difference in of_deck:
             base.setdefault(key, _there(difference, "added", difference.before))
             others.setdefault(key, {})[deck] = _there(difference, "removed", difference.after)
     rows = [

@@ -269,14 +269,14 @@ _Held: TypeAlias = tuple[Value, Where | None] | None
 class Pair:
     """The two decks that are compared."""
 
-    one: Side
-    other: Side
+    before: Side
+    after: Side
     tolerance: Tolerance
-    said: set[tuple[Where | None, Where | None]] = field(default_factory=set)
+    reported: set[tuple[Where | None, Where | None]] = field(default_factory=set)
     """Places of the records and blocks whose differences are reported by keyword; None for a deck without them."""
 
     def difference(self, group: str, where: str, before: _Held, after: _Held) -> Difference:
         """Return the difference of a value that only one of the decks has, or that differs between them."""
         kind: Kind = "added" if before is None else "removed" if after is None else "changed"
         (old, place), (new, other_place) = before or (None, None), after or (None, None)
-        return Difference(kind, group, where, old, new, self.one.line(place), self.other.line(other_place))
+        return Difference(kind, group, where, old, new, self.before.line(place), self.after.line(other_place))

@@ -125,7 +125,7 @@ def _rewritten(old: Scene, new: Scene) -> bool:
 
 def _groups(pair: Pair) -> set[str]:
     """Return the groups of differences that are replaced by semantic differences of elements and seabed."""
-    keywords = [side.scene.deck.keywords() for side in (pair.one, pair.other)]
+    keywords = [side.scene.deck.keywords() for side in (pair.before, pair.after)]
     groups = {f"*{name}" for names in keywords for name in names if is_superseded(name) or supersedes(name)}
     groups |= {"laws of elements", "bed of elements", "seabed"}
     return groups - {"*SEABED PROFILE", "seabed"} if all("SEABED PROFILE" in names for names in keywords) else groups
@@ -135,7 +135,7 @@ def _is_whole_curve(difference: Difference, pair: Pair) -> bool:
     """Return True for a curve in one deck only that is for a set or named by a set: its elements are compared."""
     if difference.kind == "changed" or not isinstance(difference.before or difference.after, list):
         return False
-    side = pair.one if difference.kind == "removed" else pair.other
+    side = pair.before if difference.kind == "removed" else pair.after
     kind, _, name = difference.where.partition("/")
     return kind == "curves of sets" or (kind == "curves" and folded(name) in side.scene.laws.referenced)
 
@@ -143,17 +143,17 @@ def _is_whole_curve(difference: Difference, pair: Pair) -> bool:
 def _meaning(pair: Pair, groups: set[str]) -> Iterator[Difference]:
     """Yield the differences of the laws of elements and of the seabed."""
     yield from _of_elements(pair)
-    scenes = pair.one.scene, pair.other.scene
+    scenes = pair.before.scene, pair.after.scene
     if not all(map(shows_elements, scenes)):
         external, names = representatives(*scenes)
         first, second = (Side(resolve(scene.deck, external)) for scene in scenes)
-        yield from _of_elements(replace(pair, one=first, other=second), names)
+        yield from _of_elements(replace(pair, before=first, after=second), names)
     if "seabed" in groups:
         yield from _seabed(pair)
 
 
 def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator[Difference]:
-    fresh = replace(pair, said=set())
+    fresh = replace(pair, reported=set())
     yield from follow_differently("laws", _laws, fresh, names)
     yield from follow_differently("bed", _resistance, fresh, names)
 
@@ -195,7 +195,7 @@ def _values(given: ResistanceValues, units: str) -> Values:
 
 def _seabed(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of the shape of the seabed, from any keyword."""
-    old, new = pair.one.scene.seabed, pair.other.scene.seabed
+    old, new = pair.before.scene.seabed, pair.after.scene.seabed
     given = [("kind", old.kind.value, new.kind.value), ("slope", old.slope, new.slope)]
     given += [("direction", old.direction, new.direction), ("interpolation", old.interpolation, new.interpolation)]
     if old.missing or new.missing:

@@ -105,7 +105,7 @@ class _Layout:
         self.ended = len(self.text)  # end of the text without trailing blanks and marks
         while self.ended and self.source.text[self.ended - 1] in f"{END_MARK} \t\r\n":
             self.ended -= 1
-        self.found: list[TextEdit] = []
+        self.collected: list[TextEdit] = []
         self.blanks: list[Span] = []
 
     def edits(self) -> list[TextEdit]:
@@ -125,7 +125,7 @@ class _Layout:
                     self._block(block, read)
         for span in self.blanks:
             self._put(span, self._marks(span))
-        return self.found
+        return self.collected
 
     def _marks(self, span: Span) -> str:
         """Return the end-of-file marks of old systems among blanks, which formatting leaves unchanged."""
@@ -137,7 +137,7 @@ class _Layout:
             lines += self._marks(Span(max(span.start, self.ended), span.end))
         new = lines if self.end == "\n" else lines.replace("\n", self.end)
         if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
-            self.found.append(TextEdit(span, new))
+            self.collected.append(TextEdit(span, new))
 
     def _end_blanks(self) -> None:
         """Keep one of the blank lines before a line that is not blank."""

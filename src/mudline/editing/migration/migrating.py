@@ -262,7 +262,7 @@ def _same_bits(old: Floats, new: Floats) -> np.ndarray[tuple[int, ...], np.dtype
 def _contact_input(scene: Scene, chosen: Indices) -> ContactInput:
     """Return the contact input of the chosen elements (k), each with two nodes of its own.
 
-    An element without a diameter gets one: its law is the same for every diameter.
+    An element without a diameter gets a diameter of 1: its law is the same for every diameter.
     """
     count = len(chosen)
     arrays = scene.law_arrays()

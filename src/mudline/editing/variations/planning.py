@@ -217,8 +217,8 @@ def listed(values: Values) -> str:
     return ", ".join(f"{name}={text}" for name, text in values.items()) or "no varied parameter"
 
 
-def _clash(deck: PlannedDeck, other: PlannedDeck | None) -> str:
-    if other is None:
+def _clash(deck: PlannedDeck, holder: PlannedDeck | None) -> str:
+    if holder is None:
         return "is that of the manifest"
-    same = "" if deck.path == other.path else f" (as {shown(other.path)})"
-    return f"is that of the deck with {listed(other.values)}{same}: name what differs with %parameter%"
+    same = "" if deck.path == holder.path else f" (as {shown(holder.path)})"
+    return f"is that of the deck with {listed(holder.values)}{same}: name what differs with %parameter%"

@@ -79,9 +79,9 @@ def _keyword_at(scene: Scene, where: Where) -> str:
     return scene.deck.sections[where.section].blocks[where.block].keyword
 
 
-def _findings(found: Iterable[Diagnostic]) -> list[FindingRow]:
+def _findings(findings: Iterable[Diagnostic]) -> list[FindingRow]:
     rows = []
-    for finding in found:
+    for finding in findings:
         place = (finding.line, finding.column, finding.end_line, finding.end_column)
         fix = finding.fix.applicability if finding.fix else None
         rows.append(

@@ -266,11 +266,11 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
 
 def _report_soil(model: LineModel, soil: Soil) -> None:
     numbers = dict(soil.parameters)
-    other = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
+    changed = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
     model.report.add(soil.where, Status.CARRIED, "Nonlinear soil model", effect)
-    if other:
-        model.report.add(soil.where, Status.LEFT_OUT, "defaults", f"set by hand: {', '.join(other)}", "parameters")
+    if changed:
+        model.report.add(soil.where, Status.LEFT_OUT, "defaults", f"set by hand: {', '.join(changed)}", "parameters")
     for each in model.soils:
         if each.kind is LawKind.SOIL and each.parameters != soil.parameters:
             effect = f"{each.says()}; here that of most of the pipe"

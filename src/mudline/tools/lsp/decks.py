@@ -93,10 +93,10 @@ class Analysis:
         with self.reading(), recording_looks() as looks:
             try:
                 self.read()
-                found = lint_context(self.context, self.settings.rules) if self.context else []
+                findings = lint_context(self.context, self.settings.rules) if self.context else []
             except DeckError as error:
-                found = list(error.diagnostics)
-        self.found = () if self.excluded else with_severities(found, self.settings)
+                findings = list(error.diagnostics)
+        self.found = () if self.excluded else with_severities(findings, self.settings)
         self.looked_at = frozenset(looks)
         return self
 

@@ -151,10 +151,10 @@ def parameter_help(analysis: Analysis, named: Occurrence) -> str:
 # ------------------------------------------------------------------------------------------------------ names in fields
 
 
-def named_help(analysis: Analysis, found: Site, name: str) -> str:
+def named_help(analysis: Analysis, value_site: Site, name: str) -> str:
     """Return the help on a name in a field."""
     scene = analysis.scene
-    kind = found.slot.about.names or found.slot.about.defines
+    kind = value_site.slot.about.names or value_site.slot.about.defines
     if scene is None or analysis.deck is None:
         return ""
     if kind in (Names.SET, Names.SUBSET):
@@ -209,12 +209,12 @@ def _with_unit(what: str, value: float, unit: str) -> str:
 # -------------------------------------------------------------------------------------------------------------- curves
 
 
-def segment_help(analysis: Analysis, found: Site) -> str:
+def segment_help(analysis: Analysis, value_site: Site) -> str:
     """Return slope and stiffness of a curve on both sides of the point of a value."""
-    path, scene = found.where.path, analysis.scene
+    path, scene = value_site.where.path, analysis.scene
     if scene is None or len(path) < 4 or path[0] != "curves" or path[2] != "points":
         return ""
-    where, curves = found.where._replace(path=path[:2]), scene.laws.curves
+    where, curves = value_site.where._replace(path=path[:2]), scene.laws.curves
     index, entry = next(((at, curve) for at, curve in enumerate(curves) if curve.where == where), (-1, None))
     at = np.flatnonzero(entry.rows == int(path[3])) if entry else np.zeros(0)
     if entry is None or entry.curve is None or not at.size:
@@ -276,9 +276,9 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
 # --------------------------------------------------------------------------------------------------- nodes and elements
 
 
-def number_help(analysis: Analysis, found: Site, value: float) -> str:
+def number_help(analysis: Analysis, value_site: Site, value: float) -> str:
     """Return the help on the node or element whose number stands in a field."""
-    kind = found.slot.about.names or found.slot.about.defines
+    kind = value_site.slot.about.names or value_site.slot.about.defines
     scene = analysis.scene
     if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
         return ""

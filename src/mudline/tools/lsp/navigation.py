@@ -59,11 +59,11 @@ def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
 def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
     """Yield the open decks that continue a deck."""
     for uri in list(decks.documents):
-        other = decks.analysis(uri)
-        if other is not None and other.deck is not None and other.document.path != path:
-            with other.reading():
-                if os.path.abspath(path) in map(os.path.abspath, decks_before(other.deck)):  # noqa: PTH100 - links stay
-                    yield Linked(other.document, other.deck)
+        analysis = decks.analysis(uri)
+        if analysis is not None and analysis.deck is not None and analysis.document.path != path:
+            with analysis.reading():
+                if os.path.abspath(path) in map(os.path.abspath, decks_before(analysis.deck)):  # noqa: PTH100 - links stay
+                    yield Linked(analysis.document, analysis.deck)
 
 
 # -------------------------------------------------------------------------------------------------------------- answers

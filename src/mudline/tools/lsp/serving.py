@@ -24,11 +24,14 @@ AskAt = Callable[[Navigator, int, Any], object]
 """Function that answers a request about a place in a deck, from its offset and the parameters."""
 
 _ABOUT_DECKS: dict[str, tuple[Ask, object]] = {
-    types.TEXT_DOCUMENT_HOVER: (lambda found, asked: hover(found, found.document.offset(asked.position)), None),
-    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda found, _: structure.outline(found), []),
-    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda found, _: structure.folding(found), []),
-    types.TEXT_DOCUMENT_FORMATTING: (lambda found, _: structure.formatting(found), []),
-    types.TEXT_DOCUMENT_INLAY_HINT: (lambda found, asked: hints(found, asked.range), []),
+    types.TEXT_DOCUMENT_HOVER: (
+        lambda analysis, asked: hover(analysis, analysis.document.offset(asked.position)),
+        None,
+    ),
+    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda analysis, _: structure.outline(analysis), []),
+    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda analysis, _: structure.folding(analysis), []),
+    types.TEXT_DOCUMENT_FORMATTING: (lambda analysis, _: structure.formatting(analysis), []),
+    types.TEXT_DOCUMENT_INLAY_HINT: (lambda analysis, asked: hints(analysis, asked.range), []),
 }
 """Answers about decks, and the answer if no deck is open."""
 _ABOUT_PLACES: dict[str, tuple[AskAt, object]] = {

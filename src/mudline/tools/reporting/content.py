@@ -122,7 +122,7 @@ class Report:
 def report_on(
     given: Given,
     settings: LintSettings,
-    wanted: Collection[str],
+    requested: Collection[str],
     document: Document = NO_DOCUMENT,
     *,
     rest_shape: bool = False,
@@ -134,16 +134,16 @@ def report_on(
     """
     verdict, deck, context = _judged(given, settings)
     head = _head(given, deck, verdict, document)
-    head["shown"] = [name for name in SECTIONS if name in wanted]
+    head["shown"] = [name for name in SECTIONS if name in requested]
     content = Report(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
     sections = head["sections"]
-    if "findings" in wanted:
+    if "findings" in requested:
         sections["findings"] = _findings(given, settings, context)
         content.named = _titles(
             [row["code"] for row in (*sections["findings"]["reported"], *sections["findings"]["hidden"])]
         )
-    of_scene = [name for name in SECTIONS[2:] if name in wanted]
-    content.scene, missing = _scene(deck) if of_scene or "verdict" in wanted else (None, "")
+    of_scene = [name for name in SECTIONS[2:] if name in requested]
+    content.scene, missing = _scene(deck) if of_scene or "verdict" in requested else (None, "")
     if content.scene is not None:
         head["continues"] = [base.deck.file for base in content.scene.deck.bases]
     for name in of_scene:
@@ -158,7 +158,7 @@ def report_on(
     for stage in (sections.get("plan") or {}).get("stages", ()):
         if stage["active"] and "(inferred)" in stage["why"]:
             head["inferred"].append({"keyword": "", "fields": [stage["stage"]], "inferred": stage["why"], "blocks": 1})
-    if "verdict" in wanted:
+    if "verdict" in requested:
         head["figures"] = _figures(content, sections.get("contact"), missing)
     content.json = _without_folders(head, given)
     return content
@@ -279,9 +279,9 @@ def _reason(error: DeckError) -> str:
 
 def _findings(given: Given, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
     """Return the findings of `mudline lint`, and those hidden by comments, each with its section of the deck."""
-    found = lint_one(given.name, given.data, settings, given.folder).found
+    findings = lint_one(given.name, given.data, settings, given.folder).found
     sections = _section_lines(context)
-    reported = [_finding(finding, sections) for finding in found]
+    reported = [_finding(finding, sections) for finding in findings]
     hidden = [] if context is None else _hidden(context, settings, sections)
     return {"reported": reported, "hidden": hidden}
 

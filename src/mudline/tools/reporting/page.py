@@ -183,10 +183,10 @@ class Shown(NamedTuple):
 
 def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _: True) -> list[tuple[str, list[Shown]]]:
     """Return the first findings by section of the deck, of the severities that `wanted` accepts."""
-    found = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
+    findings = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
     rows = [
         Shown(number, finding | {"message": cut(finding["message"], LONGEST)}, _lines(report, finding["line"]))
-        for number, finding in enumerate(found, 1)
+        for number, finding in enumerate(findings, 1)
         if wanted(finding["severity"])
     ]
     return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row.found["section"]))]
@@ -194,11 +194,11 @@ def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _:
 
 def _by_rule(report: Report, groups: Sequence[tuple[str, Sequence[Shown]]]) -> Table | None:
     """Return many findings as a table of the rules behind them, errors first; None for few findings."""
-    found = [shown.found for _, group in groups for shown in group]
-    if len(found) <= MOST_BEFORE_APPENDIX["findings"]:
+    findings = [shown.found for _, group in groups for shown in group]
+    if len(findings) <= MOST_BEFORE_APPENDIX["findings"]:
         return None
-    codes = sorted({(SEVERITIES.index(finding["severity"]), finding["code"]) for finding in found})
-    lines = [(at, code, [finding["line"] for finding in found if finding["code"] == code]) for at, code in codes]
+    codes = sorted({(SEVERITIES.index(finding["severity"]), finding["code"]) for finding in findings})
+    lines = [(at, code, [finding["line"] for finding in findings if finding["code"] == code]) for at, code in codes]
     columns = (
         text("severity", lambda row: SEVERITIES[row[0]]),
         text("code", 1),

@@ -61,14 +61,14 @@ class Pages:
         """Number of decks with errors."""
         return sum(row["errors"] > 0 for row in self.rows)
 
-    def add(self, made: Made, name: str) -> None:
+    def add(self, result: Made, name: str) -> None:
         """Write the page about a deck; raises LookError."""
-        if made.fault:
-            raise LookError(made.fault)
-        page = None if made.html is None else self._page(name)
-        if page is not None and made.html is not None:
-            self._write(page, made.html)
-        self.rows.append(self._row(made.content, name, page))
+        if result.fault:
+            raise LookError(result.fault)
+        page = None if result.html is None else self._page(name)
+        if page is not None and result.html is not None:
+            self._write(page, result.html)
+        self.rows.append(self._row(result.content, name, page))
 
     def finish(self, look: Look) -> None:
         """Write the index, if there is one; raises LookError."""

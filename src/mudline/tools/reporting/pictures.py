@@ -52,23 +52,23 @@ def pictures_of(report: Report) -> tuple[list[Picture], int]:
 
 def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
     """Yield each picture of the sections, the most important first, and the function that draws it."""
-    scene, found, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
+    scene, sections, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
     if scene is None:
         return
-    if found.get("model") and can_draw(scene):
+    if sections.get("model") and can_draw(scene):
         shape = "at its resting shape" if report.at_rest and drawn is not None else "in the deck's own coordinates"
         words = f"Elevation and plan of the line {shape}, by set, over the seabed"
         yield "model", words, partial(model_figure, scene, drawn)
-    if found.get("contact") and drawn is not None:
+    if sections.get("contact") and drawn is not None:
         words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"
         yield "contact", words, partial(evaluation_figure, drawn, report.doubt)
     if study is not None and study.drawable:
         words = "Error of the touchdown zone against run time, with the deck's own time step"
         yield "study", words, study.figure
-    rows = (found.get("curves") or {}).get("curves", ())
+    rows = (sections.get("curves") or {}).get("curves", ())
     of_seabed = [row for row in rows if row["kind"] == OF_SEABED]
     if several := len(of_seabed) > MOST_SINGLE:
-        followed = {law["law"] for law in found["curves"]["laws"] if law["elements"]}
+        followed = {law["law"] for law in sections["curves"]["laws"] if law["elements"]}
         of_seabed.sort(key=lambda row: f"curve:{row['name']}" not in followed)
         words = f"{min(_MOST_TOGETHER, len(of_seabed))} of {len(of_seabed)} force-embedment curves"
         yield "curves", words, partial(curves_figure, of_seabed[:_MOST_TOGETHER], scene.units)

@@ -86,22 +86,22 @@ _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shap
 """Description of the shape of the line, by the source of its positions."""
 
 
-def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
+def figure_table(content: dict[str, Any], names: UnitNames) -> Table:
     """Return the five numbers next to the verdict as a table of one row."""
-    words = _touchdown(found["touchdown"], found["contact_length"], found["length"])
-    doubt = f"warnings about these numbers: {', '.join(found['warnings'])}" if found["warnings"] else ""
+    words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
+    doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
     notes = filter(
         None,
-        [f"at {_SHAPES[found['positions']]}; no load case is solved", weight_note(found["weights_without"]), doubt],
+        [f"at {_SHAPES[content['positions']]}; no load case is solved", weight_note(content["weights_without"]), doubt],
     )
     columns = (
         number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest penetration", "depth", names.length),
-        number("total reaction", lambda _: _known(found["reaction"]), names.force),
+        number("total reaction", lambda _: _known(content["reaction"]), names.force),
         number("reaction over submerged weight", "ratio"),
     )
-    table = DisplayTable("Contact in five numbers", columns, [found], "; ".join(notes))
+    table = DisplayTable("Contact in five numbers", columns, [content], "; ".join(notes))
     return on_page(table)
 
 
@@ -114,7 +114,7 @@ def four_digits(value: float | None) -> str:
 _PLAIN = 1e7
 
 
-def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[Table]:
+def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[Table]:
     """Yield the inputs of a deck and of the decks that it continues, and the sheet of the elements."""
     columns = (
         text("section", "section"),
@@ -123,7 +123,7 @@ def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: s
         text("line", lambda row: str(row["line"]) if row["file"] == deck else f"{row['line']} of {row['file']}"),
     )
     yield on_page(
-        DisplayTable("Water, conditions, loads, vessels and times", columns, found["inputs"]),
+        DisplayTable("Water, conditions, loads, vessels and times", columns, content["inputs"]),
         MOST_CURVES,
         longest=LONGEST,
     )
@@ -131,21 +131,21 @@ def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: s
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
-def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _model(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     rows = sorted(
-        found["static_embedment"], key=lambda row: int(row["element"])
+        content["static_embedment"], key=lambda row: int(row["element"])
     )  # empty and with contents side by side
-    yield on_page(static_table(rows, names, found["weights_without"], first=False))
+    yield on_page(static_table(rows, names, content["weights_without"], first=False))
 
 
-def _model_details(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
-    counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
-    counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
+def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    more = "+" if content["sets"][0]["open"] else ""  # of ALL, which comes first
+    counts = [(name, f"{content[name]}{more}") for name in ("nodes", "elements")]
+    counts += [("seabed", content["floor"]["kind"]), (labelled("length of line", names.length), content["length"])]
     yield on_page(DisplayTable("Size", _FIGURES, counts))
-    yield on_page(set_table(found["sets"], names), MOST_CURVES)
-    yield on_page(diameter_table(found["diameters"], names))
-    keywords = [(section["name"], keyword) for section in found["keywords"] for keyword in section["keywords"]]
+    yield on_page(set_table(content["sets"], names), MOST_CURVES)
+    yield on_page(diameter_table(content["diameters"], names))
+    keywords = [(section["name"], keyword) for section in content["keywords"] for keyword in section["keywords"]]
     columns = (
         text("section", lambda row: f"${row[0]}"),
         text("keyword", lambda row: f"*{row[1]['keyword']}"),
@@ -161,7 +161,7 @@ def _extent(keyword: dict[str, Any]) -> str:
     return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
 
 
-def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     columns = (
         text("law", lambda row: cut(row["law"], LONGEST_NAME)),
         text("set", lambda row: cut(row["set"], LONGEST_NAME)),
@@ -169,13 +169,13 @@ def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
         text("values", lambda row: _values(row["values"])),
         text("deck line", lambda row: f"line {row['line']} of {row['file']}"),
     )
-    note = OPEN if any(row["open"] for row in found["laws"]) else ""
-    laws = DisplayTable("Laws and resistance by set", columns, found["laws"], note)
+    note = OPEN if any(row["open"] for row in content["laws"]) else ""
+    laws = DisplayTable("Laws and resistance by set", columns, content["laws"], note)
     yield on_page(laws, MOST_CURVES, "law", LONGEST)
 
 
-def _curve_points(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    for place, row in enumerate(found["curves"][:MOST_CURVES], 1):
+def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    for place, row in enumerate(content["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [segment["slope"] for segment in row["segments"]]
         points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
@@ -188,7 +188,7 @@ def _curve_points(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         yield on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
             anchor=f"curve-{place}"
         )
-    yield Table("", (), (), more=_more(len(found["curves"]) - MOST_CURVES, "curve"))
+    yield Table("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
 
 
 def _values(values: dict[str, Any]) -> str:
@@ -204,25 +204,27 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
     return shown(value) if isinstance(value, float) else str(value)
 
 
-def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    masses = "" if any(keyword.startswith("*MASS") for keyword in found["weights_without"]) else " and masses"
+def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     figures = [
-        (labelled("total reaction", names.force), _known(found["reaction"])),
+        (labelled("total reaction", names.force), _known(content["reaction"])),
         (
             labelled(f"submerged weight of the elements in contact, with contents{masses}", names.force),
-            found["weight"],
+            content["weight"],
         ),
-        (labelled("the same, empty", names.force), found["empty_weight"]),
-        ("reaction over weight with contents", found["ratio"]),
+        (labelled("the same, empty", names.force), content["empty_weight"]),
+        ("reaction over weight with contents", content["ratio"]),
     ]
-    if deepest := found["deepest"]:
+    if deepest := content["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    notes = [weight_note(found["weights_without"]), *found["notes"]]
+    notes = [weight_note(content["weights_without"]), *content["notes"]]
     yield on_page(
-        DisplayTable(f"Equilibrium of {_SHAPES[found['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes)))
+        DisplayTable(
+            f"Equilibrium of {_SHAPES[content['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes))
+        )
     )
-    yield on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
+    yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
         text("elements", lambda row: f"{row['first_element']} to {row['last_element']}"),
@@ -234,16 +236,16 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
     ]
-    touchdown = DisplayTable("Touchdown", columns, found["lines"], weight_note(found["weights_without"]))
+    touchdown = DisplayTable("Touchdown", columns, content["lines"], weight_note(content["weights_without"]))
     yield on_page(touchdown)
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
-    warnings = found["warnings"][:SHOWN_ROWS]
+    warnings = content["warnings"][:SHOWN_ROWS]
     yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
-def _states(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
-    yield on_page(DisplayTable("States", columns, found["states"]))
+    yield on_page(DisplayTable("States", columns, content["states"]))
 
 
 def _known(reaction: float | None) -> float | str:
@@ -264,10 +266,10 @@ def study_tables(result: Study) -> list[Table]:
     return [on_page(table, longest=LONGEST) for part in result.parts if (table := STUDY_TABLES[part](result))]
 
 
-def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
-    stages = found["stages"]
+def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+    stages = content["stages"]
     columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
-    table = DisplayTable(f"Stages of the evaluation, {found['steps']}", [*columns, text("why", "why")], stages)
+    table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
     yield on_page(table, len(stages), longest=LONGEST)
 
 

@@ -86,7 +86,7 @@ class Line:
         root, next_root = np.hypot(1.0, before), np.hypot(1.0, behind)
         rise = weights * steps / tension
         curved = np.abs(rise) > _STRAIGHT
-        # a difference of two asinh in one, which keeps the digits of a small one
+        # a difference of two asinh by one asinh, which keeps the digits of a small difference
         along = np.arcsinh(behind * root - before * next_root) / np.where(curved, rise, 1.0)
         distance = np.append(0.0, np.cumsum(steps * np.where(curved, along, 1.0 / root)))
         height = np.append(0.0, np.cumsum(steps * (before + behind) / (root + next_root)))
@@ -155,7 +155,7 @@ _Spans = list[tuple[float, float]]
 def _hanging(line: Line, tension: float, heights: tuple[float, float], used: _Spans) -> _Spans | None:
     """Return the hanging parts under a tension: at the ends above the seabed, and between lying parts.
 
-    None if the tension is too large for one of them to leave the seabed.
+    None if the tension is too large for a part to leave the seabed.
     """
     spans: _Spans = []
     if heights[0] > 0.0:

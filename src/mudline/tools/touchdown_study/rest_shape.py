@@ -105,7 +105,7 @@ class RestShape:
 
     def sentences(self, units: str) -> list[str]:
         """Return a sentence on each line: tension and length on the seabed, or why it has no shape."""
-        names, found = unit_names(units), []
+        names, listed = unit_names(units), []
         for line in self.lines:
             if line.catenary is None:
                 words = "lies on the seabed from end to end"
@@ -113,8 +113,8 @@ class RestShape:
                 lying = sum(last - first for first, last in line.catenary.lying)
                 tension = f"{line.catenary.tension:.6g}{names.behind('force')}"
                 words = f"horizontal tension {tension}, {lying:.6g}{names.behind('length')} lie on the seabed"
-            found.append(f"resting shape of line {line.number}: {words}; no load case is solved")
-        return [*found, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
+            listed.append(f"resting shape of line {line.number}: {words}; no load case is solved")
+        return [*listed, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
 
 
 def rest_shape(scene: Scene) -> RestShape:

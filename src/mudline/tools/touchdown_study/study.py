@@ -159,7 +159,7 @@ def _model(zone: Zone) -> dict[str, Any]:
     """Return the model as in JSON."""
     ids, own, scheme = zone.scene.element_ids, zone.own, zone.scheme
     numbers = [int(ids[at]) for at in (zone.elements[0], zone.elements[-1], own)]
-    found = {
+    row = {
         "first_element": numbers[0],
         "last_element": numbers[1],
         "touchdown_element": numbers[2],
@@ -179,7 +179,7 @@ def _model(zone: Zone) -> dict[str, Any]:
         "drag": float(zone.pipe.drag_coefficient[own]),
     }
     names = ("name", "rho", "alpha", "alpha_f", "alpha_m")
-    return {**as_json(found), "scheme": {name: getattr(scheme, name) for name in names}}
+    return {**as_json(row), "scheme": {name: getattr(scheme, name) for name in names}}
 
 
 def study(
