@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from mudline.checks.verdict import Judgement
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.comparison.superseded import Comparison
-    from mudline.editing.migration.migrating import Verdict
-    from mudline.tools.exporting.report import Report
+    from mudline.editing.migration.migrating import Verification
+    from mudline.tools.exporting.report import ExportReport
     from mudline.tools.touchdown_study.study import Study
 
 GivenDeck = Deck | str | os.PathLike[str]
@@ -80,7 +80,7 @@ class Migrated(ChangedFile):
     """Number of replaced blocks by keyword."""
     files: dict[str, bytes]
     """New files next to the deck, by name."""
-    verified: Verdict | None
+    verified: Verification | None
     """Comparison of results and the number of positions; None unless verification was asked for."""
 
     def write(self, path: str | os.PathLike[str]) -> None:
@@ -289,7 +289,7 @@ class Export(NamedTuple):
 
     files: dict[str, str]
     """Texts of the files by name."""
-    report: Report
+    report: ExportReport
     """Keywords that do not carry over."""
     notes: tuple[str, ...] = ()
     """Remarks on a resting shape; none at the deck's own coordinates."""
@@ -416,7 +416,7 @@ def report(  # noqa: PLR0913 - as many as the command has options
     expect(fields, "fields", (Mapping, NoneType), "texts by name")
     for name, value in (("title", title), ("document", document), ("revision", revision), ("date", date)):
         expect(value, name, (str, NoneType), "a str")
-    head = content.Document(title, document, revision, date, tuple((fields or {}).items()))
+    head = content.PageHead(title, document, revision, date, tuple((fields or {}).items()))
     pictured = [
         None if file is None else given_path(file, name=name) for file, name in ((template, "template"), (logo, "logo"))
     ]
@@ -426,14 +426,14 @@ def report(  # noqa: PLR0913 - as many as the command has options
     listed: list[GivenDeck] = alone or several(
         decks, "decks", (Deck, str, os.PathLike), "decks, or their files or folders"
     )
-    inputs: list[content.Given] = []
+    inputs: list[content.DeckFile] = []
     many = len(listed) > 1
     for each in listed:
         if isinstance(each, Deck):
-            inputs.append(content.Given(_content(each), each.file, each.folder))
+            inputs.append(content.DeckFile(_content(each), each.file, each.folder))
         else:
             place = given_path(each, "save it to a file", name="decks")
-            inputs += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]
+            inputs += [content.DeckFile(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]
             many = many or place.is_dir()
     if not inputs:
         raise ValueError("decks must be one or more, not none")

@@ -24,7 +24,7 @@ class OverwriteError(Exception):
     """Conflict of an output of a run with an input, or with another output of a different name."""
 
 
-class Output(NamedTuple):
+class ClaimedOutput(NamedTuple):
     """An output of a run.
 
     Attributes:
@@ -41,39 +41,39 @@ class Output(NamedTuple):
         return f"{self.option} {self.name}".lstrip()
 
 
-Outputs = dict[_Identity, Output]
+ClaimedOutputs = dict[_Identity, ClaimedOutput]
 
 
 @dataclass(slots=True)
-class Run:
+class RunFiles:
     """Outputs of a run, and the files that it has read with the names by which it read them."""
 
-    outputs: Outputs = field(default_factory=dict)
+    outputs: ClaimedOutputs = field(default_factory=dict)
     read: dict[_Identity, str] = field(default_factory=dict)
 
 
-_RUN: ContextVar[Run | None] = ContextVar("run", default=None)
+_RUN: ContextVar[RunFiles | None] = ContextVar("run", default=None)
 
 
 @contextmanager
 def refusing_overwriting() -> Iterator[None]:
     """Let `reading` and `claim` raise OverwriteError until the block ends."""
-    token = _RUN.set(Run())
+    token = _RUN.set(RunFiles())
     try:
         yield
     finally:
         _RUN.reset(token)
 
 
-def outputs() -> Outputs:
+def outputs() -> ClaimedOutputs:
     """Return the outputs known in this run, to be passed to `continue_run`."""
     run = _RUN.get()
     return {} if run is None else run.outputs
 
 
-def continue_run(known: Outputs) -> None:
+def continue_run(known: ClaimedOutputs) -> None:
     """Refuse in this process whatever the run that started it refuses."""
-    _RUN.set(Run(known))
+    _RUN.set(RunFiles(known))
 
 
 def reading(path: StrPath | None) -> None:
@@ -100,7 +100,7 @@ def claim(path: StrPath, option: str = "") -> None:
     if run is None:
         return
     absolute = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
-    output = Output(option, os.fspath(path), absolute)
+    output = ClaimedOutput(option, os.fspath(path), absolute)
     if (read := _read_as(run, path)) is not None:
         raise _refusal(output, read)
     identity = _identity(path) or _real(path)
@@ -117,7 +117,7 @@ def is_read(path: StrPath) -> bool:
     return run is not None and _read_as(run, path) is not None
 
 
-def _read_as(run: Run, path: StrPath) -> str | None:
+def _read_as(run: RunFiles, path: StrPath) -> str | None:
     """Return the name by which the run has read a file, or None; inodes of deleted files may belong to new files."""
     identity = _identity(path)
     read = None if identity is None else run.read.get(identity)
@@ -126,7 +126,7 @@ def _read_as(run: Run, path: StrPath) -> str | None:
     return read if read is not None and _is_same(read, path) else None
 
 
-def _refusal(output: Output, read: str) -> OverwriteError:
+def _refusal(output: ClaimedOutput, read: str) -> OverwriteError:
     absolute = read != _STDIN and os.path.isabs(read)  # noqa: PTH117 - text
     shown = relative_path(read) if absolute else read.replace(os.sep, "/")
     return OverwriteError(f"{output} would replace {shown}, which this run reads: give another name")

@@ -13,7 +13,7 @@ _FOLDERS = "(?:[^/]*/)*"
 _MEMBER = re.compile(r"\\?(.)(?:-\\?([^]]))?")
 
 
-class Pattern(NamedTuple):
+class PathPattern(NamedTuple):
     """A pattern of a path.
 
     A pattern with a "/" before its end is matched against the whole path, any other pattern against each name.
@@ -48,7 +48,7 @@ class Pattern(NamedTuple):
 
 
 @cache
-def read_pattern(line: str) -> Pattern | None:
+def read_pattern(line: str) -> PathPattern | None:
     """Return the pattern in a line of a `.gitignore`; None for a blank line, a comment or an invalid pattern."""
     text = _without_trailing_spaces(line.rstrip("\r\n"))
     if not text or text.startswith("#"):
@@ -59,7 +59,7 @@ def read_pattern(line: str) -> Pattern | None:
     whole = "/" in body
     body = _ESCAPED.sub(lambda match: "/" if match[0] == r"\/" else match[0], body.removeprefix("/"))
     expression = _expression(body, whole=whole) if body and body[0] != "/" else None
-    return Pattern(expression, whole, negated, text.endswith("/")) if expression else None
+    return PathPattern(expression, whole, negated, text.endswith("/")) if expression else None
 
 
 def matches(path: str, lines: Iterable[str]) -> bool:

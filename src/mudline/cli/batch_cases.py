@@ -34,7 +34,7 @@ _FIELDS = ("name", "folder")
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class BatchCase:
     """A deck of a batch.
 
     Attributes:
@@ -53,7 +53,7 @@ class Case:
         return PurePosixPath(self.inside).stem
 
 
-def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
+def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[BatchCase]]:
     """Return the common folder of the decks, and a case for each deck.
 
     A result file has the name of the deck without its suffix. Decks that differ only in their suffix keep it.
@@ -71,7 +71,9 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
         stem if all(counts[name.casefold()] == 1 for name in (stem, *_others(stem, form))) else path
         for stem, path in zip(plain, inside, strict=True)
     ]
-    return common, [Case(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)]
+    return common, [
+        BatchCase(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)
+    ]
 
 
 def _others(stem: str, form: str) -> list[str]:
@@ -95,7 +97,7 @@ def check_positions(given: str | None) -> None:
         raise click.ClickException(f"{given}: no such file or directory")
 
 
-def positions_of(case: Case, given: str | None) -> str | None:
+def positions_of(case: BatchCase, given: str | None) -> str | None:
     """Return the positions file of a deck: the same for all, from a pattern, from a folder, or None.
 
     Raises click.ClickException if there is none or more than one, and OSError.
@@ -111,7 +113,7 @@ def positions_of(case: Case, given: str | None) -> str | None:
     return path
 
 
-def _in_folder(case: Case, folder: str) -> str:
+def _in_folder(case: BatchCase, folder: str) -> str:
     """Return the file named as the deck, from the deck's subfolder of the positions folder or from its top."""
     stem = str(PurePosixPath(case.inside).with_suffix(""))
     for start in dict.fromkeys((stem, case.name)):
@@ -130,7 +132,7 @@ def _in_folder(case: Case, folder: str) -> str:
 class Order(NamedTuple):
     """A deck to evaluate, with all data that a process needs; `output` is the folder of all results."""
 
-    case: Case
+    case: BatchCase
     data: bytes
     inputs: EvaluateInputs
     output: Path
@@ -196,7 +198,7 @@ def failed(name: str, why: str) -> Done:
     return Done(CaseSummary(name, "failed", why))
 
 
-def results_of(case: Case, output: Path) -> list[Path]:
+def results_of(case: BatchCase, output: Path) -> list[Path]:
     """Return the result files that a deck has below a folder if it does not fail."""
     path = output / case.result
     return [path, *beside(path).values()]

@@ -21,7 +21,7 @@ from mudline.basics.quantities import CASES, csv_lines
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
     SUMMARY,
-    Case,
+    BatchCase,
     Done,
     Order,
     check_positions,
@@ -152,7 +152,7 @@ class _Task(NamedTuple):
 
 def _evaluated(
     decks: Inputs,
-    cases: Sequence[Case],
+    cases: Sequence[BatchCase],
     first: Order,
     memory: Memory,
     view: View,
@@ -201,7 +201,7 @@ def _evaluated(
 
 
 @contextmanager
-def _saved(memory: Memory, cases: Sequence[Case], folder: Path) -> Iterator[None]:
+def _saved(memory: Memory, cases: Sequence[BatchCase], folder: Path) -> Iterator[None]:
     """Save the results when the block ends, also when the run is interrupted; half-written files are then removed."""
     try:
         yield
@@ -219,14 +219,14 @@ def _saved(memory: Memory, cases: Sequence[Case], folder: Path) -> Iterator[None
 def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
     """Return the result of an earlier run, if its result files are still unchanged."""
     try:
-        row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
+        row, warnings, written = TypeAdapter(_RememberedCase).validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
     unchanged = all(state(str(output / name)) == mark for name, mark in written.items())
     return Done(row, warnings) if unchanged and row.deck == file.name and not row.failed else None
 
 
-class _Held(NamedTuple):
+class _RememberedCase(NamedTuple):
     """Remembered data of a deck."""
 
     row: CaseSummary

@@ -28,7 +28,7 @@ from mudline.commands import diff, diff_matrix
 from mudline.editing.comparison.folders import compare_folders
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
-from mudline.editing.comparison.superseded import ComparedDeck, Comparison, Status
+from mudline.editing.comparison.superseded import ComparedDeck, Comparison, DeckStatus
 from mudline.language.deck.loading import load_bytes
 
 if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
@@ -44,9 +44,9 @@ _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "ye
 
 _NOT_COMPARED = "cannot be compared"
 _OF_DECKS = {
-    Status.ADDED: ("+", "green", "only in the second folder"),
-    Status.REMOVED: ("-", "red", "only in the first folder"),
-    Status.FAILED: ("!", "red", _NOT_COMPARED),
+    DeckStatus.ADDED: ("+", "green", "only in the second folder"),
+    DeckStatus.REMOVED: ("-", "red", "only in the first folder"),
+    DeckStatus.FAILED: ("!", "red", _NOT_COMPARED),
 }
 
 
@@ -187,7 +187,7 @@ class _Folders:
     after: str
     tolerance: float
     code: int = DONE
-    counts: Counter[Status] = field(default_factory=Counter)
+    counts: Counter[DeckStatus] = field(default_factory=Counter)
 
     def compared(self, *, strict: bool, units: str | None, gitignore: bool) -> Iterator[ComparedDeck]:
         """Yield each deck, and count it."""
@@ -197,7 +197,9 @@ class _Folders:
             if deck.unread is not None:
                 notify(deck.why)
             self.counts[deck.status] += 1
-            self.code = max(self.code, WRONG_USAGE if deck.unread else DONE if deck.status is Status.EQUAL else FOUND)
+            self.code = max(
+                self.code, WRONG_USAGE if deck.unread else DONE if deck.status is DeckStatus.EQUAL else FOUND
+            )
             yield deck
         if not self.counts:
             notify(f"{self.before}, {self.after}: no deck in these folders")
@@ -241,8 +243,8 @@ def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterat
         for deck in compared
     )
     yield from _json_lines(head, "decks", rows)
-    counts = {status.value: folders.counts[status] for status in Status}
-    end = {"equivalent": folders.counts.total() == folders.counts[Status.EQUAL], "summary": counts}
+    counts = {status.value: folders.counts[status] for status in DeckStatus}
+    end = {"equivalent": folders.counts.total() == folders.counts[DeckStatus.EQUAL], "summary": counts}
     yield "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"
 
 
@@ -271,20 +273,20 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int], view: View) -> Iterator[Part]:
+def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int], view: View) -> Iterator[Part]:
     """Yield the differences of the decks of two folders, then the counts of decks, which `counts` then has in full."""
     for deck in compared:
-        if deck.status is Status.CHANGED:
+        if deck.status is DeckStatus.CHANGED:
             yield from difference_lines(deck.before, deck.after, deck.comparison, view)
-        elif deck.status is Status.EQUAL:
+        elif deck.status is DeckStatus.EQUAL:
             if view.verbose:
                 yield visible(f"= {deck.name}: {summary_of(deck.comparison)}")
         else:
             mark, style, words = _OF_DECKS[deck.status]
             yield visible(f"{mark} {deck.name}: {words}"), style
     if not view.quiet:
-        names = {**{status: status.value for status in Status}, Status.FAILED: _NOT_COMPARED}
-        parts = [f"{counts[status]} {names[status]}" for status in Status if counts[status]]
+        names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
+        parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
         yield f"{counted(sum(counts.values()), 'deck')}: {', '.join(parts)}" if parts else "no deck was compared"
 
 

@@ -14,7 +14,7 @@ from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
 from mudline.commands import export
-from mudline.tools.exporting.report import Report
+from mudline.tools.exporting.report import ExportReport
 
 _TARGETS = ("moordyn", "orcaflex")
 
@@ -66,7 +66,7 @@ def command(
     return FOUND if strict and not report.is_exact else DONE
 
 
-def _print(report: Report, view: View) -> None:
+def _print(report: ExportReport, view: View) -> None:
     """Print the table of keywords that do not carry over."""
     printer = view.printer()
     rows = report.rows()

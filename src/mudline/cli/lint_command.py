@@ -18,7 +18,7 @@ from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.known_findings import known_findings
-from mudline.cli.lint_report import Report, complete, outputs
+from mudline.cli.lint_report import LintReport, complete, outputs
 from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.language.deck.searching import is_deck
@@ -126,7 +126,7 @@ def command(
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = Report(requested, view, statistics=statistics, aside=aside, fixing=fix or diff)
+        report = LintReport(requested, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.whole and not (baseline or recording):
             for file in inputs.files:

@@ -58,7 +58,7 @@ def outputs(given: Sequence[str]) -> Outputs:
 
 
 @dataclass(eq=False)
-class Report:
+class LintReport:
     """Findings of a run. With `aside`, findings go to standard error, since standard output carries something else."""
 
     outputs: Outputs

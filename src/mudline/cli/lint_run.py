@@ -22,7 +22,7 @@ from mudline.checks.settings import Settings
 from mudline.checks.suppression import Baseline, BaselineError, read_baseline
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
-from mudline.cli.lint_report import Report
+from mudline.cli.lint_report import LintReport
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, reason, write_text
 from mudline.cli.view import Progress, View
@@ -60,7 +60,7 @@ def checked_settings(config: str | None, given: Given, fixing: str, *, isolated:
 def lint_files(
     inputs: Inputs,
     settings: Settings,
-    report: Report,
+    report: LintReport,
     known: KnownFindings | None,
     baseline: str | None,
     *,

@@ -15,7 +15,7 @@ from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, r
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.commands import migrated
-from mudline.editing.migration.migrating import Verdict, legacy_blocks
+from mudline.editing.migration.migrating import Verification, legacy_blocks
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError
@@ -56,7 +56,7 @@ def command(
     continuations = Continuations(Path(file.path) for file in inputs.files if file.path is not None)
     for file, data in inputs.contents():
         try:
-            run = _Run(inputs, file, data, output, view)
+            run = _DeckMigration(inputs, file, data, output, view)
             code = max(code, run.migrate(decks.units, continuations, diff=diff, proved=proved))
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
@@ -64,7 +64,7 @@ def command(
     return max(inputs.code, code)
 
 
-class _Run:
+class _DeckMigration:
     """One deck of a run, and the file to which it is written; `target` None is standard output."""
 
     def __init__(self, inputs: Inputs, file: Input, data: bytes, output: str | None, view: View) -> None:
@@ -98,7 +98,7 @@ class _Run:
     def _in_place(self) -> bool:
         return self.target is not None and self.target == Path(self.file.path or "")
 
-    def _proved(self, verdict: Verdict) -> bool:
+    def _proved(self, verdict: Verification) -> bool:
         for difference in verdict.differences[:SHOWN_ROWS]:
             notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:

@@ -89,7 +89,7 @@ class Printer:
         to_left = [column.left for column in columns]
         foldable = [column.left and not column.whole for column in columns]
         # Columns are moved closer together if they do not fit otherwise.
-        layouts = [_Layout(_fitted(widths, foldable, self.width, gap), to_left, gap) for gap in _GAPS]
+        layouts = [_TableLayout(_fitted(widths, foldable, self.width, gap), to_left, gap) for gap in _GAPS]
         layout = next((layout for layout in layouts if layout.width <= self.width), layouts[0])
         if table.title:
             self.line((self.visible(table.title), "bold"))
@@ -117,7 +117,7 @@ class Printer:
 _Styled = tuple[str, str]
 
 
-class _Layout(NamedTuple):
+class _TableLayout(NamedTuple):
     """Layout of a table: widths of the columns, which of them are aligned left, and the blanks between them."""
 
     widths: list[int]

@@ -20,7 +20,7 @@ from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
-from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, Document, Given, Look, LookError
+from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
 from mudline.tools.reporting.pages import Pages, Wanted, make_page
 
 
@@ -79,7 +79,7 @@ def command(
     for JSON and YAML files that begin as decks do), or - for standard input.
     """
     names = _sections(sections)
-    document = Document(**head, fields=tuple(map(_field, fields)))
+    document = PageHead(**head, fields=tuple(map(_field, fields)))
     html = output_format == "html"
     if html and output is None:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
@@ -95,9 +95,9 @@ def command(
     pages = Pages(Path(output) if html and output else None, lambda path, text: write_text(path, [text]), several=many)
     contents = []
 
-    def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
+    def prepared(file: Input) -> tuple[Input, tuple[DeckFile, LintSettings, Wanted]]:
         own = settings.of(file.path or file.name)
-        return file, (Given(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
+        return file, (DeckFile(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
     try:
         with closing(many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)) as results:

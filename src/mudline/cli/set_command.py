@@ -19,8 +19,8 @@ from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, require_text,
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.editing.assignment.fields import ConditionError, DeckCondition, Target, target_of
-from mudline.editing.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
+from mudline.editing.assignment.fields import ConditionError, DeckCondition, FieldTarget, target_of
+from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment, parse_condition
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic, Severity
@@ -62,11 +62,11 @@ def command(
     """
     try:
         change = parse_assignment(assignment)
-        target = target_of(change.path, Operand.of(change.value))
+        target = target_of(change.path, WrittenOperand.of(change.value))
         where = None if condition is None else DeckCondition.of(parse_condition(condition))
     except PathError as error:
         raise click.UsageError(str(error)) from error
-    run = _Run(change, target, where, decks.units, force, view, decks.collect())
+    run = _SetRun(change, target, where, decks.units, force, view, decks.collect())
     run.plan(check=check, diff=diff)
     if not (check or diff):
         run.write()
@@ -83,11 +83,11 @@ def command(
 
 
 @dataclass(slots=True)
-class _Run:
+class _SetRun:
     """A run: first all decks are checked; the files are written if none was refused."""
 
     assignment: Assignment
-    target: Target
+    target: FieldTarget
     condition: DeckCondition | None
     units: str | None
     force: bool

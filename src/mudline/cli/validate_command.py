@@ -71,7 +71,7 @@ def command(
     as decks do), or - for standard input. With -q, only the table is shown.
     """
     inputs = decks.collect(is_in_any_form)
-    total, listing = Total(), view.verbose or output_format == "json"
+    total, listing = ValidationTotal(), view.verbose or output_format == "json"
     progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
     with closing(_judged(inputs, (decks.units, no_outside, listing), total, progress, jobs)) as judged:
         if output_format == "json":
@@ -88,7 +88,7 @@ def command(
 
 
 @dataclass(slots=True)
-class Total:
+class ValidationTotal:
     """Counts of a run; files that could not be read are not among the decks.
 
     Attributes:
@@ -149,7 +149,7 @@ def judge_file(
 
 
 def _judged(
-    inputs: Inputs, options: tuple[str | None, bool, bool], total: Total, progress: Progress, jobs: int
+    inputs: Inputs, options: tuple[str | None, bool, bool], total: ValidationTotal, progress: Progress, jobs: int
 ) -> Generator[Judged, None, None]:
     """Yield and count each readable deck. The bar is hidden while errors of a deck are printed."""
 
@@ -171,7 +171,7 @@ def _judged(
 # ---------------------------------------------------------------------------------------------------------- output
 
 
-def _print_json(judged: Iterable[Judged], total: Total) -> None:
+def _print_json(judged: Iterable[Judged], total: ValidationTotal) -> None:
     """Print one JSON object; each deck is written as soon as it is judged."""
     mark = '{\n "decks": ['
     for verdict, findings, _ in judged:
@@ -182,7 +182,7 @@ def _print_json(judged: Iterable[Judged], total: Total) -> None:
     emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1, ensure_ascii=False), " ").lstrip(), "\n}\n"])
 
 
-def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
+def _print_text(judged: Iterable[Judged], total: ValidationTotal, view: View) -> None:
     """Print the errors of each deck at once, and the table at the end, as all rows determine its widths."""
     verdicts = []
     for verdict, findings, data in judged:

@@ -14,8 +14,8 @@ from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.basics.spelling import nearest
-from mudline.editing.assignment.fields import Target, Value, blocks_of, target_of, values_of
-from mudline.editing.assignment.paths import Assignment, Operand, parse_path
+from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
+from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
 from mudline.language.codes.fields import SYN003
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Deck
@@ -57,14 +57,14 @@ class Assigned:
     after: str
 
 
-def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | None = None) -> Assigned | None:
+def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str | None = None) -> Assigned | None:
     """Return the edits that set a value of a deck read from keyword text; None if the deck has no such value.
 
     `units` are those with which the deck was read. Raises AssignmentError for a value that is an equation, is left out
     in the deck or is not unique at the path. Also raised if the edited deck would be faulty, or would differ in another
     value.
     """
-    operand = Operand.of(assignment.value)
+    operand = WrittenOperand.of(assignment.value)
     if not any(field.fits(operand) for field in target.fields):
         if next(values_of(deck, target), None) is None:
             return None
@@ -110,9 +110,9 @@ def set_value(deck: Deck, path: str, value: object) -> None:
     """
     operand = None
     if isinstance(value, str):
-        operand = Operand(value, Operand.of(value).number)
+        operand = WrittenOperand(value, WrittenOperand.of(value).number)
     elif isinstance(value, int | float | np.number):
-        operand = Operand(str(value), float(value))
+        operand = WrittenOperand(str(value), float(value))
     elif not isinstance(value, list | tuple | np.ndarray | Table):
         raise ArgumentKindError(f"value must be a number, a text or several values, not {type(value).__name__}")
     target = target_of(parse_path(path), operand)
@@ -133,7 +133,7 @@ def set_value(deck: Deck, path: str, value: object) -> None:
     setattr(record, next(slot.name for slot in record_schema(type(record)).slots if slot.json == name), rows)
 
 
-def _the_one(deck: Deck, target: Target, *, left_out: bool = False) -> Value | None:
+def _the_one(deck: Deck, target: FieldTarget, *, left_out: bool = False) -> FieldValue | None:
     """Return the value at a path; None if the deck has no such record. Raises AssignmentError for several values.
 
     A value that the deck leaves out is refused unless `left_out`.
@@ -167,11 +167,11 @@ def _read_faults(deck: Deck, keyword: str) -> list[Problem]:
     return [problem for block in blocks if block for problem in block.problems if problem.weight is Severity.ERROR]
 
 
-def _line(deck: Deck, value: Value) -> int:
+def _line(deck: Deck, value: FieldValue) -> int:
     return deck.place(Problem(SYN003, "", where=value.where)).line
 
 
-def _kinds(target: Target) -> Iterator[str]:
+def _kinds(target: FieldTarget) -> Iterator[str]:
     """Yield the kinds of values that the fields of a target accept, in words."""
     for field in target.fields:
         if field.slot.choices:
@@ -181,7 +181,7 @@ def _kinds(target: Target) -> Iterator[str]:
             yield field.slot.kind.value
 
 
-def _checked(current: Value, operand: Operand, assignment: Assignment, line: int) -> float | str:
+def _checked(current: FieldValue, operand: WrittenOperand, assignment: Assignment, line: int) -> float | str:
     """Return the new value as a deck holds it; raises AssignmentError for a value that the field cannot have."""
     slot = current.field.slot
     if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
@@ -212,7 +212,7 @@ def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
 
 
 def _require_only_this(
-    before: Deck, after: Deck, current: Value, new_value: float | str, assignment: Assignment, line: int
+    before: Deck, after: Deck, current: FieldValue, new_value: float | str, assignment: Assignment, line: int
 ) -> None:
     """Raise AssignmentError unless the decks differ only in the given value, now `new_value`; changes `before`."""
     if before.units != after.units:

@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from mudline.basics.limits import LISTED
 from mudline.basics.spelling import edits, nearest
 from mudline.editing.assignment.paths import (
-    Comparison,
+    Compound,
     Condition,
+    FieldComparison,
     FieldPath,
-    Joined,
     Negated,
-    Operand,
     PathError,
     Selector,
+    WrittenOperand,
     folded_name,
 )
 from mudline.language.deck.model import Deck, Opaque
@@ -50,7 +50,7 @@ class DeclaredField(NamedTuple):
     column: int | None = None
     whole: bool = False
 
-    def fits(self, operand: Operand) -> bool:
+    def fits(self, operand: WrittenOperand) -> bool:
         """Return True if a text may be a value of the field, or be compared with a value."""
         if operand.text.casefold() in (choice.casefold() for choice in self.slot.choices):
             return True
@@ -67,14 +67,14 @@ class DeclaredField(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class FieldTarget:
     """A keyword and its fields that a path names, as far as they accept the value to be set or compared."""
 
     path: FieldPath
     fields: tuple[DeclaredField, ...]
 
 
-class Value(NamedTuple):
+class FieldValue(NamedTuple):
     """A value of a deck, with its place, its declaration and its record (or the table that contains it)."""
 
     where: Where
@@ -83,7 +83,7 @@ class Value(NamedTuple):
     owner: Part | Table
 
 
-def target_of(path: FieldPath, operand: Operand | None) -> Target:
+def target_of(path: FieldPath, operand: WrittenOperand | None) -> FieldTarget:
     """Return the fields that a path names; raises PathError for a keyword or a field that is not declared.
 
     Of several fields with the same name, those that accept the operand are chosen, and of these the outermost. Without
@@ -103,10 +103,10 @@ def target_of(path: FieldPath, operand: Operand | None) -> Target:
     for selector in path.selectors:
         if selector.name and selector.name not in selectable:
             raise PathError(f"{path}: *{path.keyword} has no field {selector.name!r}{_hint(selector.name, selectable)}")
-    return Target(path, fields)
+    return FieldTarget(path, fields)
 
 
-def values_of(deck: Deck, target: Target) -> Iterator[Value]:
+def values_of(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
     """Return the values at a path in the blocks of a deck, in the order of the file."""
     values = _all_values(deck, target)
     count = target.path.count
@@ -185,7 +185,7 @@ def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
                 yield Where(index, number), block
 
 
-def _all_values(deck: Deck, target: Target) -> Iterator[Value]:
+def _all_values(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
     for where, block in blocks_of(deck, target.path.keyword):
         own = list(map(id, declared_fields(type(block))))
         for field in (field for field in target.fields if id(field) in own):
@@ -220,14 +220,14 @@ class _Holders:
         return False
 
 
-def equals(value: float | str, operand: Operand) -> bool:
+def equals(value: float | str, operand: WrittenOperand) -> bool:
     """Return True if a value of a deck equals the operand; texts compare without case."""
     if isinstance(value, int | float):
         return operand.number is not None and float(value) == operand.number
     return value.strip().casefold() == operand.text.strip().casefold()
 
 
-def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders: _Holders) -> Iterator[Value]:
+def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders: _Holders) -> Iterator[FieldValue]:
     """Yield the values of a field in a part that is `depth` names deep."""
     name = field.names[depth]
     slots = [slot for slot in record_schema(type(part)).slots if slot.json == name]
@@ -237,7 +237,7 @@ def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders:
         if depth + 1 == len(field.names):
             if (field.whole or not isinstance(inner, Part | list | Table)) and holders.selected():
                 index = record_schema(type(part)).slots.index(slot)
-                yield Value(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
+                yield FieldValue(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
         elif isinstance(inner, Table):
             yield from _cells(inner, place, field, slot, holders)
         elif isinstance(inner, Part):
@@ -248,7 +248,9 @@ def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders:
                     yield from _values(item, place.inside(index), field, depth + 1, holders.with_part(item))
 
 
-def _cells(table: Table, where: Where, field: DeclaredField, slot: FieldSpec, holders: _Holders) -> Iterator[Value]:
+def _cells(
+    table: Table, where: Where, field: DeclaredField, slot: FieldSpec, holders: _Holders
+) -> Iterator[FieldValue]:
     """Yield the values of a column in the rows that the selectors choose."""
     columns = record_schema(slot.row).columns if slot.row else []
     choosing: list[Selector] = []
@@ -261,10 +263,10 @@ def _cells(table: Table, where: Where, field: DeclaredField, slot: FieldSpec, ho
     if not holders.selected(choosing) or field.column is None:
         return
     for row in np.flatnonzero(chosen):
-        yield Value(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
+        yield FieldValue(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
 
 
-def _rows_with(table: Table, column: int, operand: Operand) -> NDArray[np.bool_]:
+def _rows_with(table: Table, column: int, operand: WrittenOperand) -> NDArray[np.bool_]:
     matches: NDArray[np.bool_] = table.column(column) == (np.nan if operand.number is None else operand.number)
     for (row, at), word in table.words.items():
         if at == column and word is not None:
@@ -294,7 +296,7 @@ class DeckCondition:
     """A condition with the fields of its paths; `of` reports faults of the paths before a deck is read."""
 
     condition: Condition
-    targets: Mapping[Comparison, Target]
+    targets: Mapping[FieldComparison, FieldTarget]
 
     @classmethod
     def of(cls, condition: Condition) -> DeckCondition:
@@ -311,22 +313,22 @@ class DeckCondition:
     def _holds(self, condition: Condition, deck: Deck, parameters: Parameters) -> bool:
         if isinstance(condition, Negated):
             return not self._holds(condition.condition, deck, parameters)
-        if isinstance(condition, Joined):
+        if isinstance(condition, Compound):
             parts = (self._holds(part, deck, parameters) for part in condition.conditions)
             return any(parts) if condition.any_of else all(parts)
         values = values_of(deck, self.targets[condition])
         return any(_fits(value, condition, parameters) for value in values)
 
 
-def _comparisons(condition: Condition) -> list[Comparison]:
+def _comparisons(condition: Condition) -> list[FieldComparison]:
     if isinstance(condition, Negated):
         return _comparisons(condition.condition)
-    if isinstance(condition, Joined):
+    if isinstance(condition, Compound):
         return [comparison for part in condition.conditions for comparison in _comparisons(part)]
     return [condition]
 
 
-def _fits(candidate: Value, comparison: Comparison, parameters: Parameters) -> bool:
+def _fits(candidate: FieldValue, comparison: FieldComparison, parameters: Parameters) -> bool:
     value = _evaluated(candidate, comparison.path, parameters)
     if value is None:
         return False
@@ -336,7 +338,7 @@ def _fits(candidate: Value, comparison: Comparison, parameters: Parameters) -> b
     return equals(value, comparison.operand) is (comparison.operator == "==")
 
 
-def _evaluated(field_value: Value, path: FieldPath, parameters: Parameters) -> float | str | None:
+def _evaluated(field_value: FieldValue, path: FieldPath, parameters: Parameters) -> float | str | None:
     value = field_value.value
     if not isinstance(value, Equation):
         return value

@@ -24,14 +24,14 @@ class PathError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Operand:
+class WrittenOperand:
     """A text of the command line, and its number if it is a number."""
 
     text: str
     number: float | None = None
 
     @classmethod
-    def of(cls, written: str) -> Operand:
+    def of(cls, written: str) -> WrittenOperand:
         """Return the operand of a text; a quoted text is never a number."""
         if written.startswith('"'):
             return cls(written[1:-1])
@@ -44,7 +44,7 @@ class Selector:
     """Selection of records: `[set=TDZ]` by the value of a field, `[TDZ]` by their set or name."""
 
     name: str
-    value: Operand
+    value: WrittenOperand
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +70,12 @@ class Assignment:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class FieldComparison:
     """A field compared with a number or a text."""
 
     path: FieldPath
     operator: str
-    operand: Operand
+    operand: WrittenOperand
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,14 +86,14 @@ class Negated:
 
 
 @dataclass(frozen=True, slots=True)
-class Joined:
+class Compound:
     """Conditions of which all must hold, or with `any_of` at least one."""
 
     conditions: tuple[Condition, ...]
     any_of: bool
 
 
-Condition = Comparison | Negated | Joined
+Condition = FieldComparison | Negated | Compound
 
 
 def folded_name(name: str) -> str:
@@ -131,7 +131,7 @@ def _parsed(text: str, start: str) -> object:
         raise PathError(f"more than {LONGEST_ASSIGNMENT} characters: expected {_FORMS[start]}")
     try:
         tree = _grammar(start).parse(text)
-        return _Builder(text).transform(tree)
+        return _PathBuilder(text).transform(tree)
     except UnexpectedInput as error:
         at = cast("int | None", error.pos_in_stream)
         rest = text[at:] if at is not None and at >= 0 else ""
@@ -151,7 +151,7 @@ def _grammar(start: str) -> Lark:
     return Lark(text, parser="lalr", lexer="contextual", start=start, propagate_positions=True)
 
 
-class _Builder(Transformer[Token, Any]):
+class _PathBuilder(Transformer[Token, Any]):
     """Builder of paths and conditions from the parsed rules."""
 
     def __init__(self, text: str) -> None:
@@ -161,8 +161,8 @@ class _Builder(Transformer[Token, Any]):
     def selector(self, parts: list[Token]) -> Selector | int:
         """Return a selector, or the number of the chosen value."""
         if len(parts) > 1:
-            return Selector(folded_name(parts[0]), Operand.of(parts[1]))
-        return int(parts[0]) if parts[0].type == "COUNT" else Selector("", Operand.of(parts[0]))
+            return Selector(folded_name(parts[0]), WrittenOperand.of(parts[1]))
+        return int(parts[0]) if parts[0].type == "COUNT" else Selector("", WrittenOperand.of(parts[0]))
 
     @v_args(meta=True)
     def path(self, meta: Meta, parts: list[Any]) -> FieldPath:
@@ -178,23 +178,23 @@ class _Builder(Transformer[Token, Any]):
         """Return an assignment."""
         return Assignment(parts[0], parts[1][1:].strip())
 
-    def comparison(self, parts: list[Any]) -> Comparison:
+    def comparison(self, parts: list[Any]) -> FieldComparison:
         """Return a comparison; texts have no order."""
         path, written, value = parts
-        operand = Operand.of(value)
+        operand = WrittenOperand.of(value)
         operator = _SAME.get(written, str(written))
         if operator in ORDERING and operand.number is None:
             raise PathError(f"{path} {operator} {value}: a text is compared by == or !=, an order needs a number")
-        return Comparison(path, operator, operand)
+        return FieldComparison(path, operator, operand)
 
     def negated(self, parts: list[Any]) -> Negated:
         """Return a negation."""
         return Negated(parts[0])
 
-    def conjunction(self, parts: list[Any]) -> Joined:
+    def conjunction(self, parts: list[Any]) -> Compound:
         """Return conditions joined by and."""
-        return Joined(tuple(parts), any_of=False)
+        return Compound(tuple(parts), any_of=False)
 
-    def disjunction(self, parts: list[Any]) -> Joined:
+    def disjunction(self, parts: list[Any]) -> Compound:
         """Return conditions joined by or."""
-        return Joined(tuple(parts), any_of=True)
+        return Compound(tuple(parts), any_of=True)

@@ -20,7 +20,7 @@ from mudline.language.keywords.writer import field_text, joined
 _KEYS = ("set", "name", "curve")
 
 
-class Entry(NamedTuple):
+class ComparedValue(NamedTuple):
     """A value, the form in which it is compared, and its place."""
 
     shown: Value
@@ -28,7 +28,7 @@ class Entry(NamedTuple):
     where: Where
 
 
-Flat: TypeAlias = dict[str, Entry]
+Flat: TypeAlias = dict[str, ComparedValue]
 
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
@@ -71,7 +71,7 @@ class _Flattening:
 
     def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
         flat: Flat = {}
-        carried: dict[str, Entry] = {}
+        carried: dict[str, ComparedValue] = {}
         for where, block in blocks:
             lists = [slot for slot in record_schema(type(block)).slots if self._keyed(slot)]
             own: Flat = {}
@@ -117,10 +117,10 @@ class _Flattening:
             else:
                 flat[f"{path}/{index + 1}"] = self._scalar(item, place)
 
-    def _scalar(self, value: object, where: Where) -> Entry:
+    def _scalar(self, value: object, where: Where) -> ComparedValue:
         if isinstance(value, float | int):
-            return Entry(plain(value), value, where)
-        return Entry(str(value), folded(str(value)), where)
+            return ComparedValue(plain(value), value, where)
+        return ComparedValue(str(value), folded(str(value)), where)
 
     def _records(
         self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, flat: Flat, shared: Flat
@@ -138,7 +138,7 @@ class _Flattening:
                 declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
                 values[f"{path}/{declared.json}"] = self._scalar(sticky or declared.about.default, place)
             self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
-            flat[path] = Entry(None, None, place)
+            flat[path] = ComparedValue(None, None, place)
             flat |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
 
     def _title(self, record: Record, key: FieldSpec | None, index: int, flat: Flat, start: str) -> str:
@@ -163,7 +163,7 @@ class _Flattening:
         return slot.many and bool(slot.record) and all(key_slot(record) for record in slot.record.values())
 
 
-def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
+def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, ComparedValue]]:
     """Yield the rows of a table; points in ascending order."""
     rows = [(cells, index) for index, cells in enumerate(table.rows(slot.columns))]
     if isinstance(slot.about, Rows) and slot.about.unordered:
@@ -175,7 +175,7 @@ def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[t
     for number, (cells, index) in enumerate(rows, 1):
         while cells and cells[-1] is None:
             cells.pop()
-        yield f"{path}/{number}", Entry([plain(cell) for cell in cells], list(cells), where.inside(index))
+        yield f"{path}/{number}", ComparedValue([plain(cell) for cell in cells], list(cells), where.inside(index))
 
 
 def _number(cell: float | str | None) -> float:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from mudline.editing.comparison.superseded import ComparedDeck, Status, compare_decks
+from mudline.editing.comparison.superseded import ComparedDeck, DeckStatus, compare_decks
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck
 from mudline.language.diagnostics import DeckError
@@ -26,10 +26,10 @@ def compare_folders(
     )
     for error in (error for search in searches for error in search.unreadable):
         name = str(error.filename).replace(os.sep, "/")
-        yield ComparedDeck(name, Status.FAILED, unread=error)
+        yield ComparedDeck(name, DeckStatus.FAILED, unread=error)
     for name in sorted({*old, *new}):
         if name not in old or name not in new:
-            yield ComparedDeck(name, Status.REMOVED if name in old else Status.ADDED)
+            yield ComparedDeck(name, DeckStatus.REMOVED if name in old else DeckStatus.ADDED)
             continue
         names = old[name].as_posix(), new[name].as_posix()
         try:
@@ -39,8 +39,10 @@ def compare_folders(
             )
             comparison = compare_decks(first, second, tolerance, strict=strict)
         except DeckError as error:
-            yield ComparedDeck(name, Status.FAILED, *names, errors=error.diagnostics)
+            yield ComparedDeck(name, DeckStatus.FAILED, *names, errors=error.diagnostics)
         except OSError as error:
-            yield ComparedDeck(name, Status.FAILED, *names, unread=error)
+            yield ComparedDeck(name, DeckStatus.FAILED, *names, unread=error)
         else:
-            yield ComparedDeck(name, Status.CHANGED if comparison.differences else Status.EQUAL, *names, comparison)
+            yield ComparedDeck(
+                name, DeckStatus.CHANGED if comparison.differences else DeckStatus.EQUAL, *names, comparison
+            )

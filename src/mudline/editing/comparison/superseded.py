@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.editing.comparison.comparing import (
-    Followed,
+    FollowedEntries,
     Values,
     compare,
     follow_differently,
@@ -19,7 +19,7 @@ from mudline.editing.comparison.comparing import (
     seabed_points,
     shown_points,
 )
-from mudline.editing.comparison.model import Difference, Pair, Side, Tolerance, plain
+from mudline.editing.comparison.model import Difference, Pair, RelativeTolerance, Side, plain
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Diagnostic
@@ -31,7 +31,7 @@ from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.representatives import representatives, shows_elements
 
 
-class Status(StrEnum):
+class DeckStatus(StrEnum):
     """Result of the comparison of a deck in two folders, in the order of a summary."""
 
     CHANGED = "changed"
@@ -54,7 +54,7 @@ class Comparison(NamedTuple):
     @property
     def equivalent(self) -> bool:
         """True if both mean the same."""
-        return not self.differences and all(deck.status is Status.EQUAL for deck in self.decks)
+        return not self.differences and all(deck.status is DeckStatus.EQUAL for deck in self.decks)
 
 
 class ComparedDeck(NamedTuple):
@@ -71,7 +71,7 @@ class ComparedDeck(NamedTuple):
     """
 
     name: str
-    status: Status
+    status: DeckStatus
     before: str = ""
     after: str = ""
     comparison: Comparison = Comparison([], [])
@@ -106,7 +106,7 @@ def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], t
     """
     if not (_rewritten(before, after) or _rewritten(after, before)):
         return Comparison(list(found), [])
-    pair = Pair(Side(before), Side(after), Tolerance(tolerance))
+    pair = Pair(Side(before), Side(after), RelativeTolerance(tolerance))
     groups = _groups(pair)
     others: list[Difference] = []
     replaced: list[Difference] = []
@@ -158,10 +158,10 @@ def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator
     yield from follow_differently("bed", _resistance, fresh, names)
 
 
-def _laws(side: Side) -> Followed:
+def _laws(side: Side) -> FollowedEntries:
     laws = side.scene.laws
     entries = [_law(side.scene, law) for law in laws.set_laws]
-    return Followed(entries, [law.where for law in laws.set_laws], laws.of_element)
+    return FollowedEntries(entries, [law.where for law in laws.set_laws], laws.of_element)
 
 
 def _law(scene: Scene, law: SetLaw) -> Values:
@@ -176,10 +176,10 @@ def _law(scene: Scene, law: SetLaw) -> Values:
     return {"": scene.law_name(law)}
 
 
-def _resistance(side: Side) -> Followed:
+def _resistance(side: Side) -> FollowedEntries:
     resistance = side.scene.resistance
     entries = [_values(values, side.scene.units) for values in resistance.values]
-    return Followed(entries, resistance.places, resistance.of_element)
+    return FollowedEntries(entries, resistance.places, resistance.of_element)
 
 
 def _values(given: ResistanceValues, units: str) -> Values:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import cast
 
-from mudline.editing.formatting.rows import RowKind, Rows, Run, Single, cut
+from mudline.editing.formatting.rows import AlignedRows, RowKind, Single, TableRun, cut
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.forms import form_of
@@ -52,7 +52,7 @@ def formatted(data: bytes, name: str) -> bytes:
         raise FormatError(_CUT_OFF)
     if any(problem.code is SYN015 for problem in deck.problems):
         raise FormatError(_COMMAS)
-    edits = _Layout(cast("TextOrigin", deck.origin)).edits()
+    edits = _DocumentLayout(cast("TextOrigin", deck.origin)).edits()
     if not edits:
         return data
     after = source.to_bytes(apply_edits(source.text, edits))
@@ -89,7 +89,7 @@ def line_ends(text: str) -> dict[str, int]:
     return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
 
 
-class _Layout:
+class _DocumentLayout:
     """Edits that give a text, read without an error, the canonical layout.
 
     The texts of the edits have the most frequent line end of the file.
@@ -193,7 +193,7 @@ _BLANKS = re.compile(r"[ \t]*")
 
 
 @dataclass(slots=True)
-class Reading:
+class RowIndex:
     """Facts about a block by offset in its text.
 
     Attributes:
@@ -220,7 +220,7 @@ class Reading:
         return match.end() if match else start
 
 
-def _record(record: Record, path: Path, places: Places, reading: Reading) -> None:
+def _record(record: Record, path: Path, places: Places, reading: RowIndex) -> None:
     declared = record_schema(type(record))
     plain = [slot for slot in declared.columns if not slot.row and not slot.many]
     if plain and len(plain) == len(declared.columns) and (span := places.spans.get((*path, plain[0].json))):
@@ -238,7 +238,7 @@ def _record(record: Record, path: Path, places: Places, reading: Reading) -> Non
             reading.put(span.start, RowKind(slot, (slot,)))
 
 
-def _value(slot: FieldSpec, value: object, path: Path, places: Places, reading: Reading) -> None:
+def _value(slot: FieldSpec, value: object, path: Path, places: Places, reading: RowIndex) -> None:
     """Record one field that is not a record."""
     span = places.spans.get(path)
     if isinstance(value, Table) and slot.row:
@@ -271,21 +271,21 @@ def comment_line(text: str, span: Span) -> str:
 
 def block_lines(text: str, raw: RawBlock, read: ReadBlock) -> Iterator[Laid]:
     """Yield the lines of a block except its head and its blank lines."""
-    block = _Block(text, read)
+    block = _BlockLayout(text, read)
     for leaf in raw.leaves:
         yield from block.lines(leaf)
     yield from block.flush()
 
 
-class _Block:
+class _BlockLayout:
     def __init__(self, text: str, read: ReadBlock) -> None:
         self.text = text
         self.declared = type(read.model)
         self.keys = all_keys(self.declared)
-        self.reading = Reading(read.places.text)
+        self.reading = RowIndex(read.places.text)
         _record(read.model, (), read.places, self.reading)
         self.kept = read.places.kept
-        self.rows: Rows | None = None
+        self.rows: AlignedRows | None = None
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
         """Yield the lines that are complete at this leaf: rows are collected until their table ends."""
@@ -323,8 +323,8 @@ class _Block:
             return
         if self.rows is None or self.rows.kind.slot is not kind.slot:
             yield from self.flush()
-            self.rows = Rows(kind)
-        self.rows.members.append(Run(self.text, span) if kind.table else Single(self._fields(span), span))
+            self.rows = AlignedRows(kind)
+        self.rows.members.append(TableRun(self.text, span) if kind.table else Single(self._fields(span), span))
 
     def _fields(self, span: Span) -> list[str]:
         """Return the fields of a row outside a table."""

@@ -44,7 +44,7 @@ class RowKind(NamedTuple):
         return bool(slot.choices) or slot.kind in (Kind.NAME, Kind.REAL_OR_NAME)
 
 
-class Shape(NamedTuple):
+class ColumnShape(NamedTuple):
     """Alignment of a column.
 
     Words are aligned left, but right among numbers.
@@ -83,7 +83,7 @@ def _integer(number: str) -> int:
 
 
 @dataclass(slots=True)
-class Column:
+class ColumnWidths:
     """Widths of a column: before the decimal point, from there on, and of words; with `text` all fields are words."""
 
     text: bool = False
@@ -108,10 +108,10 @@ class Column:
         self.left = max(self.left, left)
         self.right = max(self.right, right)
 
-    def shape(self) -> Shape:
+    def shape(self) -> ColumnShape:
         """Return the alignment of all fields so far."""
         width = max(self.left + self.right, self.words)
-        return Shape(width, width - self.right if self.left or self.right else 0, self.right)
+        return ColumnShape(width, width - self.right if self.left or self.right else 0, self.right)
 
 
 @dataclass(slots=True)
@@ -119,15 +119,15 @@ class Columns:
     """Columns of rows of one kind."""
 
     kind: RowKind
-    columns: list[Column] = field(default_factory=list)
+    columns: list[ColumnWidths] = field(default_factory=list)
 
-    def upto(self, count: int) -> Sequence[Column]:
+    def upto(self, count: int) -> Sequence[ColumnWidths]:
         """Return at least `count` columns."""
         for number in range(len(self.columns), count):
-            self.columns.append(Column(self.kind.is_text(number)))
+            self.columns.append(ColumnWidths(self.kind.is_text(number)))
         return self.columns
 
-    def shapes(self) -> list[Shape]:
+    def shapes(self) -> list[ColumnShape]:
         """Return the shape of each column."""
         return [column.shape() for column in self.columns]
 
@@ -144,7 +144,7 @@ class WordRows:
         for column, fields in zip(columns.upto(len(texts)), texts, strict=False):
             column.take(fields)
 
-    def lines(self, shapes: Sequence[Shape]) -> str:
+    def lines(self, shapes: Sequence[ColumnShape]) -> str:
         """Return the lines of the rows, each with a LF."""
         return "".join(f"{line(row, shapes)}\n" for row in self.rows)
 
@@ -157,9 +157,9 @@ def cut(fields: list[str]) -> list[str]:
     return fields[:length]
 
 
-def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
+def line(row: Sequence[str], shapes: Iterable[ColumnShape]) -> str:
     """Return a row, indented by one blank; a row of one empty field is a comma, as an empty line would not be a row."""
-    *first, last = map(Shape.padded, shapes, row)
+    *first, last = map(ColumnShape.padded, shapes, row)
     return ("".join(first) + last[: last.rindex(",")]).rstrip(" ") or " ,"
 
 
@@ -172,7 +172,7 @@ _Array = NDArray[np.integer]
 
 
 @dataclass(slots=True)
-class PlainRows:
+class NumberRows:
     """Rows of numbers.
 
     Attributes:
@@ -242,7 +242,7 @@ class PlainRows:
             lefts = self.lefts[here]
             column.take_numbers(int(lefts.max(initial=0)), int((self.sizes[here] - lefts).max(initial=0)))
 
-    def lines(self, shapes: Sequence[Shape]) -> str:
+    def lines(self, shapes: Sequence[ColumnShape]) -> str:
         """Return the lines of the rows, each with a LF."""
         width = np.array([shape.width for shape in shapes])[self.column]
         point = np.array([shape.point for shape in shapes])[self.column]
@@ -279,13 +279,13 @@ _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
 
 
-class Run(NamedTuple):
+class TableRun(NamedTuple):
     """Lines of a table, which may be very many."""
 
     text: str
     span: Span
 
-    def parts(self, kind: RowKind, plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
+    def parts(self, kind: RowKind, plain: dict[int, NumberRows | None]) -> Iterator[WordRows | NumberRows]:
         """Yield the rows in pieces of some thousand.
 
         Plain rows are kept in `plain`, by their offset, when first read, and taken from there the second time. Other
@@ -298,7 +298,7 @@ class Run(NamedTuple):
             if start in plain:
                 rows = plain.pop(start)
             else:
-                rows = PlainRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
+                rows = NumberRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
                 plain[start] = rows
             yield rows or word_rows(self.text[start:stop], most)
             start = stop
@@ -322,22 +322,22 @@ class Single(NamedTuple):
     fields: list[str]
     span: Span
 
-    def parts(self, _kind: RowKind, _plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
+    def parts(self, _kind: RowKind, _plain: dict[int, NumberRows | None]) -> Iterator[WordRows | NumberRows]:
         """Yield the row."""
         yield WordRows([self.fields])
 
 
 @dataclass(slots=True)
-class Rows:
+class AlignedRows:
     """Rows of one kind, separated only by comments and blank lines."""
 
     kind: RowKind
-    members: list[Run | Single] = field(default_factory=list)
+    members: list[TableRun | Single] = field(default_factory=list)
 
     def laid_out(self) -> Iterator[tuple[Span, str]]:
         """Yield the lines of each member in aligned columns, each with a LF."""
         columns = Columns(self.kind)
-        plain: dict[int, PlainRows | None] = {}
+        plain: dict[int, NumberRows | None] = {}
         for member in self.members:
             for part in member.parts(self.kind, plain):
                 part.measure(columns)

@@ -135,7 +135,7 @@ def _others(deck: Deck) -> list[object]:
 # -------------------------------------------------------------------------------------------------------- verification
 
 
-class Difference(NamedTuple):
+class MigrationDifference(NamedTuple):
     """Difference in meaning of the two decks: the element or the seabed, and the difference in words."""
 
     what: str
@@ -143,7 +143,7 @@ class Difference(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Verification:
     """Result of a verification.
 
     Attributes:
@@ -158,10 +158,10 @@ class Verdict:
     kinds: int
     positions: int
     representatives: int
-    differences: tuple[Difference, ...]
+    differences: tuple[MigrationDifference, ...]
 
 
-def verify(migration: Migration) -> Verdict:
+def verify(migration: Migration) -> Verification:
     """Compare the decks before and after a migration.
 
     Elements that differ only in number and place have the same law in both decks. One of each kind is evaluated over a
@@ -176,15 +176,17 @@ def verify(migration: Migration) -> Verdict:
     kinds, positions, element_differences = _compare(before, after, {})
     differences += element_differences
     if shows_elements(before):
-        return Verdict(len(before.element_ids), kinds, positions, 0, tuple(differences))
+        return Verification(len(before.element_ids), kinds, positions, 0, tuple(differences))
     external, names = representatives(before)
     _, more, element_differences = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
-    return Verdict(
+    return Verification(
         len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *element_differences)
     )
 
 
-def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]) -> Iterator[Difference]:
+def _seabed_shapes(
+    before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]
+) -> Iterator[MigrationDifference]:
     """Yield the difference of the seabed, if any; the profile file is not written yet and is among `files`."""
     if after.file in files:
         after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
@@ -192,13 +194,13 @@ def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, 
         old, new = (
             f"{shape.kind.value} (slope {shape.slope!r}, {len(shape.points)} points)" for shape in (before, after)
         )
-        yield Difference("the seabed", f"{old} before, {new} after")
+        yield MigrationDifference("the seabed", f"{old} before, {new} after")
 
 
 # ------------------------------------------------------------------------------------------------------------ elements
 
 
-def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[Difference]]:
+def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[MigrationDifference]]:
     """Return the numbers of kinds and positions, and the differences; `names` describes elements by their number."""
     chosen = _one_of_each_kind(before, after)
     if not len(chosen):
@@ -207,7 +209,7 @@ def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int
     depths = _depths(inputs)
     labels = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
     differences = [*_laws(before, after, chosen), *_values(before, after, chosen), *_forces(inputs, depths)]
-    return len(chosen), depths.size, [Difference(labels[index], text) for index, text in differences]
+    return len(chosen), depths.size, [MigrationDifference(labels[index], text) for index, text in differences]
 
 
 def _one_of_each_kind(before: Scene, after: Scene) -> Indices:

@@ -41,7 +41,7 @@ class Rewriting(NamedTuple):
 
 def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
     """Return the edits of a deck that was read from text and has no refusals; `unused` definitions are left out."""
-    return _Rewriter(deck, unused).rewrite()
+    return _MigrationRewriter(deck, unused).rewrite()
 
 
 def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
@@ -67,7 +67,7 @@ def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     return unused
 
 
-class _Rewriter:
+class _MigrationRewriter:
     def __init__(self, deck: Deck, unused: Container[Where]) -> None:
         self.deck = deck
         self.unused = unused

@@ -42,7 +42,7 @@ Values = Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class ParameterTarget:
     """A parameter: its name and the text of its value, both as written, and the place of the value."""
 
     name: str
@@ -59,32 +59,32 @@ class Target:
         return f'"{field}"'  # a colon or a slash would mean something else in a list
 
 
-class Targets:
+class ParameterTargets:
     """Parameters of a deck that was read from text; the last of several with the same name applies."""
 
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
         self.parameters = Parameters(deck)
-        self._targets: dict[str, Target] = {}
+        self._targets: dict[str, ParameterTarget] = {}
         self._effort = Effort()
         for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
             for index, parameter in enumerate(cast("Block_", block).parameters):
                 place = where.inside("parameters", index, "value")
                 self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
 
-    def _written(self, name: str, where: Where) -> Iterator[Target]:
+    def _written(self, name: str, where: Where) -> Iterator[ParameterTarget]:
         """Yield the parameters that a line of `*PARAMETERS` defines."""
         origin = cast("TextOrigin", self.deck.origin)
         span = origin.read[where.section, where.block].places.find(where.path)
         text = origin.source.text[slice(*span)]
         if not text.startswith("/"):
-            yield Target(name, text, span)
+            yield ParameterTarget(name, text, span)
             return
         for item in list_items(name, text)[0]:
             start = span.start + item.start
-            yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
+            yield ParameterTarget(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
 
-    def target(self, name: str) -> Target:
+    def target(self, name: str) -> ParameterTarget:
         """Return a parameter that is known to exist."""
         return self._targets[folded(name)]
 
@@ -276,7 +276,7 @@ _NOISE = Decimal("1e-9")
 class CaseReader:
     """Reader of the variations of a deck that was read from text; faults are added to `problems`."""
 
-    def __init__(self, deck: Deck, targets: Targets) -> None:
+    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
         self.deck = deck
         self.targets = targets
         self.problems: list[Problem] = []
@@ -333,7 +333,7 @@ class CaseReader:
             )
             self._report(message, where)
 
-    def _values(self, varied: VariedParameter, target: Target, where: Where) -> list[str]:
+    def _values(self, varied: VariedParameter, target: ParameterTarget, where: Where) -> list[str]:
         """Return the values as fields of `*PARAMETERS`; an empty list if they are faulty."""
         if varied.generate is not None:
             return self._range(varied.generate, where.inside("generate"))

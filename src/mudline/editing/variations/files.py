@@ -14,7 +14,7 @@ from typing import NamedTuple, cast
 
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
-from mudline.editing.variations.cases import Action, Removal, Targets, Values
+from mudline.editing.variations.cases import Action, ParameterTargets, Removal, Values
 from mudline.editing.variations.names import filled
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.loading import dump
@@ -57,7 +57,7 @@ class Template(NamedTuple):
 class Namer:
     """Generator of file names for the decks from one source."""
 
-    def __init__(self, deck: Deck, targets: Targets) -> None:
+    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
         own = PurePath(deck.file).name
         self.source = PurePath("deck" if path_fault(own) else own)
         self.suffix = self.source.suffix or ".keyx"
@@ -208,10 +208,10 @@ class PlannedDeck:
     __repr__ = short_repr
 
 
-class Rewriter:
+class CaseRewriter:
     """Generator of the decks of a source that was read from text."""
 
-    def __init__(self, deck: Deck, targets: Targets) -> None:
+    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
         self.deck = deck
         self.targets = targets
         origin = cast("TextOrigin", deck.origin)
@@ -288,7 +288,7 @@ class ExpansionPlan:
 
     source: str
     decks: Sequence[PlannedDeck]
-    rewriter: Rewriter
+    rewriter: CaseRewriter
     notes: Sequence[str] = ()
     companions: Sequence[str] = ()
 

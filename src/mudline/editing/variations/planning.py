@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
-from mudline.editing.variations.cases import CaseReader, Cases, Targets, Values
+from mudline.editing.variations.cases import CaseReader, Cases, ParameterTargets, Values
 from mudline.editing.variations.files import (
     MANIFEST,
+    CaseRewriter,
     ExpansionPlan,
     Namer,
     PlannedDeck,
-    Rewriter,
     Taken,
     Template,
     companions,
@@ -40,7 +40,7 @@ MOST_LOOKED_AT = 1000
 
 
 @dataclass(frozen=True, slots=True)
-class _Group:
+class _CaseGroup:
     """A combination with its variations: a deck for each combination of their cases."""
 
     where: Where
@@ -78,9 +78,9 @@ class _Planner:
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
         self.text = as_text(deck).require()
-        self.targets = Targets(self.text)
+        self.targets = ParameterTargets(self.text)
         self.namer = Namer(deck, self.targets)
-        self.rewriter = Rewriter(self.text, self.targets)
+        self.rewriter = CaseRewriter(self.text, self.targets)
         self.problems: list[Problem] = []
         self.effort = Effort()
 
@@ -116,13 +116,13 @@ class _Planner:
 
     # ------------------------------------------------------------------------------------------------- combinations
 
-    def _groups(self, variations: dict[str, Cases]) -> Iterator[_Group]:
+    def _groups(self, variations: dict[str, Cases]) -> Iterator[_CaseGroup]:
         for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
             for index, combination in enumerate(block.combinations):
                 place = where.inside("combinations", index)
                 names = (block.directory, combination.subdirectory, combination.filename)
                 template = Template(*(name if name is None else unquoted(name) for name in names))
-                yield _Group(place, combination, template, self._called(combination, place, variations))
+                yield _CaseGroup(place, combination, template, self._called(combination, place, variations))
 
     def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
         """Return the variations that a combination calls, each once; if it names none, all of the deck."""
@@ -141,7 +141,7 @@ class _Planner:
                     self.problems.append(replace(problem, code=EXP001))
         return list((called if combination.variations else variations).values())
 
-    def _is_valid(self, group: _Group) -> bool:
+    def _is_valid(self, group: _CaseGroup) -> bool:
         """Return True if the parameters in file names are defined, and none varies in two variations at once."""
         before = len(self.problems)
         owners: dict[str, str] = {}
@@ -161,7 +161,7 @@ class _Planner:
 
     # -------------------------------------------------------------------------------------------------------- decks
 
-    def _named(self, groups: Sequence[_Group], total: int) -> list[PlannedDeck]:
+    def _named(self, groups: Sequence[_CaseGroup], total: int) -> list[PlannedDeck]:
         """Return the decks with their paths, each of them unique."""
         decks: list[PlannedDeck] = []
         taken = Taken()

@@ -28,8 +28,8 @@ from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
 from mudline.tools.exporting.held import End, read_held, report_inside
-from mudline.tools.exporting.report import Report, Status
-from mudline.tools.exporting.soil import Soil, Units, soils_of
+from mudline.tools.exporting.report import ExportReport, ExportStatus
+from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
@@ -41,7 +41,7 @@ _AROUND = 5
 """Elements in contact next to each touchdown point whose seabed is used for targets with one seabed."""
 _DRAG, _ADDED = 1.2, 1.0
 """Coefficients used if the deck has none."""
-_UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
+_UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ class PipeSection:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class LineStretch:
     """Consecutive elements with one section and one seabed: indices of k + 1 nodes in the model, and k lengths."""
 
     section: int
@@ -91,18 +91,18 @@ class ExportLine:
     name: str
     begin: int
     end: int
-    stretches: list[Stretch]
+    stretches: list[LineStretch]
 
-    def pieces(self, key: Callable[[Stretch], object]) -> list[Stretch]:
+    def pieces(self, key: Callable[[LineStretch], object]) -> list[LineStretch]:
         """Return the stretches, with consecutive stretches of the same key joined."""
-        joined: list[Stretch] = []
+        joined: list[LineStretch] = []
         for stretch in self.stretches:
             last = joined[-1] if joined else None
             if last is None or key(last) != key(stretch):
                 joined.append(stretch)
                 continue
             nodes, lengths = np.append(last.nodes, stretch.nodes[1:]), np.append(last.lengths, stretch.lengths)
-            joined[-1] = Stretch(last.section, last.soil, nodes, lengths)
+            joined[-1] = LineStretch(last.section, last.soil, nodes, lengths)
         return joined
 
 
@@ -111,19 +111,19 @@ class LineModel:
     """Lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is the water depth at X = 0."""
 
     scene: Scene
-    report: Report
+    report: ExportReport
     places: Floats
     depth: float
     density: float
     gravity: float
     sections: list[PipeSection]
-    soils: list[Soil]
+    soils: list[ExportSoil]
     soil_lengths: Floats
     at_touchdown: bool
     ends: list[End]
     lines: list[ExportLine]
     seabed: Seabed | None
-    units: Units
+    units: SiFactors
 
     def mudline(self, x: Floats, y: Floats) -> Floats:
         """Return the elevation z of the seabed; NaN where there is none."""
@@ -153,7 +153,7 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     Raises DeckError for unknown units, a deck without elements or ocean, and an element without a section or an axial
     stiffness. Also raised for an end that nothing holds, a closed line, and an unknown seabed.
     """
-    report = Report(scene)
+    report = ExportReport(scene)
     units = _UNITS.get(scene.units)
     if units is None:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
@@ -226,7 +226,7 @@ def _depth(scene: Scene) -> float:
 # ------------------------------------------------------------------------------------------------------- sections
 
 
-def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
+def _sections(scene: Scene, units: SiFactors) -> tuple[list[PipeSection], Indices]:
     """Return the cross-sections in use, in the order of the deck, and that of each element (m,)."""
     table = scene.section_table
     bare = np.flatnonzero(table.of_element < 0)
@@ -241,7 +241,7 @@ def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
     return pipes, of_element.ravel()
 
 
-def _pipe(scene: Scene, units: Units, section: Section, pipe: Pipe, element: int) -> PipeSection:
+def _pipe(scene: Scene, units: SiFactors, section: Section, pipe: Pipe, element: int) -> PipeSection:
     row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
@@ -286,7 +286,7 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     for section, name in zip(model.sections, names, strict=True):
         entry = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
         curved = [each for each in ("eiyy_curve", "ei_curve", *STIFFNESS_CURVES) if getattr(entry, each)]
-        status = Status.APPROXIMATED if curved else Status.CARRIED
+        status = ExportStatus.APPROXIMATED if curved else ExportStatus.CARRIED
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
         effect += f", mass with {shown(section.contents, 4)} kg/m of contents" if section.contents else ""
@@ -294,10 +294,12 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     _report_water(model, target)
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
-        model.report.add(twisted[0].where, Status.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
+        model.report.add(
+            twisted[0].where, ExportStatus.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G"
+        )
     for keyword in (BENDING_CURVES, *STIFFNESS_CURVES.values()):
         for where, _ in model.scene.deck.blocks(keyword):
-            model.report.add(where, Status.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
+            model.report.add(where, ExportStatus.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 
 
 def _report_water(model: LineModel, target: str) -> None:
@@ -313,18 +315,18 @@ def _report_water(model: LineModel, target: str) -> None:
             effects += ["drag along as it is written, on an area that the manual does not show"]
         if any(section.assumed for section in model.sections):
             effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
-        status = Status.APPROXIMATED if effects else Status.CARRIED
+        status = ExportStatus.APPROXIMATED if effects else ExportStatus.CARRIED
         model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
         effect = "its mass at rest; pressure and flow are not written"
-        model.report.add(where, Status.APPROXIMATED, f"mass of each {target}", effect)
+        model.report.add(where, ExportStatus.APPROXIMATED, f"mass of each {target}", effect)
 
 
 # ---------------------------------------------------------------------------------------------------------- lines
 
 
 def _lines(
-    scene: Scene, report: Report, units: Units, section_of: Indices, soil_of: Indices
+    scene: Scene, report: ExportReport, units: SiFactors, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
     held = read_held(scene, report)
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
@@ -354,7 +356,9 @@ def _lines(
             keys = np.column_stack([section_of[part], soil_of[part]])
             starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
             stretches = [
-                Stretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length)
+                LineStretch(
+                    int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length
+                )
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))

@@ -15,10 +15,10 @@ from mudline.basics.quantities import shown
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, PipeSection, Stretch, report_sections
-from mudline.tools.exporting.report import Names, Status
+from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_sections
+from mudline.tools.exporting.report import ExportStatus, TargetNames
 from mudline.tools.exporting.soil import (
-    Soil,
+    ExportSoil,
     distance,
     governing,
     report_friction,
@@ -33,7 +33,7 @@ _FINEST = 2
 _GRID = 200
 
 
-def pieces(model: LineModel) -> list[list[Stretch]]:
+def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the lines of MoorDyn along each line of the model: sections with the same numbers are one line type."""
     return [line.pieces(lambda each: alike(model, each.section)) for line in model.lines]
 
@@ -44,7 +44,7 @@ def alike(model: LineModel, section: int) -> int:
     return numbers.index(numbers[section])
 
 
-def segments(piece: Stretch) -> int:
+def segments(piece: LineStretch) -> int:
     """Return the number of equal segments of a line of MoorDyn: as short as its shortest element, up to a limit."""
     elements = len(piece.lengths)
     if piece.is_even:
@@ -54,7 +54,7 @@ def segments(piece: Stretch) -> int:
 
 def write(model: LineModel, name: str) -> dict[str, str]:
     """Return the text of each file by its name; `name` is that of the input file."""
-    names = Names(model.report, "A-Za-z0-9_", 32)
+    names = TargetNames(model.report, "A-Za-z0-9_", 32)
     first = [alike(model, at) for at in range(len(model.sections))]
     taken = {at: names.take(model.sections[at].name, model.sections[at].where) for at in dict.fromkeys(first)}
     types = [taken[at] for at in first]
@@ -157,7 +157,7 @@ def _grid(model: LineModel) -> str:
     level = model.levels(*(each.ravel() for each in corners)).reshape(len(x), len(y))
     places = model.places[model.line_nodes()]
     worst = float(np.abs(_bilinear(x, y, level, places) - model.levels(places[:, 0], places[:, 1])).max())
-    status = Status.CARRIED if worst < 1e-6 else Status.APPROXIMATED
+    status = ExportStatus.CARRIED if worst < 1e-6 else ExportStatus.APPROXIMATED
     effect = f"largest difference below the nodes {shown(worst, 3)} m"
     model.report.add(model.scene.seabed.where, status, f"a grid of {len(x)} x {len(y)} points", effect)
     rows = [
@@ -197,7 +197,7 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 # --------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, types: list[str], soil: Soil, stiffness: float, width: dict[int, float]) -> None:
+def _report(model: LineModel, types: list[str], soil: ExportSoil, stiffness: float, width: dict[int, float]) -> None:
     report = model.report
     report_sections(model, "line type", names=types, torsion=False)
     report_ends(report, model.ends, "Fixed", "Coupled")
@@ -212,16 +212,18 @@ def _report(model: LineModel, types: list[str], soil: Soil, stiffness: float, wi
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
             effect = "MoorDyn lowers its seabed to a point that is below it"
             place = model.scene.nodes.where(end.node)
-            report.add(place, Status.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
+            report.add(place, ExportStatus.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)
         if not part.is_even:
             least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
             effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
-            report.add(blocks[-1], Status.APPROXIMATED, "equal segments", effect, "lengths")
+            report.add(blocks[-1], ExportStatus.APPROXIMATED, "equal segments", effect, "lengths")
     joints = sum(len(parts) - 1 for parts in pieces(model))
     if joints and any(section.bending for section in model.sections):
         where = model.sections[0].where
-        report.add(where, Status.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints")
+        report.add(
+            where, ExportStatus.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints"
+        )
     report.finish()

@@ -16,10 +16,10 @@ from mudline.basics.quantities import shown
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, Stretch, report_sections
-from mudline.tools.exporting.report import Names, Status, one_line, short_name
+from mudline.tools.exporting.line_model import LineModel, LineStretch, report_sections
+from mudline.tools.exporting.report import ExportStatus, TargetNames, one_line, short_name
 from mudline.tools.exporting.soil import (
-    Soil,
+    ExportSoil,
     distance,
     governing,
     kilo,
@@ -53,12 +53,12 @@ _BUOYANCY = 1.5
 Items = dict[str, object]
 
 
-def pieces(model: LineModel) -> list[list[Stretch]]:
+def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
     return [line.pieces(lambda each: (each.section, each.soil)) for line in model.lines]
 
 
-def segments(piece: Stretch) -> int:
+def segments(piece: LineStretch) -> int:
     """Return the number of segments of a section: its length over the target segment length, the shortest element."""
     return max(1, round(float(piece.lengths.sum() / piece.lengths.min())))
 
@@ -71,7 +71,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
             raise model.scene.refusal(message, model.scene.nodes.where(end.node))
     soil = governing(model.soils, model.soil_lengths)
     keys = dict.fromkeys(_key(model, piece) for parts in pieces(model) for piece in parts)
-    taken = Names(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
+    taken = TargetNames(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
     names = {key: taken.take(model.sections[key[0]].name, model.sections[key[0]].where) for key in keys}
     environment = _environment(model, soil)
     lines = [_line(model, at, names) for at in range(len(model.lines))]
@@ -117,7 +117,7 @@ Key = tuple[int, float, float]
 """Key of a line type: section, and the coefficients of friction along and across."""
 
 
-def _key(model: LineModel, piece: Stretch) -> Key:
+def _key(model: LineModel, piece: LineStretch) -> Key:
     soil = model.soils[piece.soil]
     return piece.section, soil.axial, soil.lateral
 
@@ -160,7 +160,7 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     }
 
 
-def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
+def _end(model: LineModel, index: int, piece: LineStretch) -> list[object]:
     """Return the place of an end, and the direction of the line there, from A to B."""
     first = piece.nodes[0] == model.ends[index].node
     inner = piece.nodes[1] if first else piece.nodes[-2]
@@ -172,7 +172,7 @@ def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
 # ----------------------------------------------------------------------------------------------------- environment
 
 
-def _environment(model: LineModel, soil: Soil) -> Items:
+def _environment(model: LineModel, soil: ExportSoil) -> Items:
     shape = model.scene.seabed
     half = 0.5 * soil.diameter
     law = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
@@ -189,7 +189,7 @@ def _environment(model: LineModel, soil: Soil) -> Items:
         depth = model.depth + half / cos(radians(slope))
         items |= {"WaterDepth": depth, "SeabedSlopeDirection": direction % 360.0, "SeabedSlope": slope}
         if shape.kind is SeabedKind.SLOPING:
-            model.report.add(shape.where, Status.CARRIED, f"SeabedSlope {shown(slope)}")
+            model.report.add(shape.where, ExportStatus.CARRIED, f"SeabedSlope {shown(slope)}")
     else:
         items |= {"SeabedType": "Profile"} | _profile(model, half)
     if soil.kind is not LawKind.SOIL:
@@ -213,7 +213,7 @@ def _profile(model: LineModel, half: float) -> Items:
     if shape.kind is SeabedKind.PROFILE:
         rows = np.column_stack([shape.points[:, 0] * size, model.depth - shape.points[:, 1] * size + half])
         effect = "between its points as OrcaFlex interpolates"
-        model.report.add(shape.where, Status.APPROXIMATED, f"profile of {len(rows)} points", effect)
+        model.report.add(shape.where, ExportStatus.APPROXIMATED, f"profile of {len(rows)} points", effect)
         return {"SeabedSlopeDirection": shape.direction % 360.0, _PROFILE: rows[np.argsort(rows[:, 0])].tolist()}
     first, last = (model.places[model.ends[index].node][:2] for index in (line.begin, line.end))
     length = float(np.hypot(*(last - first)))
@@ -224,7 +224,7 @@ def _profile(model: LineModel, half: float) -> Items:
     error = np.abs(np.interp((places[:, :2] - first) @ along, distance, level) - model.levels(*places[:, :2].T))
     off = shown(float(error.max()), 3)
     effect = f"the seabed below {line.name}, level across it: up to {off} m off below the nodes"
-    model.report.add(shape.where, Status.APPROXIMATED, f"profile of {_POINTS} points", effect)
+    model.report.add(shape.where, ExportStatus.APPROXIMATED, f"profile of {_POINTS} points", effect)
     return {
         "SeabedOrigin": first.tolist(),
         "SeabedSlopeDirection": degrees(atan2(along[1], along[0])) % 360.0,
@@ -235,7 +235,7 @@ def _profile(model: LineModel, half: float) -> Items:
 # ---------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
+def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report = model.report
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
     report_sections(model, "line type", names=listed, torsion=True)
@@ -250,28 +250,34 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
     if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
         springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
         report.add(
-            soil.friction_at, Status.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
+            soil.friction_at,
+            ExportStatus.APPROXIMATED,
+            "one SeabedShearStiffness",
+            f"the stiffer of {springs}",
+            "spring",
         )
     report_resistance(report, "none")
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):
             effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
-            report.add(section.where, Status.APPROXIMATED, "one seabed", effect, "diameter")
+            report.add(section.where, ExportStatus.APPROXIMATED, "one seabed", effect, "diameter")
     uneven = any(not part.is_even for parts in pieces(model) for part in parts)
     for where, _ in model.scene.deck.blocks("ELEMENT") if uneven else ():
         effect = "segments as long as the shortest of a section"
-        report.add(where, Status.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
+        report.add(where, ExportStatus.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
     report.finish()
 
 
-def _report_soil(model: LineModel, soil: Soil) -> None:
+def _report_soil(model: LineModel, soil: ExportSoil) -> None:
     numbers = dict(soil.parameters)
     changed = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
-    model.report.add(soil.where, Status.CARRIED, "Nonlinear soil model", effect)
+    model.report.add(soil.where, ExportStatus.CARRIED, "Nonlinear soil model", effect)
     if changed:
-        model.report.add(soil.where, Status.LEFT_OUT, "defaults", f"set by hand: {', '.join(changed)}", "parameters")
+        model.report.add(
+            soil.where, ExportStatus.LEFT_OUT, "defaults", f"set by hand: {', '.join(changed)}", "parameters"
+        )
     for each in model.soils:
         if each.kind is LawKind.SOIL and each.parameters != soil.parameters:
             effect = f"{each.says()}; here that of most of the pipe"
-            model.report.add(each.where, Status.APPROXIMATED, "one soil", effect)
+            model.report.add(each.where, ExportStatus.APPROXIMATED, "one soil", effect)

@@ -42,7 +42,7 @@ _EFFECTS = {
 }
 
 
-class Status(StrEnum):
+class ExportStatus(StrEnum):
     """Result of the export of a keyword or a setting."""
 
     CARRIED = "carried"
@@ -52,7 +52,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ExportEntry:
     """Result of the export of a keyword, or of a setting.
 
     Attributes:
@@ -67,21 +67,21 @@ class Entry:
     keyword: str
     file: str
     line: int
-    status: Status
+    status: ExportStatus
     target: str
     effect: str
 
 
 @dataclass
-class Report:
+class ExportReport:
     """Report on the export of a deck. After `finish`, each block of the deck has an entry."""
 
     scene: ResolvedDeck
-    entries: list[Entry] = field(default_factory=list)
+    entries: list[ExportEntry] = field(default_factory=list)
     _claimed: set[tuple[int, int]] = field(default_factory=set)
-    _seen: set[Entry] = field(default_factory=set)
+    _seen: set[ExportEntry] = field(default_factory=set)
 
-    def add(self, where: Where | None, status: Status, target: str, effect: str = "", setting: str = "") -> None:
+    def add(self, where: Where | None, status: ExportStatus, target: str, effect: str = "", setting: str = "") -> None:
         """Add the result for the block at a place, or for a `setting` in it; nothing without a place."""
         if where is None:
             return
@@ -91,7 +91,7 @@ class Report:
         base = deck.base_of(where)
         line = deck.place(Problem(RUN001, "", where=where)).line
         name = f"*{one_line(keyword)}{f' {setting}' if setting else ''}"
-        entry = Entry(name, base[0].file if base else deck.file, line, status, target, effect)
+        entry = ExportEntry(name, base[0].file if base else deck.file, line, status, target, effect)
         if entry not in self._seen:
             self._seen.add(entry)
             self.entries.append(entry)
@@ -99,7 +99,7 @@ class Report:
     def claim(self, keyword: str, target: str, section: str = "MODEL") -> None:
         """Report all blocks of a keyword as carried."""
         for where, _ in self.scene.deck.blocks(keyword, section):
-            self.add(where, Status.CARRIED, target)
+            self.add(where, ExportStatus.CARRIED, target)
 
     def finish(self) -> None:
         """Add the blocks without an entry, and sort all entries in the order of the deck."""
@@ -112,25 +112,25 @@ class Report:
                     if section.name.endswith("POSTPROCESSING"):
                         subject = "post-processing"
                     effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
-                    self.add(Where(i, j), Status.LEFT_OUT, "none", effect)
+                    self.add(Where(i, j), ExportStatus.LEFT_OUT, "none", effect)
         self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
 
     @property
-    def lost(self) -> list[Entry]:
+    def lost(self) -> list[ExportEntry]:
         """Entries that are not carried."""
-        return [entry for entry in self.entries if entry.status is not Status.CARRIED]
+        return [entry for entry in self.entries if entry.status is not ExportStatus.CARRIED]
 
     @property
     def is_exact(self) -> bool:
         """True if nothing was approximated or left out."""
-        return all(entry.status in (Status.CARRIED, Status.RENAMED) for entry in self.entries)
+        return all(entry.status in (ExportStatus.CARRIED, ExportStatus.RENAMED) for entry in self.entries)
 
     def rows(self) -> list[tuple[str, str, str, str, str]]:
         """Return rows of what does not carry over: keyword, line, status, equivalent in the target and effect.
 
         Keywords with the same status, equivalent and effect share a row.
         """
-        alike: dict[tuple[str, str, str], list[Entry]] = {}
+        alike: dict[tuple[str, str, str], list[ExportEntry]] = {}
         for entry in self.lost:
             alike.setdefault((entry.status.value, entry.target, entry.effect), []).append(entry)
         own = self.scene.deck.file
@@ -173,10 +173,10 @@ def short_name(written: str) -> str:
 
 
 @dataclass
-class Names:
+class TargetNames:
     """Names that a target accepts: of `letters`, the content of a character class, each once, up to a length."""
 
-    report: Report
+    report: ExportReport
     letters: str
     longest: int
     reserved: Iterable[str] = ()
@@ -196,6 +196,6 @@ class Names:
         self._taken.add(name.casefold())
         if name != written:
             self.report.add(
-                where, Status.RENAMED, name, "a name that the target accepts", f"name {short_name(written)}"
+                where, ExportStatus.RENAMED, name, "a name that the target accepts", f"name {short_name(written)}"
             )
         return name

@@ -18,7 +18,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
 
 if TYPE_CHECKING:
-    from mudline.tools.exporting.line_model import LineModel, Stretch
+    from mudline.tools.exporting.line_model import LineModel, LineStretch
 
 _LINE_FILE = re.compile(r"(.*_Line)(\d+)(\.\w+)", re.IGNORECASE)
 _NODE = re.compile(r"node(\d+)p([xyz])")
@@ -114,7 +114,7 @@ def _orcaflex(path: Path, model: LineModel, headings: dict[str, str]) -> Positio
     return _positions(model, [(whole, arcs, places)], times if "time" in columns else None)
 
 
-def _positions(model: LineModel, parts: list[tuple[Stretch, Floats, Floats]], time: Floats | None) -> Positions:
+def _positions(model: LineModel, parts: list[tuple[LineStretch, Floats, Floats]], time: Floats | None) -> Positions:
     """Return positions of the deck's nodes, in its axes and units, interpolated by arc length."""
     steps, count = len(parts[0][2]), len(model.places)
     values, present = np.full((steps, count, 3), np.nan), np.zeros(count, dtype=np.bool_)

@@ -20,7 +20,7 @@ from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
-from mudline.tools.exporting.report import Report, Status, short_name
+from mudline.tools.exporting.report import ExportReport, ExportStatus, short_name
 
 _RIGID_SHARE = 1e-3
 """Penetration, as a share of the diameter, of a pipe on a rigid seabed."""
@@ -38,7 +38,7 @@ _SETTINGS = {
 _PLAIN = ("AXIAL", "BOX", "COULOMB", "NONE")
 
 
-class Units(NamedTuple):
+class SiFactors(NamedTuple):
     """Units of a deck in metres, newtons and kilograms."""
 
     length: float
@@ -55,7 +55,7 @@ class Units(NamedTuple):
         return self.force / self.length**2
 
 
-class Soil(NamedTuple):
+class ExportSoil(NamedTuple):
     """Seabed of some elements, in SI units; the stiffness is 0 where nothing carries them.
 
     `axial` and `lateral` are friction coefficients. `axial_spring` and `lateral_spring` are the stiffnesses per length
@@ -98,7 +98,7 @@ def kilo(stiffness: float) -> str:
     return f"{shown(stiffness / 1e3, 4)} kN/m2"
 
 
-def soils_of(scene: ResolvedDeck, units: Units) -> tuple[list[Soil], Indices]:
+def soils_of(scene: ResolvedDeck, units: SiFactors) -> tuple[list[ExportSoil], Indices]:
     """Return the different seabeds of the elements, and the index of that of each element (m,)."""
     weight = np.nan_to_num(pipe_of(scene).weight)
     size = np.nan_to_num(scene.diameter)
@@ -139,7 +139,9 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
     return np.column_stack([coefficient, spring])
 
 
-def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, weight: float, friction: list[float]) -> Soil:
+def _soil(
+    scene: ResolvedDeck, units: SiFactors, arrays: LawArrays, at: int, weight: float, friction: list[float]
+) -> ExportSoil:
     kind, diameter = LawKind(int(scene.law[at])), float(np.nan_to_num(scene.diameter[at]))
     parameters = {}
     if kind is LawKind.SOIL:
@@ -156,7 +158,7 @@ def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, weight:
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is not None and extension.of_element[at] >= 0:
         friction_at = extension.places[int(extension.of_element[at])]
-    return Soil(
+    return ExportSoil(
         scene.law_names[at],
         kind,
         where,
@@ -209,13 +211,13 @@ def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tu
     return force / high, slope
 
 
-def governing(soils: list[Soil], length: Floats) -> Soil:
+def governing(soils: list[ExportSoil], length: Floats) -> ExportSoil:
     """Return the seabed of most of the pipe around touchdown, by `length` (k,), for targets with one seabed."""
     carrying = np.array([each.stiffness > 0.0 for each in soils])
     return soils[int(np.argmax(np.where(carrying, length, -1.0)))]
 
 
-def report_governing(report: Report, soils: list[Soil], chosen: Soil, *, at_touchdown: bool) -> None:
+def report_governing(report: ExportReport, soils: list[ExportSoil], chosen: ExportSoil, *, at_touchdown: bool) -> None:
     """Report the stiffness in a target with one seabed, and the range over the line if stiffnesses differ."""
     carrying = [each.stiffness for each in soils if each.stiffness > 0.0]
     if carrying and max(carrying) > (1.0 + _SAME) * min(carrying):
@@ -226,16 +228,20 @@ def report_governing(report: Report, soils: list[Soil], chosen: Soil, *, at_touc
             else "that of the elements most of the pipe rests on"
         )
         report.add(
-            chosen.where, Status.APPROXIMATED, f"one stiffness, {kilo(chosen.stiffness)}", f"{what}; {span}", "range"
+            chosen.where,
+            ExportStatus.APPROXIMATED,
+            f"one stiffness, {kilo(chosen.stiffness)}",
+            f"{what}; {span}",
+            "range",
         )
 
 
-def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[float]) -> None:
+def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, used: list[float]) -> None:
     """Report the normal law of each seabed with the stiffness in the target."""
     for soil, stiffness in zip(soils, used, strict=True):
         same = abs(stiffness - soil.stiffness) <= 1e-6 * stiffness
         target, effect = f"{name} {kilo(stiffness)}", soil.says()
-        status = Status.CARRIED if same and soil.kind is LawKind.LINEAR else Status.APPROXIMATED
+        status = ExportStatus.CARRIED if same and soil.kind is LawKind.LINEAR else ExportStatus.APPROXIMATED
         if soil.stiffness <= 0.0 and same:
             continue
         if soil.stiffness <= 0.0:
@@ -250,14 +256,16 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
     reported, laws = {soil.where for soil in soils}, report.scene.laws
     for law in laws.set_laws:
         if law.where not in reported:
-            report.add(law.where, Status.LEFT_OUT, "none", "no element follows this law")
+            report.add(law.where, ExportStatus.LEFT_OUT, "none", "no element follows this law")
     followed = {law.curve for law in laws.set_laws if law.where in reported}
     for number, entry in enumerate(laws.curves):
         if number not in followed:
-            report.add(entry.where, Status.LEFT_OUT, "none", "no element follows this curve")
+            report.add(entry.where, ExportStatus.LEFT_OUT, "none", "no element follows this curve")
 
 
-def report_friction(report: Report, soils: list[Soil], target: str, used: list[tuple[float, float]]) -> None:
+def report_friction(
+    report: ExportReport, soils: list[ExportSoil], target: str, used: list[tuple[float, float]]
+) -> None:
     """Report the friction of each seabed with the coefficients along and across in the target."""
     for soil, (axial, lateral) in zip(soils, used, strict=True):
         coefficients = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
@@ -265,10 +273,12 @@ def report_friction(report: Report, soils: list[Soil], target: str, used: list[t
         effect = (
             coefficients if same else f"{coefficients} in the deck; here {shown(axial)} along, {shown(lateral)} across"
         )
-        report.add(soil.friction_at, Status.CARRIED if same else Status.APPROXIMATED, target, effect, "friction")
+        report.add(
+            soil.friction_at, ExportStatus.CARRIED if same else ExportStatus.APPROXIMATED, target, effect, "friction"
+        )
 
 
-def report_resistance(report: Report, target: str) -> None:
+def report_resistance(report: ExportReport, target: str) -> None:
     """Report the settings next to stiffness and friction that no target has."""
     table = report.scene.resistance
     for values, where in zip(table.values, table.places, strict=True):
@@ -278,10 +288,10 @@ def report_resistance(report: Report, target: str) -> None:
             ("constant friction", values.constant, "as in mudline, which does not evaluate it"),
         ):
             if value > 0.0:
-                report.add(where, Status.LEFT_OUT, target, effect, setting)
+                report.add(where, ExportStatus.LEFT_OUT, target, effect, setting)
     for keyword, names in _SETTINGS.items():
         extension = report.scene.extensions.get(keyword)
         for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
             for name, effect in names.items():
                 if (choice := getattr(entry, name, None)) is not None and choice not in _PLAIN:
-                    report.add(where, Status.LEFT_OUT, target, effect, f"{name.upper()}=")
+                    report.add(where, ExportStatus.LEFT_OUT, target, effect, f"{name.upper()}=")

@@ -7,7 +7,7 @@ from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, St
 
 from mudline.language.deck.forms import form_of
 from mudline.language.highlighting.lexer import DeckLexer
-from mudline.tools.lsp.documents import Document, units_of
+from mudline.tools.lsp.documents import OpenDocument, units_of
 
 _KINDS: dict[_TokenType, types.SemanticTokenTypes] = {
     Generic.Heading: types.SemanticTokenTypes.Namespace,
@@ -30,7 +30,7 @@ _NAMES = list(dict.fromkeys(kind.value for kind in _KINDS.values()))
 LEGEND = types.SemanticTokensLegend(_NAMES, [])
 
 
-def tokens(document: Document) -> types.SemanticTokens:
+def tokens(document: OpenDocument) -> types.SemanticTokens:
     """Return the tokens of a deck in keyword text, each relative to the previous token as the protocol counts.
 
     There are none for JSON and YAML, which editors colour themselves, nor for a text too long to be read at once.

@@ -31,7 +31,7 @@ from mudline.language.diagnostics import DeckError, Diagnostic, Where
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
 from mudline.model.scene.model import Scene
-from mudline.tools.lsp.documents import Document
+from mudline.tools.lsp.documents import OpenDocument
 from mudline.tools.lsp.names import Occurrence, occurrences
 
 _REQUEST_FAILED = -32803
@@ -63,7 +63,7 @@ class Analysis:
         looked_at: files that the findings depend on.
     """
 
-    document: Document
+    document: OpenDocument
     settings: LintSettings
     unsaved: Mapping[str, Unsaved]
     excluded: bool = False
@@ -142,20 +142,20 @@ class Decks:
     """Open documents by their addresses, with their analyses; configurations are read once for each folder."""
 
     encoding: str = "utf-16"
-    documents: dict[str, Document] = field(default_factory=dict)
+    documents: dict[str, OpenDocument] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
     """Faults of configurations, to be shown once."""
     _analyses: dict[str, Analysis] = field(default_factory=dict)
     _configured: Settings = field(default_factory=nearest_settings)
     _shown: set[str] = field(default_factory=set)
 
-    def open(self, uri: str, text: str, version: int, language: str) -> Document:
+    def open(self, uri: str, text: str, version: int, language: str) -> OpenDocument:
         """Add a document, or replace one that is open already."""
         self._analyses.pop(uri, None)
-        document = self.documents[uri] = Document(uri, text, version, language, self.encoding)
+        document = self.documents[uri] = OpenDocument(uri, text, version, language, self.encoding)
         return document
 
-    def close(self, uri: str) -> Document | None:
+    def close(self, uri: str) -> OpenDocument | None:
         """Forget a document."""
         self._analyses.pop(uri, None)
         return self.documents.pop(uri, None)
@@ -170,7 +170,7 @@ class Decks:
         """Analyse a document again, although its own text has not changed."""
         self._analyses.pop(uri, None)
 
-    def begun(self, document: Document) -> Analysis:
+    def begun(self, document: OpenDocument) -> Analysis:
         """Return an analysis of a document in its present state, not read yet."""
         configuration, settings = self._settings(document)
         opened = [each for each in self.documents.values() if each.path]
@@ -196,7 +196,7 @@ class Decks:
             self.keep(analysis)
         return analysis
 
-    def at(self, path: Path) -> Document | None:
+    def at(self, path: Path) -> OpenDocument | None:
         """Return the open document of a file, or None."""
         name = os.path.abspath(path)  # noqa: PTH100 - LAST= may lead through other folders
         opened = (each for each in self.documents.values() if each.path is not None)
@@ -207,7 +207,7 @@ class Decks:
         analysis = self._analyses.get(uri)
         return analysis is not None and os.path.abspath(path) in analysis.looked_at  # noqa: PTH100 - as `look` records them
 
-    def _settings(self, document: Document) -> tuple[Configuration, LintSettings]:
+    def _settings(self, document: OpenDocument) -> tuple[Configuration, LintSettings]:
         """Return configuration and settings of a document; a faulty configuration is recorded and left out."""
         if document.path is None:
             return Configuration(), merged_settings(Configuration(), Given())

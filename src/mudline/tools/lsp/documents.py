@@ -65,7 +65,7 @@ def characters_of(line: str, units: int, encoding: str) -> int:
     return len(line.encode("utf-16-le")[: 2 * units].decode("utf-16-le", errors="ignore"))
 
 
-class Document:
+class OpenDocument:
     """An open file.
 
     Offsets are those of the deck's source, which has no byte-order mark; `text` has none either.

@@ -14,7 +14,7 @@ from mudline.checks.pages import page
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.diagnostics import Diagnostic, Fix, Severity, Span
 from mudline.tools.lsp.decks import Analysis
-from mudline.tools.lsp.documents import Document
+from mudline.tools.lsp.documents import OpenDocument
 
 SOURCE = "mudline"
 FIX_ALL = "source.fixAll.mudline"
@@ -26,7 +26,7 @@ _SEVERITIES = {
 }
 
 
-def span_of(document: Document, finding: Diagnostic) -> Span:
+def span_of(document: OpenDocument, finding: Diagnostic) -> Span:
     """Return the place of a finding."""
     start = document.point(finding.line, finding.column)
     return Span(start, max(start, document.point(finding.end_line, finding.end_column)))
@@ -37,7 +37,7 @@ def shown(analysis: Analysis) -> list[types.Diagnostic]:
     return [_shown(analysis.document, finding) for finding in analysis.found]
 
 
-def _shown(document: Document, finding: Diagnostic) -> types.Diagnostic:
+def _shown(document: OpenDocument, finding: Diagnostic) -> types.Diagnostic:
     address = page(finding.code)
     related = [
         types.DiagnosticRelatedInformation(

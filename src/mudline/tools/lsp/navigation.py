@@ -25,7 +25,7 @@ from mudline.model.scene.restart import decks_before, find_deck
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import names
 from mudline.tools.lsp.decks import Analysis, Decks, failed
-from mudline.tools.lsp.documents import Document, address_of
+from mudline.tools.lsp.documents import OpenDocument, address_of
 from mudline.tools.lsp.help import is_label
 from mudline.tools.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.tools.lsp.sites import Site, site
@@ -36,7 +36,7 @@ from mudline.tools.lsp.sites import Site, site
 class Linked(NamedTuple):
     """A deck of a chain with its text as a document, open or not."""
 
-    document: Document
+    document: OpenDocument
     deck: Deck
 
 
@@ -49,7 +49,7 @@ def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
         if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
             path = base.deck.folder / Path(base.deck.file).name
             linked.append(
-                Linked(decks.at(path) or Document(address_of(path), base.deck.origin.source.text, 0), base.deck)
+                Linked(decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0), base.deck)
             )
     if analysis.document.path is not None:
         linked += _dependents(decks, analysis.document.path)
@@ -219,5 +219,5 @@ def _is_parameter(name: str) -> bool:
     return read.names == (name,) and name.casefold() not in CONSTANTS
 
 
-def _location(document: Document, span: Span) -> types.Location:
+def _location(document: OpenDocument, span: Span) -> types.Location:
     return types.Location(document.uri, document.range(span))

@@ -18,7 +18,7 @@ from mudline.basics.version import __version__
 from mudline.language.deck.forms import SUFFIXES
 from mudline.tools.lsp import findings
 from mudline.tools.lsp.decks import Analysis, Decks
-from mudline.tools.lsp.documents import Document, file_of
+from mudline.tools.lsp.documents import OpenDocument, file_of
 
 T = TypeVar("T")
 
@@ -140,7 +140,7 @@ class DeckServer(LanguageServer):
         for path in paths:
             self._recheck(path)
 
-    def _touch(self, document: Document) -> None:
+    def _touch(self, document: OpenDocument) -> None:
         if document.path is not None:
             self._recheck(document.path, document.uri)
 
@@ -151,7 +151,7 @@ class DeckServer(LanguageServer):
                 self.decks.forget(uri)
                 self._schedule(document)
 
-    def _show_limits(self, document: Document) -> None:
+    def _show_limits(self, document: OpenDocument) -> None:
         """Tell the user, when a long deck is opened, what is not done for it."""
         size = f"{document.name.rpartition('/')[2]} has {len(document.text) / 1e6:.0f} million characters"
         if document.is_too_large:
@@ -194,14 +194,14 @@ class DeckServer(LanguageServer):
 
     # --------------------------------------------------------------------------------------------------- checks
 
-    def _schedule(self, document: Document, delay: float = DELAY) -> None:
+    def _schedule(self, document: OpenDocument, delay: float = DELAY) -> None:
         """Check a document after some time without changes; a check of an older text is dropped."""
         if (older := self._checks.get(document.uri)) is not None:
             older.cancel()
         self._checks[document.uri] = check = asyncio.create_task(self._check(document, delay))
         check.add_done_callback(_failed)
 
-    async def _check(self, document: Document, delay: float) -> None:
+    async def _check(self, document: OpenDocument, delay: float) -> None:
         await asyncio.sleep(delay)
         begun = self.decks.begun(document)
         for message in self.decks.faults:

@@ -146,7 +146,7 @@ def quiet_logs() -> None:
 _NO_LENGTH = re.compile(rb"content-length:\s*[0-9]{12}", re.IGNORECASE)
 
 
-class _Input(io.BufferedReader):
+class _GuardedInput(io.BufferedReader):
     """Standard input that hides message lengths too large for memory, which would end the server."""
 
     def readline(self, size: int | None = -1, /) -> bytes:
@@ -157,7 +157,7 @@ class _Input(io.BufferedReader):
 
 def take_streams() -> tuple[BinaryIO, BinaryIO]:
     """Return standard input and output for the protocol; other output goes to standard error from now on."""
-    streams = _Input(io.FileIO(sys.stdin.fileno(), closefd=False)), sys.stdout.buffer
+    streams = _GuardedInput(io.FileIO(sys.stdin.fileno(), closefd=False)), sys.stdout.buffer
     sys.stdout = sys.stderr
     return streams
 

@@ -54,7 +54,7 @@ BY_DEFAULT = tuple(name for name in SECTIONS if name != "study")
 _NO_DECK = "the file holds no deck"
 
 
-class Given(NamedTuple):
+class DeckFile(NamedTuple):
     """A file: its content, its name in messages, and the folder of files that it names."""
 
     data: bytes
@@ -62,7 +62,7 @@ class Given(NamedTuple):
     folder: Path | None
 
 
-class Document(NamedTuple):
+class PageHead(NamedTuple):
     """Head of a document.
 
     Attributes:
@@ -80,7 +80,7 @@ class Document(NamedTuple):
     fields: tuple[tuple[str, str], ...] = ()
 
 
-NO_DOCUMENT = Document()
+NO_DOCUMENT = PageHead()
 
 
 class Look(NamedTuple):
@@ -95,7 +95,7 @@ class LookError(ValueError):
 
 
 @dataclass
-class Report:
+class PageContent:
     """The content of a page.
 
     Attributes:
@@ -120,13 +120,13 @@ class Report:
 
 
 def report_on(
-    given: Given,
+    given: DeckFile,
     settings: LintSettings,
     requested: Collection[str],
-    document: Document = NO_DOCUMENT,
+    document: PageHead = NO_DOCUMENT,
     *,
     rest_shape: bool = False,
-) -> Report:
+) -> PageContent:
     """Read, judge and evaluate a deck as far as the requested sections need it; `document` is written on the page.
 
     Never raises for content. Contact is evaluated at the resting shape with `rest_shape`, else at the deck's own
@@ -135,7 +135,7 @@ def report_on(
     verdict, deck, context = _judged(given, settings)
     head = _head(given, deck, verdict, document)
     head["shown"] = [name for name in SECTIONS if name in requested]
-    content = Report(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
+    content = PageContent(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
     sections = head["sections"]
     if "findings" in requested:
         sections["findings"] = _findings(given, settings, context)
@@ -164,7 +164,7 @@ def report_on(
     return content
 
 
-def _figures(content: Report, contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
+def _figures(content: PageContent, contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
     """Return the five numbers of the contact next to the verdict; without them, `missing` as the reason."""
     if contact is None and content.scene is not None:
         try:
@@ -188,7 +188,7 @@ def _figures(content: Report, contact: dict[str, Any] | None, missing: str) -> d
     }
 
 
-def _without_folders(value: Any, given: Given) -> Any:  # noqa: ANN401 - whatever JSON holds
+def _without_folders(value: Any, given: DeckFile) -> Any:  # noqa: ANN401 - whatever JSON holds
     """Return a value in which files have their names only: folders differ from computer to computer."""
     words = {given.name: PurePath(given.name).name}
     if given.folder is not None and given.folder.name:
@@ -208,7 +208,7 @@ def _without_folders(value: Any, given: Given) -> Any:  # noqa: ANN401 - whateve
     return plain(value)
 
 
-def _section(name: str, scene: Scene, content: Report) -> dict[str, Any]:
+def _section(name: str, scene: Scene, content: PageContent) -> dict[str, Any]:
     if name == "contact":
         return _contact(scene, content)
     if name == "study":
@@ -221,7 +221,7 @@ def _section(name: str, scene: Scene, content: Report) -> dict[str, Any]:
     return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
 
 
-def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None, LintContext | None]:
+def _judged(given: DeckFile, settings: LintSettings) -> tuple[Verdict, Deck | None, LintContext | None]:
     try:
         deck = load_bytes(given.data, given.name, units=settings.units, folder=given.folder)
     except DeckError as error:
@@ -230,7 +230,7 @@ def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None,
     return judge(context).verdict, deck, context
 
 
-def _head(given: Given, deck: Deck | None, verdict: Verdict, document: Document) -> dict[str, Any]:
+def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHead) -> dict[str, Any]:
     """Return the head of the content: deck, state, program."""
     return {
         "format": FORMAT,
@@ -277,7 +277,7 @@ def _reason(error: DeckError) -> str:
 # ------------------------------------------------------------------------------------------------------------- findings
 
 
-def _findings(given: Given, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
+def _findings(given: DeckFile, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
     """Return the findings of `mudline lint`, and those hidden by comments, each with its section of the deck."""
     findings = lint_one(given.name, given.data, settings, given.folder).found
     sections = _section_lines(context)
@@ -372,7 +372,7 @@ def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direc
 # ------------------------------------------------------------------------------------------ contact, study and plan
 
 
-def _contact(scene: Scene, content: Report) -> dict[str, Any]:
+def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
     """Return the contact at the deck's own coordinates, or at its resting shape."""
     if content.at_rest:
         shape = rest_shape(scene)

@@ -17,13 +17,13 @@ from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
-from mudline.tools.reporting.content import SECTIONS, Look, LookError, Report
+from mudline.tools.reporting.content import SECTIONS, Look, LookError, PageContent
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
     LONGEST,
     TABLES,
-    Table,
+    PageTable,
     figure_table,
     four_digits,
     input_tables,
@@ -41,7 +41,7 @@ _AROUND = 1
 """Lines of the deck shown above and below that of a finding."""
 
 
-def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
+def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
     """Return the page about a deck. Raises LookError."""
     content = report.json
     sections = content["sections"]
@@ -103,7 +103,7 @@ def _css_text(text: str) -> Markup:
     return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and character numbers
 
 
-def _study_texts(report: Report) -> list[str]:
+def _study_texts(report: PageContent) -> list[str]:
     """Return the sentences of a study, next to its tables."""
     study = report.study
     if study is None:
@@ -181,7 +181,9 @@ class Shown(NamedTuple):
     lines: Sequence[tuple[int, str]]
 
 
-def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _: True) -> list[tuple[str, list[Shown]]]:
+def _groups(
+    report: PageContent, kind: str, wanted: Callable[[str], bool] = lambda _: True
+) -> list[tuple[str, list[Shown]]]:
     """Return the first findings by section of the deck, of the severities that `wanted` accepts."""
     findings = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
     rows = [
@@ -192,7 +194,7 @@ def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _:
     return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row.found["section"]))]
 
 
-def _by_rule(report: Report, groups: Sequence[tuple[str, Sequence[Shown]]]) -> Table | None:
+def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> PageTable | None:
     """Return many findings as a table of the rules behind them, errors first; None for few findings."""
     findings = [shown.found for _, group in groups for shown in group]
     if len(findings) <= MOST_BEFORE_APPENDIX["findings"]:
@@ -213,7 +215,7 @@ _FEW = 4
 """Lines of findings that are listed."""
 
 
-def _lines(report: Report, line: int) -> list[tuple[int, str]]:
+def _lines(report: PageContent, line: int) -> list[tuple[int, str]]:
     last = len(report.source.line_starts)
     around = range(max(1, line - _AROUND), min(last, line + _AROUND) + 1)
     return [(number, cut(report.source.line(number), _LONGEST_LINE)) for number in around]

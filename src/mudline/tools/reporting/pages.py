@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from mudline.basics.paths import relative_path
 from mudline.basics.version import __version__
 from mudline.checks.engine import LintSettings
-from mudline.tools.reporting.content import Document, Given, Look, LookError, report_on
+from mudline.tools.reporting.content import DeckFile, Look, LookError, PageHead, report_on
 
 
 class Made(NamedTuple):
@@ -22,11 +22,11 @@ class Made(NamedTuple):
     fault: str = ""
 
 
-Wanted = tuple[tuple[str, ...], Document, Look | None, bool]
+Wanted = tuple[tuple[str, ...], PageHead, Look | None, bool]
 """Sections of a page, its head, its look (None for JSON), and True for contact at the resting shape."""
 
 
-def make_page(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
+def make_page(given: DeckFile, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
     sections, document, look, rest_shape = wanted
     report = report_on(given, settings, sections, document, rest_shape=rest_shape)

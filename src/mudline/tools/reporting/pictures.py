@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from mudline.checks.output import visible
 from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
 from mudline.model.scene.curves import OF_SEABED
-from mudline.tools.reporting.content import Report
+from mudline.tools.reporting.content import PageContent
 
 MOST_PICTURES = 20
 MOST_SINGLE, _MOST_TOGETHER = 2, 12
@@ -36,7 +36,7 @@ class Picture(NamedTuple):
     markup: str
 
 
-def pictures_of(report: Report) -> tuple[list[Picture], int]:
+def pictures_of(report: PageContent) -> tuple[list[Picture], int]:
     """Return the pictures of a page, and the number of those left out."""
     pictures: list[Picture] = []
     size = left = 0
@@ -50,7 +50,7 @@ def pictures_of(report: Report) -> tuple[list[Picture], int]:
     return pictures, left
 
 
-def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
+def _drawings(report: PageContent) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
     """Yield each picture of the sections, the most important first, and the function that draws it."""
     scene, sections, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
     if scene is None:

@@ -32,7 +32,7 @@ LONGEST, LONGEST_NAME = 600, 80
 """Characters of a message and of a name that a page shows."""
 
 
-class Table(NamedTuple):
+class PageTable(NamedTuple):
     """A table on a page.
 
     Attributes:
@@ -57,7 +57,7 @@ class Table(NamedTuple):
     more: str = ""
     whole: str = ""
 
-    def first(self, most: int, whole: str) -> Table:
+    def first(self, most: int, whole: str) -> PageTable:
         """Return the first rows, without their anchors; `whole` is the anchor of the section with the whole table."""
         return self._replace(rows=self.rows[:most], anchors=(), more="", whole=whole)
 
@@ -67,7 +67,7 @@ def on_page(
     most: int = SHOWN_ROWS,
     anchors: str = "",
     longest: int = LONGEST_NAME,
-) -> Table:
+) -> PageTable:
     """Return a table of at most `most` rows, with an anchor for each if `anchors` is given; longer texts are cut."""
     table = table.filled()
     rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
@@ -75,7 +75,7 @@ def on_page(
     numeric = [at for at, column in enumerate(table.columns) if not column.left]
     names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
     heads = [column.head.replace("\n", " ") for column in table.columns]
-    return Table(table.title, heads, rows[:most], table.note, names, numeric=numeric, more=more)
+    return PageTable(table.title, heads, rows[:most], table.note, names, numeric=numeric, more=more)
 
 
 def _more(count: int, what: str) -> str:
@@ -86,7 +86,7 @@ _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shap
 """Description of the shape of the line, by the source of its positions."""
 
 
-def figure_table(content: dict[str, Any], names: UnitNames) -> Table:
+def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
     """Return the five numbers next to the verdict as a table of one row."""
     words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
     doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
@@ -114,7 +114,7 @@ def four_digits(value: float | None) -> str:
 _PLAIN = 1e7
 
 
-def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[Table]:
+def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[PageTable]:
     """Yield the inputs of a deck and of the decks that it continues, and the sheet of the elements."""
     columns = (
         text("section", "section"),
@@ -131,14 +131,14 @@ def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units:
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
-def _model(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _model(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     rows = sorted(
         content["static_embedment"], key=lambda row: int(row["element"])
     )  # empty and with contents side by side
     yield on_page(static_table(rows, names, content["weights_without"], first=False))
 
 
-def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     more = "+" if content["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = [(name, f"{content[name]}{more}") for name in ("nodes", "elements")]
     counts += [("seabed", content["floor"]["kind"]), (labelled("length of line", names.length), content["length"])]
@@ -161,7 +161,7 @@ def _extent(keyword: dict[str, Any]) -> str:
     return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
 
 
-def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
     columns = (
         text("law", lambda row: cut(row["law"], LONGEST_NAME)),
         text("set", lambda row: cut(row["set"], LONGEST_NAME)),
@@ -174,7 +174,7 @@ def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     yield on_page(laws, MOST_CURVES, "law", LONGEST)
 
 
-def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     for place, row in enumerate(content["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [segment["slope"] for segment in row["segments"]]
@@ -188,7 +188,7 @@ def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         yield on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
             anchor=f"curve-{place}"
         )
-    yield Table("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
+    yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
 
 
 def _values(values: dict[str, Any]) -> str:
@@ -204,7 +204,7 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
     return shown(value) if isinstance(value, float) else str(value)
 
 
-def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     figures = [
         (labelled("total reaction", names.force), _known(content["reaction"])),
@@ -243,7 +243,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
-def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
     yield on_page(DisplayTable("States", columns, content["states"]))
 
@@ -261,26 +261,26 @@ def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str
     return touchdown_words([float(four_digits(each)) for each in places], in_contact, length, _MOST_TOUCHDOWNS)
 
 
-def study_tables(result: Study) -> list[Table]:
+def study_tables(result: Study) -> list[PageTable]:
     """Return the tables of a study as on the terminal."""
     return [on_page(table, longest=LONGEST) for part in result.parts if (table := STUDY_TABLES[part](result))]
 
 
-def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
     stages = content["stages"]
     columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
     table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
     yield on_page(table, len(stages), longest=LONGEST)
 
 
-TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[PageTable]]] = {
     "model": _model,
     "curves": _curves,
     "contact": _contact,
 }
 """Functions that make the tables of a section."""
 
-DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[PageTable]]] = {
     "model": _model_details,
     "curves": _curve_points,
     "contact": _states,

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
 from mudline.basics.installed import install_hint
 from mudline.basics.outside import refusing_outside
-from mudline.basics.overwriting import Outputs, OverwriteError, continue_run, outputs
+from mudline.basics.overwriting import ClaimedOutputs, OverwriteError, continue_run, outputs
 from mudline.basics.version import __version__
 from mudline.language.diagnostics import PluginError
 
@@ -295,7 +295,7 @@ def _safe_path() -> Iterator[None]:
             os.environ[_SAFE_PATH] = before
 
 
-def _begin(known: Outputs) -> None:
+def _begin(known: ClaimedOutputs) -> None:
     """Prepare a process: ignore Ctrl-C and a closed terminal, which reach all processes, and watch the parent.
 
     `known` are the outputs of the run, none of which the process may read.

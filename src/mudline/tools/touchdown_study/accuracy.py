@@ -11,7 +11,7 @@ import numpy as np
 from mudline.model.results.stage_times import Timer
 from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.time_stepping import generalised_alpha
-from mudline.tools.touchdown_study.beam import NotConvergedError, Run
+from mudline.tools.touchdown_study.beam import BeamRun, NotConvergedError
 from mudline.tools.touchdown_study.stability import change, unstable
 from mudline.tools.touchdown_study.zone import Measures, Variant, Zone
 
@@ -56,7 +56,7 @@ class StepRow:
     own: bool
     run_time: float | None = None
     measures: Measures | None = field(default=None, repr=False)
-    run: Run | None = field(default=None, repr=False)
+    run: BeamRun | None = field(default=None, repr=False)
     errors: Errors | None = None
     rms: float | None = None
     state: str = ""

@@ -16,7 +16,7 @@ import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.scene.time_stepping import Scheme
-from mudline.tools.touchdown_study.soil import Reaction, Soil
+from mudline.tools.touchdown_study.soil import BeamSoil, Reaction
 
 _ITERATIONS, _CUTS, _STATIC_ITERATIONS = 25, 6, 200
 _LEAST_SHARE = 0.001
@@ -273,7 +273,7 @@ def _solved(
     raise NotConvergedError("no equilibrium was found")
 
 
-def at_rest(beam: Beam, soil: Soil) -> Solved:
+def at_rest(beam: Beam, soil: BeamSoil) -> Solved:
     """Return the beam at rest, by Newton's method from a parabola that hangs beyond its touchdown.
 
     Raises NotConvergedError.
@@ -297,7 +297,7 @@ def at_rest(beam: Beam, soil: Soil) -> Solved:
     return solved
 
 
-class Run(NamedTuple):
+class BeamRun(NamedTuple):
     """A run of equal steps, with its last period in arrays.
 
     Attributes:
@@ -325,7 +325,7 @@ class Run(NamedTuple):
 class _Marching:
     """State of a run, and the advance by one step."""
 
-    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Solved) -> None:
+    def __init__(self, beam: Beam, soil: BeamSoil, scheme: Scheme, begin: Solved) -> None:
         self.beam, self.soil, self.scheme = beam, soil, scheme
         self.state, self.velocity = begin.state, np.zeros_like(begin.state)
         self.acceleration = np.zeros_like(begin.state)
@@ -401,7 +401,7 @@ class _Marching:
         self.soil.keep()
 
 
-def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Solved, steps: int, periods: int = 3) -> Run:
+def march(beam: Beam, soil: BeamSoil, scheme: Scheme, begin: Solved, steps: int, periods: int = 3) -> BeamRun:
     """Return a run of `steps` equal steps over `periods`, from rest. Raises NotConvergedError."""
     moving, step = _Marching(beam, soil, scheme, begin), periods * beam.period / steps
     first = steps - round(steps / periods)
@@ -416,7 +416,7 @@ def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Solved, steps: int, per
         if number > first:
             kept.append((moving.state, moving.reaction))
     states = np.array([state for state, _ in kept])
-    return Run(
+    return BeamRun(
         step * np.arange(first + 1.0, steps + 1.0),
         states[:, ::2],
         states[:, 1::2],

@@ -50,7 +50,7 @@ class Catenary(NamedTuple):
     vertical: Floats
 
 
-class Line:
+class HangingLine:
     """The elements between two held ends, from the lower to the upper end.
 
     Args:
@@ -64,9 +64,9 @@ class Line:
         self.carried = np.append(0.0, np.cumsum(lengths * weights))
         self.length = float(self.arcs[-1])
 
-    def reversed(self) -> Line:
+    def reversed(self) -> HangingLine:
         """Return the line from its other end."""
-        return Line(self.lengths[::-1], self.weights[::-1], -self.slope)
+        return HangingLine(self.lengths[::-1], self.weights[::-1], -self.slope)
 
     def weight_to(self, arc: float) -> float:
         """Return the weight from the first end to an arc length."""
@@ -99,7 +99,7 @@ class Line:
         return [(float(self.arcs[a]), float(self.arcs[b])) for a, b in zip(first, last, strict=True)]
 
 
-def rest(line: Line, distance: float, heights: tuple[float, float]) -> Catenary:
+def rest(line: HangingLine, distance: float, heights: tuple[float, float]) -> Catenary:
     """Return the shape of a line whose ends are `distance` apart, at `heights` above the seabed.
 
     A first height of 0 or less belongs to an end on the seabed; the last height is above 0. Raises NoRestShapeError for
@@ -124,7 +124,9 @@ def rest(line: Line, distance: float, heights: tuple[float, float]) -> Catenary:
     return shape
 
 
-def _tensioned(line: Line, distance: float, heights: tuple[float, float], used: list[tuple[float, float]]) -> Catenary:
+def _tensioned(
+    line: HangingLine, distance: float, heights: tuple[float, float], used: list[tuple[float, float]]
+) -> Catenary:
     """Return the shape with the required distance of the ends and lying parts in `used`, by varying the tension."""
     low, high = (float(np.abs(line.carried).max()) * share for share in (_LEAST, 1.0 / _LEAST))
     shape = _hanging(line, low, heights, used)
@@ -152,7 +154,7 @@ _Spans = list[tuple[float, float]]
 """First and last arc lengths of hanging parts."""
 
 
-def _hanging(line: Line, tension: float, heights: tuple[float, float], used: _Spans) -> _Spans | None:
+def _hanging(line: HangingLine, tension: float, heights: tuple[float, float], used: _Spans) -> _Spans | None:
     """Return the hanging parts under a tension: at the ends above the seabed, and between lying parts.
 
     None if the tension is too large for a part to leave the seabed.
@@ -175,7 +177,7 @@ def _hanging(line: Line, tension: float, heights: tuple[float, float], used: _Sp
     return [*spans, (start, line.length)]
 
 
-def _leaves(line: Line, tension: float, part: tuple[float, float], height: float) -> float | None:
+def _leaves(line: HangingLine, tension: float, part: tuple[float, float], height: float) -> float | None:
     """Return the arc length at which a line leaves the seabed within a part to end at a height, or None."""
 
     def missing(start: float) -> float:
@@ -187,7 +189,7 @@ def _leaves(line: Line, tension: float, part: tuple[float, float], height: float
 
 
 def _arch(
-    line: Line, tension: float, before: tuple[float, float], behind: tuple[float, float]
+    line: HangingLine, tension: float, before: tuple[float, float], behind: tuple[float, float]
 ) -> tuple[float, float] | None:
     """Return the arc lengths at which a buoyant arch leaves the seabed and comes down in the next part, or None."""
 
@@ -219,14 +221,14 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
-def _extent(line: Line, tension: float, shape: _Spans) -> float:
+def _extent(line: HangingLine, tension: float, shape: _Spans) -> float:
     """Return the distance between the ends of a line with hanging parts."""
     lying = line.length - sum(last - first for first, last in shape)
     cosine = 1.0 / math.hypot(1.0, line.slope)
     return lying * cosine + sum(float(_span(line, tension, each)[1][-1]) for each in shape)
 
 
-def _span(line: Line, tension: float, span: tuple[float, float]) -> tuple[Floats, Floats, Floats, Floats]:
+def _span(line: HangingLine, tension: float, span: tuple[float, float]) -> tuple[Floats, Floats, Floats, Floats]:
     """Return arc lengths, distances, heights and forces of a hanging part, from its end on the seabed."""
     first, last = span
     if first > 0.0 or last >= line.length:
@@ -236,7 +238,7 @@ def _span(line: Line, tension: float, span: tuple[float, float]) -> tuple[Floats
     return line.length - arcs, distance[0] - distance, height, -force
 
 
-def _assembled(line: Line, tension: float, shape: _Spans) -> Catenary:
+def _assembled(line: HangingLine, tension: float, shape: _Spans) -> Catenary:
     """Return the catenary of all nodes from its hanging parts."""
     cosine = 1.0 / math.hypot(1.0, line.slope)
     steps, height, vertical = np.diff(line.arcs) * cosine, np.zeros(len(line.arcs)), np.zeros(len(line.arcs))

@@ -26,7 +26,7 @@ from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedLine, elevations, plane_below
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
-from mudline.tools.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
+from mudline.tools.touchdown_study.catenary import Catenary, HangingLine, NoRestShapeError, rest
 from mudline.tools.touchdown_study.soil import soil_of
 
 LEFT, RIGHT = 10.0, 6.0
@@ -65,7 +65,7 @@ class LineAtRest:
     number: int
     elements: Indices
     nodes: Indices
-    model: Line
+    model: HangingLine
     start: Floats
     direction: Floats
     distance: float
@@ -181,7 +181,7 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: HeldLine) -> Line
     seabed = plane_below(scene.seabed, places[0, 1:], direction, distance)
     if seabed is None:
         raise NoRestShapeError("the seabed below the line is not one plane")
-    model = Line(length, weight, seabed.slope)
+    model = HangingLine(length, weight, seabed.slope)
     ends = (float(heights[0]) if heights[0] > size else 0.0, float(heights[1]))
     lies = heights[1] <= size
     if lies and (weight <= 0.0).any():
@@ -226,7 +226,7 @@ def _places(given: ContactInput, pipe: Pipe, line: LineAtRest) -> Floats:
     return np.column_stack([level + height, at])
 
 
-class _Touchdown(NamedTuple):
+class _LiftOff(NamedTuple):
     """A point where a line leaves the seabed: its arc length, and True if the hanging part is beyond it."""
 
     arc: float
@@ -269,11 +269,9 @@ def _hung(given: ContactInput, pipe: Pipe, line: LineAtRest, lying: Floats) -> t
     return trial.distance, height
 
 
-def touchdowns(catenary: Catenary, length: float) -> list[_Touchdown]:
+def touchdowns(catenary: Catenary, length: float) -> list[_LiftOff]:
     """Return the points where a line of some length leaves the seabed, along it."""
-    points = [
-        _Touchdown(arc, beyond) for part in catenary.lying for arc, beyond in zip(part, (False, True), strict=True)
-    ]
+    points = [_LiftOff(arc, beyond) for part in catenary.lying for arc, beyond in zip(part, (False, True), strict=True)]
     return [point for point in points if 0.0 < point.arc < length]
 
 
@@ -288,7 +286,7 @@ def window(arcs: Floats, node: int, left: float, right: float) -> tuple[int, int
     return min(first, node - 1), max(last, node)
 
 
-def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, point: _Touchdown) -> _Bend:
+def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, point: _LiftOff) -> _Bend:
     """Return the static beam at a touchdown, whose right end has the vertical force of the catenary there."""
     step = 1 if point.beyond else -1
     elements, nodes, depth = line.elements[::step], line.nodes[::step], line.depth[::step]

@@ -39,7 +39,7 @@ class Reaction(NamedTuple):
     damping: tuple[FloatArray, FloatArray] | None = None
 
 
-class Soil(Protocol):
+class BeamSoil(Protocol):
     """Seabed under a beam."""
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
@@ -176,7 +176,7 @@ def _tridiagonal(triples: Triples, nodes: int) -> tuple[FloatArray, FloatArray]:
     return diagonal, np.bincount(rows[beside], values[beside], nodes - 1).astype(np.float64)
 
 
-def soil_of(given: ContactInput, matrix: ElementMatrix = "mean") -> Soil:
+def soil_of(given: ContactInput, matrix: ElementMatrix = "mean") -> BeamSoil:
     """Return the soil of an input made by `cut_out`."""
     return ElasticSoil(given, matrix) if cost_of(given) == 1 else SteppedSoil(given)
 
@@ -191,7 +191,7 @@ def cost_of(given: ContactInput) -> int:
 class ScaledSoil:
     """Soil whose forces are multiplied by a factor."""
 
-    def __init__(self, soil: Soil, factor: float) -> None:
+    def __init__(self, soil: BeamSoil, factor: float) -> None:
         self._soil, self._factor = soil, factor
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:

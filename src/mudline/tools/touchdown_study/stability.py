@@ -57,7 +57,7 @@ class FrictionRow(NamedTuple):
     steps_per_period: float | None
 
 
-class Evaluator(NamedTuple):
+class EvaluatorCost(NamedTuple):
     """Accuracy and cost of the evaluator: bound of the relative error of a force, and seconds of a step of the deck."""
 
     error: float
@@ -243,7 +243,7 @@ def axial_period(zone: Zone) -> float | None:
 # ------------------------------------------------------------------------------------------------------------ evaluator
 
 
-def evaluator_row(given: ContactInput, timer: Timer) -> Evaluator | None:
+def evaluator_row(given: ContactInput, timer: Timer) -> EvaluatorCost | None:
     """Return the error bound of a curve's force, and the seconds of a step; None if a step overflows."""
     taken = seconds_per_step({"": ContactModel(given, backend="numpy")}, timer)
-    return Evaluator(4.0 * float(np.finfo(np.float64).eps), taken[""]) if taken else None
+    return EvaluatorCost(4.0 * float(np.finfo(np.float64).eps), taken[""]) if taken else None

@@ -19,7 +19,7 @@ from mudline.model.scene.oscillation import line_of
 from mudline.tools.touchdown_study.accuracy import ADVISED, SHORT, Errors, Mesh, StepRow, measured_accuracy, verdict_of
 from mudline.tools.touchdown_study.beam import NotConvergedError
 from mudline.tools.touchdown_study.stability import (
-    Evaluator,
+    EvaluatorCost,
     ExtremeRow,
     FrictionRow,
     curve_notes,
@@ -85,7 +85,7 @@ class Study:
     mesh: Mesh | None = None
     extremes: list[ExtremeRow] = field(default_factory=list)
     friction: list[FrictionRow] = field(default_factory=list)
-    evaluator: Evaluator | None = None
+    evaluator: EvaluatorCost | None = None
     stages: Pruning | None = None
     parts: tuple[str, ...] = PARTS
     notes: dict[str, list[str]] = field(default_factory=dict)

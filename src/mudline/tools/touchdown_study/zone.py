@@ -21,10 +21,10 @@ from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.time_stepping import Scheme, scheme_of
 from mudline.model.scene.weights import left_out
-from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, Run, Solved, at_rest, march
+from mudline.tools.touchdown_study.beam import Beam, BeamRun, NotConvergedError, Solved, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
-from mudline.tools.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, cost_of, soil_of
+from mudline.tools.touchdown_study.soil import BeamSoil, ElementMatrix, ScaledSoil, cost_of, soil_of
 
 RAMP = 0.01
 """Diameters over which a jump of the force at the mudline is replaced by a ramp."""
@@ -172,7 +172,7 @@ class Zone:
         cut = cut_out(self.given, self.elements, self.nodes, variant.parts)
         return cut if variant.law_of < 0 else _with_law(self.given, cut, variant.law_of)
 
-    def rest(self, variant: Variant = Variant()) -> tuple[Beam, Soil, Solved]:  # noqa: B008 - a constant
+    def rest(self, variant: Variant = Variant()) -> tuple[Beam, BeamSoil, Solved]:  # noqa: B008 - a constant
         """Return the beam, its soil and its state at rest. Raises NotConvergedError."""
         lengths, left = np.repeat(self.beam.lengths / variant.parts, variant.parts), self.beam.left
         if variant.law_of >= 0 or variant.factor != 1.0:
@@ -184,7 +184,7 @@ class Zone:
         soil = ScaledSoil(soil_of(self.cut(variant), variant.matrix), variant.factor)
         return beam, soil, at_rest(beam, soil)
 
-    def run(self, steps: int, periods: int = 3, variant: Variant = Variant()) -> tuple[Measures, Run]:  # noqa: B008 - as above
+    def run(self, steps: int, periods: int = 3, variant: Variant = Variant()) -> tuple[Measures, BeamRun]:  # noqa: B008 - as above
         """Return the measures of a run of `steps`, and the run. Raises NotConvergedError."""
         beam, soil, rest = self.rest(variant)
         run = march(beam, soil, self.scheme, rest, steps, periods)
