@@ -120,10 +120,8 @@ class Scene:
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
         from mudline.model.results.summary_tables import OPEN  # noqa: PLC0415 - as above
 
-        sets = [
-            (group.name, _members(len(group.elements), is_open=group.open))
-            for group in self._resolved.set_table.named.values()
-        ]
+        groups = self._resolved.set_table.named.values()
+        sets = [(group.name, _members(len(group.elements), is_open=group.open)) for group in groups]
         some_open = any(isinstance(number, str) for _, number in sets)
         counts = (
             ("nodes", len(self.node_ids)),
@@ -384,10 +382,8 @@ def lint(
     files, units = decks_in(path, including=True), _units(units)
     words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
     rules = _chosen(*words)
-    findings = (
-        lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files
-    )
-    return [*chain.from_iterable(findings)]
+    listed = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
+    return [*chain.from_iterable(listed)]
 
 
 def decks_in(path: Paths, *, including: bool = False) -> list[Path]:

@@ -17,11 +17,9 @@ def __getattr__(name: str) -> type[Block]:
     """Import the module of a class when the class is first used."""
     if name not in _ENTRIES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    keyword_class = globals()[name] = catalogue.load(_ENTRIES[name])
-    keyword_class.__doc__ = "\n".join(
-        [f"*{_ENTRIES[name].keyword}: {keyword_class.summary}", "", *field_lines(keyword_class)]
-    )
-    return keyword_class
+    declared = globals()[name] = catalogue.load(_ENTRIES[name])
+    declared.__doc__ = "\n".join([f"*{_ENTRIES[name].keyword}: {declared.summary}", "", *field_lines(declared)])
+    return declared
 
 
 def __dir__() -> list[str]:

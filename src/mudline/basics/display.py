@@ -75,8 +75,8 @@ class DisplayTable:
         cells = list(zip(*self.cells(), strict=True)) or [()] * len(self.columns)
         kept = [
             column
-            for column, column_cells in zip(self.columns, cells, strict=True)
-            if not column.optional or any(map(_is_full, column_cells))
+            for column, values in zip(self.columns, cells, strict=True)
+            if not column.optional or any(map(_is_full, values))
         ]
         return replace(self, columns=kept)
 

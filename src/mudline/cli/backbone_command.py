@@ -42,12 +42,8 @@ def _strength(_context: click.Context, _parameter: click.Parameter, value: str) 
     metavar="SU0[,GRADIENT]",
     help="Undrained shear strength at the mudline, and its increase with depth (default: 0).",
 )
-@options.option(
-    "--weight", type=float, default=0.0, metavar="W", help="Submerged unit weight of the soil (default: 0)."
-)
-@options.option(
-    "--depth", type=float, metavar="RATIO", help="Largest ratio z/D (default: the limit of the publication)."
-)
+@options.option("--weight", type=float, default=0.0, metavar="W", help="Submerged unit weight of the soil.")
+@options.option("--depth", type=float, metavar="RATIO", help="Largest ratio z/D (default: the published limit).")
 @options.option(
     "--tolerance",
     type=click.FloatRange(FINEST, COARSEST),

@@ -184,9 +184,7 @@ def evaluate_case(order: Order) -> Done:
         except OSError as error:
             why = reason(error)
         else:
-            return Done(
-                row, [(warning.diagnostic.code, str(warning)) for warning in warnings], list(looked_at), written
-            )
+            return Done(row, [(each.diagnostic.code, str(each)) for each in warnings], list(looked_at), written)
     for path in results_of(order.case, order.output):
         with suppress(OSError):
             path.unlink()

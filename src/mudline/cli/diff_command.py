@@ -53,9 +53,7 @@ _OF_DECKS = {
 @options.command("diff")
 @click.argument("before", metavar="A")
 @click.argument("others", metavar="B...", nargs=-1, required=True)
-@options.flag(
-    "--matrix", help="Compare each deck B... with A: a row for each value that differs, a column for each deck."
-)
+@options.flag("--matrix", help="Compare decks B... with A: a row for each value, a column for each deck.")
 @options.option(
     "--tolerance",
     type=click.FloatRange(min=0, max=1),
@@ -192,15 +190,15 @@ class _Folders:
     def compared(self, *, strict: bool, units: str | None, gitignore: bool) -> Iterator[ComparedDeck]:
         """Yield each deck, and count it."""
         words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
-        for deck in compare_folders(self.before, self.after, self.tolerance, **words):
-            notify_diagnostics(deck.errors)
-            if deck.unread is not None:
-                notify(deck.why)
-            self.counts[deck.status] += 1
+        for pair in compare_folders(self.before, self.after, self.tolerance, **words):
+            notify_diagnostics(pair.errors)
+            if pair.unread is not None:
+                notify(pair.why)
+            self.counts[pair.status] += 1
             self.code = max(
-                self.code, WRONG_USAGE if deck.unread else DONE if deck.status is DeckStatus.EQUAL else FOUND
+                self.code, WRONG_USAGE if pair.unread else DONE if pair.status is DeckStatus.EQUAL else FOUND
             )
-            yield deck
+            yield pair
         if not self.counts:
             notify(f"{self.before}, {self.after}: no deck in these folders")
             self.code = WRONG_USAGE
@@ -304,15 +302,11 @@ def _as_ranges(group: str, differences: Sequence[Difference]) -> tuple[list[tupl
     listed: list[tuple[str, str]] = []
     left = list(differences)
     for kind in ("removed", "added") if group in _NUMBERED else ():
-        numbers = [
-            number
-            for difference in differences
-            if difference.kind == kind and (number := _number(difference)) is not None
-        ]
+        numbers = [number for change in differences if change.kind == kind and (number := _number(change)) is not None]
         if len(numbers) >= _FEW:
             ranges = text_of(spans_of(np.array(numbers, dtype=np.int64)))
             listed.append((kind, f"{ranges}: {len(numbers)} {group}"))
-            left = [difference for difference in left if difference.kind != kind or _number(difference) is None]
+            left = [change for change in left if change.kind != kind or _number(change) is None]
     return listed, left
 
 

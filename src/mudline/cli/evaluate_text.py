@@ -149,9 +149,8 @@ def _from_touchdown(screen: Screen) -> Floats:
     for row in screen.lines.rows:
         elements = lines.elements[row.line - 1]
         for point in row.touchdown:
-            distances[elements] = np.minimum(
-                distances[elements], np.abs(lines.element_arc[elements] - point.arc_length)
-            )
+            apart = np.abs(lines.element_arc[elements] - point.arc_length)
+            distances[elements] = np.minimum(distances[elements], apart)
     return distances
 
 
@@ -175,9 +174,7 @@ def _touching(
     lacking |= {name for name in headings if "_state" in name and first.result.friction_state is None}
     available = {column.name: column for group in table.columns(first) for column in group.flat()}
     chosen = [available[name] for name in headings if name not in lacking]
-    columns = [
-        number(headings[column.name], at, column.unit, left=bool(column.names)) for at, column in enumerate(chosen)
-    ]
+    columns = [number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(chosen)]
     return columns, zip(*(_cells(column, acts, every=every) for column in chosen), strict=True)
 
 
@@ -228,10 +225,8 @@ def _is_number(cells: Cells) -> TypeGuard[tuple[float, ...]]:
     return not isinstance(cells[0], str)
 
 
-def _alike(left: str | float, right: str | float, tolerance: float) -> bool:
-    return left == right or (
-        not isinstance(left, str) and not isinstance(right, str) and abs(left - right) <= tolerance
-    )
+def _alike(a: str | float, b: str | float, tolerance: float) -> bool:
+    return a == b or (not isinstance(a, str) and not isinstance(b, str) and abs(a - b) <= tolerance)
 
 
 def _range(cells: Cells) -> str:

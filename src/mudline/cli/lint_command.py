@@ -54,14 +54,8 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "With =FILE, also write a file. Repeatable.",
 )
 @options.flag("--fix", group=_FIXES, help="Apply the safe fixes in place; for -, print the fixed deck.")
-@options.flag(
-    "--unsafe-fixes", "unsafe", group=_FIXES, help="With --fix or --diff: also apply fixes that may change results."
-)
-@options.flag(
-    "--diff",
-    group=_FIXES,
-    help="Print the changes that --fix would make, and write nothing; exit with 1 if there are any.",
-)
+@options.flag("--unsafe-fixes", "unsafe", group=_FIXES, help="With --fix or --diff: also apply unsafe fixes.")
+@options.flag("--diff", group=_FIXES, help="Print the changes of --fix, and write nothing; exit with 1 if any.")
 @options.option("--baseline", group=_KNOWN, metavar="FILE", help="Hide the findings that are recorded in this file.")
 @options.flag("--write-baseline", "recording", group=_KNOWN, help="Record all findings in the file of --baseline.")
 @options.option(

@@ -80,9 +80,7 @@ def _form(output: str | None, output_format: str) -> str:
         return output_format
     form = options.form_of_file(output, ("csv", "json", "xlsx"))
     if output_format not in ("text", form):
-        raise click.UsageError(
-            f"{output} is not {output_format}: give a file .{output_format}, or leave out the format"
-        )
+        raise click.UsageError(f"{output} is not {output_format}: give a .{output_format} file, or no format")
     return form
 
 

@@ -14,7 +14,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.model import resolve
 from mudline.tools.exporting import moordyn, orcaflex
 from mudline.tools.exporting.line_model import build
-from mudline.tools.exporting.report import ExportStatus
+from mudline.tools.exporting.report import Outcome
 from mudline.tools.exporting.soil import governing
 from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
@@ -68,7 +68,7 @@ def test_drag_and_added_mass_are_those_of_the_deck() -> None:
     assert "Cd: [1.5, ~, 0.1]" in content
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*HYDRODYNAMIC SETS")
     assert (entry.status, entry.effect) == (
-        ExportStatus.APPROXIMATED,
+        Outcome.APPROXIMATED,
         "drag along as it is written, on an area that the manual does not show",
     )
 

@@ -196,9 +196,7 @@ def blocks(pair: Pair) -> Iterator[Difference]:
         group = _group(name)
         before, after = first.get(name, []), second.get(name, [])
         if not before or not after:  # reported separately, as the block may have no values
-            yield pair.difference(
-                group, group, *((None, listed[0][0]) if listed else None for listed in (before, after))
-            )
+            yield pair.difference(group, group, *((None, side[0][0]) if side else None for side in (before, after)))
         yield from flat_differences(group, flatten(pair.before, before), flatten(pair.after, after), pair)
     lines, others = _lines(pair.before), _lines(pair.after)
     for name in dict.fromkeys([*lines, *others]):
@@ -291,10 +289,9 @@ def _changes(before: list[str], after: list[str]) -> list[tuple[str, int, int, i
     """Return the edits of ranges of lines; long texts are compared only between their equal beginnings and ends."""
     if before == after:
         return []
-    start = next(
-        (i for i, (a, b) in enumerate(zip(before, after, strict=False)) if a != b), min(len(before), len(after))
-    )
-    end, most = 0, min(len(before), len(after)) - start
+    shorter = min(len(before), len(after))
+    start = next((i for i, (a, b) in enumerate(zip(before, after, strict=False)) if a != b), shorter)
+    end, most = 0, shorter - start
     while end < most and before[-1 - end] == after[-1 - end]:
         end += 1
     first, second = before[start : len(before) - end], after[start : len(after) - end]

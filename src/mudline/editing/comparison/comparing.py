@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from mudline.basics.limits import MOST_GENERATED
 from mudline.editing.comparison.blocks import blocks, record_values
 from mudline.editing.comparison.model import (
+    Allowance,
     Difference,
     Members,
     Pair,
-    RelativeTolerance,
     Side,
     Value,
     plain,
@@ -42,7 +42,7 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     `tolerance` is the allowed difference of two numbers relative to the larger number. Raises DeckError for a deck with
     parts that could not be read, or with an equation without a value.
     """
-    pair = Pair(Side(before), Side(after), RelativeTolerance(tolerance))
+    pair = Pair(Side(before), Side(after), Allowance(tolerance))
     pair.before.require()
     pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
@@ -87,7 +87,7 @@ def _nodes(pair: Pair) -> Iterator[Difference]:
 def _elements(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of element nodes; numbers are names here, so the tolerance does not apply."""
     tables = pair.before.scene.table.numbered, pair.after.scene.table.numbered
-    yield from _numbered("elements", *tables, replace(pair, tolerance=RelativeTolerance()))
+    yield from _numbered("elements", *tables, replace(pair, tolerance=Allowance()))
     yield from _labelled("ELEMENT", "elements", pair)
 
 
@@ -276,7 +276,7 @@ Values = dict[str, object]
 
 
 @dataclass(frozen=True, slots=True)
-class FollowedEntries:
+class EntryMap:
     """Entries of one kind, the entry of each element (-1 for none), and their places."""
 
     entries: Sequence[Values]
@@ -298,7 +298,7 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
 
 
 def follow_differently(
-    group: str, read: Callable[[Side], FollowedEntries], pair: Pair, descriptions: Mapping[int, str] | None = None
+    group: str, read: Callable[[Side], EntryMap], pair: Pair, descriptions: Mapping[int, str] | None = None
 ) -> Iterator[Difference]:
     """Yield the differences between the entries of elements that both decks have.
 
@@ -340,13 +340,13 @@ def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> s
     return "; ".join(dict.fromkeys(descriptions[number] for number in ids.tolist()))
 
 
-def _entry(followed: FollowedEntries, index: int) -> Values:
+def _entry(followed: EntryMap, index: int) -> Values:
     return followed.entries[index] if index >= 0 else {}
 
 
-def _laws(side: Side) -> FollowedEntries:
+def _laws(side: Side) -> EntryMap:
     laws = side.scene.laws
-    return FollowedEntries(
+    return EntryMap(
         [_law(side.scene, grant) for grant in laws.set_laws], [g.where for g in laws.set_laws], laws.of_element
     )
 
@@ -361,7 +361,7 @@ def _record(side: Side, record: Record, where: Where) -> Values:
     return {path: entry.shown for path, entry in record_values(side, record, where).items()}
 
 
-def _sections(side: Side) -> FollowedEntries:
+def _sections(side: Side) -> EntryMap:
     table = side.scene.section_table
     places = [section.where for section in table.sections]
     entries = []
@@ -370,12 +370,12 @@ def _sections(side: Side) -> FollowedEntries:
         values = _record(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
         entries.append(values)
-    return FollowedEntries(entries, places, table.of_element)
+    return EntryMap(entries, places, table.of_element)
 
 
-def _bed(side: Side) -> FollowedEntries:
+def _bed(side: Side) -> EntryMap:
     bed = side.scene.resistance
-    return FollowedEntries([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
+    return EntryMap([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
 
 
 def numbers_given(given: Mapping[str, Any]) -> Values:
@@ -387,11 +387,9 @@ def numbers_given(given: Mapping[str, Any]) -> Values:
     return numbers
 
 
-def _extension(side: Side, keyword: str) -> FollowedEntries:
+def _extension(side: Side, keyword: str) -> EntryMap:
     extension = side.scene.extensions.get(keyword)
     if extension is None:
-        return FollowedEntries([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
+        return EntryMap([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
     pairs = zip(extension.entries, extension.places, strict=True)
-    return FollowedEntries(
-        [_record(side, entry, place) for entry, place in pairs], extension.places, extension.of_element
-    )
+    return EntryMap([_record(side, entry, place) for entry, place in pairs], extension.places, extension.of_element)

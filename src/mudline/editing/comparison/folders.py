@@ -37,12 +37,10 @@ def compare_folders(
                 load_bytes(path.read_bytes(), path.as_posix(), units=units, folder=path.parent)
                 for path in (old[name], new[name])
             )
-            comparison = compare_decks(first, second, tolerance, strict=strict)
+            compared = compare_decks(first, second, tolerance, strict=strict)
         except DeckError as error:
             yield ComparedDeck(name, DeckStatus.FAILED, *names, errors=error.diagnostics)
         except OSError as error:
             yield ComparedDeck(name, DeckStatus.FAILED, *names, unread=error)
         else:
-            yield ComparedDeck(
-                name, DeckStatus.CHANGED if comparison.differences else DeckStatus.EQUAL, *names, comparison
-            )
+            yield ComparedDeck(name, DeckStatus.CHANGED if compared.differences else DeckStatus.EQUAL, *names, compared)

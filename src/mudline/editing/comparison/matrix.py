@@ -49,7 +49,7 @@ def matrix(differences: Sequence[Sequence[Difference]]) -> list[DiffRow]:
     with_more = {prefix for _, where in base for prefix in accumulate(where.split("/")[:-1], "{}/{}".format)}
     order = {group: place for place, group in enumerate(dict.fromkeys(row.group for row in rows))}
     listed = [
-        row for row in rows if row.where not in with_more or any(value not in (GIVEN, None) for value in row.values)
+        row for row in rows if row.where not in with_more or any(each not in (GIVEN, None) for each in row.values)
     ]
     return sorted(listed, key=lambda row: order[row.group])
 

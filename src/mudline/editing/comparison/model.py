@@ -50,7 +50,7 @@ class Difference:
 
 
 @dataclass(frozen=True, slots=True)
-class RelativeTolerance:
+class Allowance:
     """Allowed difference of two numbers relative to the larger number; NaN is equal to NaN."""
 
     relative: float = 0.0
@@ -271,7 +271,7 @@ class Pair:
 
     before: Side
     after: Side
-    tolerance: RelativeTolerance
+    tolerance: Allowance
     reported: set[tuple[Where | None, Where | None]] = field(default_factory=set)
     """Places of the records and blocks whose differences are reported by keyword; None for a deck without them."""
 

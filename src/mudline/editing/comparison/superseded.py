@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.editing.comparison.comparing import (
-    FollowedEntries,
+    EntryMap,
     Values,
     compare,
     follow_differently,
@@ -19,7 +19,7 @@ from mudline.editing.comparison.comparing import (
     seabed_points,
     shown_points,
 )
-from mudline.editing.comparison.model import Difference, Pair, RelativeTolerance, Side, plain
+from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, plain
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Diagnostic
@@ -83,9 +83,7 @@ class ComparedDeck(NamedTuple):
         """The first error in one line; "" without errors."""
         if self.unread is not None:
             return f"{Path(self.unread.filename).as_posix()}: {(self.unread.strerror or str(self.unread)).lower()}"
-        return next(
-            (f"{error.file}:{error.line}:{error.column}: {error.code} {error.message}" for error in self.errors), ""
-        )
+        return next((f"{each.file}:{each.line}:{each.column}: {each.code} {each.message}" for each in self.errors), "")
 
 
 def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:
@@ -106,7 +104,7 @@ def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], t
     """
     if not (_rewritten(before, after) or _rewritten(after, before)):
         return Comparison(list(found), [])
-    pair = Pair(Side(before), Side(after), RelativeTolerance(tolerance))
+    pair = Pair(Side(before), Side(after), Allowance(tolerance))
     groups = _groups(pair)
     others: list[Difference] = []
     replaced: list[Difference] = []
@@ -158,10 +156,10 @@ def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator
     yield from follow_differently("bed", _resistance, fresh, names)
 
 
-def _laws(side: Side) -> FollowedEntries:
+def _laws(side: Side) -> EntryMap:
     laws = side.scene.laws
     entries = [_law(side.scene, law) for law in laws.set_laws]
-    return FollowedEntries(entries, [law.where for law in laws.set_laws], laws.of_element)
+    return EntryMap(entries, [law.where for law in laws.set_laws], laws.of_element)
 
 
 def _law(scene: Scene, law: SetLaw) -> Values:
@@ -176,10 +174,10 @@ def _law(scene: Scene, law: SetLaw) -> Values:
     return {"": scene.law_name(law)}
 
 
-def _resistance(side: Side) -> FollowedEntries:
+def _resistance(side: Side) -> EntryMap:
     resistance = side.scene.resistance
     entries = [_values(values, side.scene.units) for values in resistance.values]
-    return FollowedEntries(entries, resistance.places, resistance.of_element)
+    return EntryMap(entries, resistance.places, resistance.of_element)
 
 
 def _values(given: ResistanceValues, units: str) -> Values:

@@ -173,14 +173,14 @@ def verify(migration: Migration) -> Verification:
     """
     before, after = migration.before, migration.after
     differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
-    kinds, positions, element_differences = _compare(before, after, {})
-    differences += element_differences
+    kinds, positions, deviations = _compare(before, after, {})
+    differences += deviations
     if shows_elements(before):
         return Verification(len(before.element_ids), kinds, positions, 0, tuple(differences))
     external, names = representatives(before)
-    _, more, element_differences = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
+    _, more, deviations = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
     return Verification(
-        len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *element_differences)
+        len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *deviations)
     )
 
 
@@ -191,9 +191,7 @@ def _seabed_shapes(
     if after.file in files:
         after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
     if not before.same(after):
-        old, new = (
-            f"{shape.kind.value} (slope {shape.slope!r}, {len(shape.points)} points)" for shape in (before, after)
-        )
+        old, new = (f"{each.kind.value} (slope {each.slope!r}, {len(each.points)} points)" for each in (before, after))
         yield MigrationDifference("the seabed", f"{old} before, {new} after")
 
 

@@ -81,12 +81,10 @@ def _keyword_at(scene: Scene, where: Where) -> str:
 
 def _findings(findings: Iterable[Diagnostic]) -> list[FindingRow]:
     rows = []
-    for finding in findings:
-        place = (finding.line, finding.column, finding.end_line, finding.end_column)
-        fix = finding.fix.applicability if finding.fix else None
-        rows.append(
-            FindingRow(finding.code, finding.slug, finding.severity.value, finding.message, *place, fix, finding.blocks)
-        )
+    for each in findings:
+        place = (each.line, each.column, each.end_line, each.end_column)
+        fix = each.fix.applicability if each.fix else None
+        rows.append(FindingRow(each.code, each.slug, each.severity.value, each.message, *place, fix, each.blocks))
     return rows
 
 
@@ -104,9 +102,7 @@ def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
     used = {name_key(name) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
     # Unread lines may name sets.
-    lines = (
-        block.lines if type(block) is Opaque else kept_lines(block) for part in deck.sections for block in part.blocks
-    )
+    lines = (each.lines if type(each) is Opaque else kept_lines(each) for part in deck.sections for each in part.blocks)
     unread = "\n".join(line for own in lines for line in own).casefold()
     for key, entry in named.items():
         ids = scene.element_ids[entry.elements]

@@ -69,9 +69,9 @@ class CurveRow(NamedTuple):
     legacy: Annotated[bool, "true for a curve of *EMBEDMENT"]
     ratios: Annotated[
         list[float],
-        "embedment ratios of its points, sorted: penetration / external diameter; the abscissa of other curves",
+        "embedment ratios of its points, sorted: penetration / external diameter; for others the abscissa",
     ]
-    forces: Annotated[list[float], "forces per unit length at these points; the ordinate of other curves"]
+    forces: Annotated[list[float], "forces per unit length at these points; for others the ordinate"]
     first_ratio: Annotated[float | None, "smallest embedment ratio"]
     last_ratio: Annotated[float | None, "largest embedment ratio"]
     largest_force: Annotated[float | None, "largest force per unit length at a point"]

@@ -226,22 +226,20 @@ def bed_deck(path: Path, form: str, output: str, within: float, origin: tuple[fl
     Raises OSError, or DeckError for a file that is not a grid or has its points on one line.
     """
     grid = read_bed(path, form)
-    shifted = grid - np.array(origin)
+    local = grid - np.array(origin)
     try:
-        kept = shifted[thinned(shifted, within)]
+        kept = local[thinned(local, within)]
     except (QhullError, ValueError) as error:
         raise data_error(path.as_posix(), f"the points make no surface: {str(error).splitlines()[0]}") from error
     rows = "".join(f"{x!r}, {y!r}, {z!r}\n" for x, y, z in kept.tolist())
     # The bound must hold for the numbers in the text, evaluated as in the deck.
-    off = np.abs(differences(shifted, parse_profile(rows.encode(), output, 3)))
+    off = np.abs(differences(local, parse_profile(rows.encode(), output, 3)))
     worst = float(np.nan_to_num(off, nan=np.inf).max())
     elevation, east, north = map(shown, origin, (12, 12, 12))
     head = [
-        f"Seabed of {one_line(path.name)}: {len(kept)} of {len(shifted)} points of the grid",
+        f"Seabed of {one_line(path.name)}: {len(kept)} of {len(local)} points of the grid",
         f"No point of the grid is more than {shown(worst, 3)} m off, {shown(within)} m were allowed",
         f"X = 0 is at elevation {elevation}; Y is easting - {east}, Z northing - {north}. Metres",
     ]
     deck = [*(f"C {line}" for line in head), "$MODEL", "*SEABED PROFILE", " TYPE=3D", f" FILE={output}"]
-    return Bed(
-        "".join(f"{line}\n" for line in deck), rows, len(kept), len(shifted), worst, int((grid[:, 0] > 0.0).sum())
-    )
+    return Bed("".join(f"{line}\n" for line in deck), rows, len(kept), len(local), worst, int((grid[:, 0] > 0.0).sum()))

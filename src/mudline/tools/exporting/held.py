@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 from mudline.basics.quantities import shown
 from mudline.model.scene.boundary import TRANSLATIONS, conditions
 from mudline.model.scene.model import Scene
-from mudline.tools.exporting.report import ExportReport, ExportStatus
+from mudline.tools.exporting.report import ExportReport, Outcome
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.loads import Boundary
@@ -49,14 +49,14 @@ def read_held(scene: Scene, report: ExportReport) -> HeldNodes:
         for each in cast("Boundary", block).types:
             if each.type_ not in ("CONSTANT", "VESSEL"):
                 effect = "its nodes are held and not moved"
-                report.add(where, ExportStatus.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
+                report.add(where, Outcome.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
             for nodes, freedoms, value in conditions(scene, each):
                 for node in nodes.tolist():
                     held.freedoms[node] = held.of(node) | freedoms
                 held.moved.update(nodes.tolist() if each.type_ == "VESSEL" else ())
                 if value:
                     effect = f"node {int(scene.node_ids[nodes[0]])} stays where its coordinates are"
-                    report.add(where, ExportStatus.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
+                    report.add(where, Outcome.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
     return held
 
 
@@ -68,7 +68,7 @@ def report_inside(scene: Scene, report: ExportReport, held: HeldNodes, ends: set
     where = [at for at, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for freedoms, nodes in inside.items():
         effect = f"inside of a line: free here (nodes: {len(nodes)}, the first {nodes[0]})"
-        report.add(where[-1], ExportStatus.LEFT_OUT, "none", effect, f"DOF {freedoms}")
+        report.add(where[-1], Outcome.LEFT_OUT, "none", effect, f"DOF {freedoms}")
 
 
 def report_ends(report: ExportReport, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
@@ -76,15 +76,15 @@ def report_ends(report: ExportReport, ends: list[End], fixed: str, vessel: str, 
     scene = report.scene
     places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for where in places:
-        report.add(where, ExportStatus.CARRIED, f"{fixed}, {vessel} ends")
+        report.add(where, Outcome.CARRIED, f"{fixed}, {vessel} ends")
     for end in ends:
         node = f"node {int(scene.node_ids[end.node])}"
         if end.vessel:
-            status = ExportStatus.CARRIED if vessel != fixed else ExportStatus.APPROXIMATED
+            status = Outcome.CARRIED if vessel != fixed else Outcome.APPROXIMATED
             report.add(places[-1], status, vessel, f"{node} stays where it is until it is moved", f"vessel at {node}")
         if not end.joins and (missing := sorted(TRANSLATIONS - end.held)):
             effect = f"free in DOF {', '.join(map(str, missing))} in the deck: held at its coordinates"
-            report.add(places[-1], ExportStatus.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
+            report.add(places[-1], Outcome.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
         if not clamps and (turned := sorted(end.held - TRANSLATIONS)):
             effect = f"no moment at {node}: the line turns freely there"
-            report.add(places[-1], ExportStatus.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")
+            report.add(places[-1], Outcome.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")

@@ -28,7 +28,7 @@ from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
 from mudline.tools.exporting.held import End, read_held, report_inside
-from mudline.tools.exporting.report import ExportReport, ExportStatus
+from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
 if TYPE_CHECKING:
@@ -286,7 +286,7 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     for section, name in zip(model.sections, names, strict=True):
         entry = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
         curved = [each for each in ("eiyy_curve", "ei_curve", *STIFFNESS_CURVES) if getattr(entry, each)]
-        status = ExportStatus.APPROXIMATED if curved else ExportStatus.CARRIED
+        status = Outcome.APPROXIMATED if curved else Outcome.CARRIED
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
         effect += f", mass with {shown(section.contents, 4)} kg/m of contents" if section.contents else ""
@@ -294,12 +294,10 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     _report_water(model, target)
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
-        model.report.add(
-            twisted[0].where, ExportStatus.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G"
-        )
+        model.report.add(twisted[0].where, Outcome.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
     for keyword in (BENDING_CURVES, *STIFFNESS_CURVES.values()):
         for where, _ in model.scene.deck.blocks(keyword):
-            model.report.add(where, ExportStatus.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
+            model.report.add(where, Outcome.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 
 
 def _report_water(model: LineModel, target: str) -> None:
@@ -315,11 +313,11 @@ def _report_water(model: LineModel, target: str) -> None:
             effects += ["drag along as it is written, on an area that the manual does not show"]
         if any(section.assumed for section in model.sections):
             effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
-        status = ExportStatus.APPROXIMATED if effects else ExportStatus.CARRIED
+        status = Outcome.APPROXIMATED if effects else Outcome.CARRIED
         model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
         effect = "its mass at rest; pressure and flow are not written"
-        model.report.add(where, ExportStatus.APPROXIMATED, f"mass of each {target}", effect)
+        model.report.add(where, Outcome.APPROXIMATED, f"mass of each {target}", effect)
 
 
 # ---------------------------------------------------------------------------------------------------------- lines

@@ -16,7 +16,7 @@ from mudline.model.scene.numbering import Floats
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
 from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_sections
-from mudline.tools.exporting.report import ExportStatus, TargetNames
+from mudline.tools.exporting.report import Outcome, TargetNames
 from mudline.tools.exporting.soil import (
     ExportSoil,
     distance,
@@ -157,7 +157,7 @@ def _grid(model: LineModel) -> str:
     level = model.levels(*(each.ravel() for each in corners)).reshape(len(x), len(y))
     places = model.places[model.line_nodes()]
     worst = float(np.abs(_bilinear(x, y, level, places) - model.levels(places[:, 0], places[:, 1])).max())
-    status = ExportStatus.CARRIED if worst < 1e-6 else ExportStatus.APPROXIMATED
+    status = Outcome.CARRIED if worst < 1e-6 else Outcome.APPROXIMATED
     effect = f"largest difference below the nodes {shown(worst, 3)} m"
     model.report.add(model.scene.seabed.where, status, f"a grid of {len(x)} x {len(y)} points", effect)
     rows = [
@@ -212,18 +212,18 @@ def _report(model: LineModel, types: list[str], soil: ExportSoil, stiffness: flo
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
             effect = "MoorDyn lowers its seabed to a point that is below it"
             place = model.scene.nodes.where(end.node)
-            report.add(place, ExportStatus.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
+            report.add(place, Outcome.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)
         if not part.is_even:
             least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
             effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
-            report.add(blocks[-1], ExportStatus.APPROXIMATED, "equal segments", effect, "lengths")
+            report.add(blocks[-1], Outcome.APPROXIMATED, "equal segments", effect, "lengths")
     joints = sum(len(parts) - 1 for parts in pieces(model))
     if joints and any(section.bending for section in model.sections):
         where = model.sections[0].where
         report.add(
-            where, ExportStatus.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints"
+            where, Outcome.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints"
         )
     report.finish()

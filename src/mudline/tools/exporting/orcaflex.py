@@ -17,7 +17,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
 from mudline.tools.exporting.line_model import LineModel, LineStretch, report_sections
-from mudline.tools.exporting.report import ExportStatus, TargetNames, one_line, short_name
+from mudline.tools.exporting.report import Outcome, TargetNames, one_line, short_name
 from mudline.tools.exporting.soil import (
     ExportSoil,
     distance,
@@ -189,7 +189,7 @@ def _environment(model: LineModel, soil: ExportSoil) -> Items:
         depth = model.depth + half / cos(radians(slope))
         items |= {"WaterDepth": depth, "SeabedSlopeDirection": direction % 360.0, "SeabedSlope": slope}
         if shape.kind is SeabedKind.SLOPING:
-            model.report.add(shape.where, ExportStatus.CARRIED, f"SeabedSlope {shown(slope)}")
+            model.report.add(shape.where, Outcome.CARRIED, f"SeabedSlope {shown(slope)}")
     else:
         items |= {"SeabedType": "Profile"} | _profile(model, half)
     if soil.kind is not LawKind.SOIL:
@@ -213,7 +213,7 @@ def _profile(model: LineModel, half: float) -> Items:
     if shape.kind is SeabedKind.PROFILE:
         rows = np.column_stack([shape.points[:, 0] * size, model.depth - shape.points[:, 1] * size + half])
         effect = "between its points as OrcaFlex interpolates"
-        model.report.add(shape.where, ExportStatus.APPROXIMATED, f"profile of {len(rows)} points", effect)
+        model.report.add(shape.where, Outcome.APPROXIMATED, f"profile of {len(rows)} points", effect)
         return {"SeabedSlopeDirection": shape.direction % 360.0, _PROFILE: rows[np.argsort(rows[:, 0])].tolist()}
     first, last = (model.places[model.ends[index].node][:2] for index in (line.begin, line.end))
     length = float(np.hypot(*(last - first)))
@@ -224,7 +224,7 @@ def _profile(model: LineModel, half: float) -> Items:
     error = np.abs(np.interp((places[:, :2] - first) @ along, distance, level) - model.levels(*places[:, :2].T))
     off = shown(float(error.max()), 3)
     effect = f"the seabed below {line.name}, level across it: up to {off} m off below the nodes"
-    model.report.add(shape.where, ExportStatus.APPROXIMATED, f"profile of {_POINTS} points", effect)
+    model.report.add(shape.where, Outcome.APPROXIMATED, f"profile of {_POINTS} points", effect)
     return {
         "SeabedOrigin": first.tolist(),
         "SeabedSlopeDirection": degrees(atan2(along[1], along[0])) % 360.0,
@@ -250,21 +250,17 @@ def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
         springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
         report.add(
-            soil.friction_at,
-            ExportStatus.APPROXIMATED,
-            "one SeabedShearStiffness",
-            f"the stiffer of {springs}",
-            "spring",
+            soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
         )
     report_resistance(report, "none")
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):
             effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
-            report.add(section.where, ExportStatus.APPROXIMATED, "one seabed", effect, "diameter")
+            report.add(section.where, Outcome.APPROXIMATED, "one seabed", effect, "diameter")
     uneven = any(not part.is_even for parts in pieces(model) for part in parts)
     for where, _ in model.scene.deck.blocks("ELEMENT") if uneven else ():
         effect = "segments as long as the shortest of a section"
-        report.add(where, ExportStatus.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
+        report.add(where, Outcome.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
     report.finish()
 
 
@@ -272,12 +268,10 @@ def _report_soil(model: LineModel, soil: ExportSoil) -> None:
     numbers = dict(soil.parameters)
     changed = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
-    model.report.add(soil.where, ExportStatus.CARRIED, "Nonlinear soil model", effect)
+    model.report.add(soil.where, Outcome.CARRIED, "Nonlinear soil model", effect)
     if changed:
-        model.report.add(
-            soil.where, ExportStatus.LEFT_OUT, "defaults", f"set by hand: {', '.join(changed)}", "parameters"
-        )
+        model.report.add(soil.where, Outcome.LEFT_OUT, "defaults", f"set by hand: {', '.join(changed)}", "parameters")
     for each in model.soils:
         if each.kind is LawKind.SOIL and each.parameters != soil.parameters:
             effect = f"{each.says()}; here that of most of the pipe"
-            model.report.add(each.where, ExportStatus.APPROXIMATED, "one soil", effect)
+            model.report.add(each.where, Outcome.APPROXIMATED, "one soil", effect)

@@ -42,7 +42,7 @@ _EFFECTS = {
 }
 
 
-class ExportStatus(StrEnum):
+class Outcome(StrEnum):
     """Result of the export of a keyword or a setting."""
 
     CARRIED = "carried"
@@ -67,7 +67,7 @@ class ExportEntry:
     keyword: str
     file: str
     line: int
-    status: ExportStatus
+    status: Outcome
     target: str
     effect: str
 
@@ -81,7 +81,7 @@ class ExportReport:
     _claimed: set[tuple[int, int]] = field(default_factory=set)
     _seen: set[ExportEntry] = field(default_factory=set)
 
-    def add(self, where: Where | None, status: ExportStatus, target: str, effect: str = "", setting: str = "") -> None:
+    def add(self, where: Where | None, status: Outcome, target: str, effect: str = "", setting: str = "") -> None:
         """Add the result for the block at a place, or for a `setting` in it; nothing without a place."""
         if where is None:
             return
@@ -99,7 +99,7 @@ class ExportReport:
     def claim(self, keyword: str, target: str, section: str = "MODEL") -> None:
         """Report all blocks of a keyword as carried."""
         for where, _ in self.scene.deck.blocks(keyword, section):
-            self.add(where, ExportStatus.CARRIED, target)
+            self.add(where, Outcome.CARRIED, target)
 
     def finish(self) -> None:
         """Add the blocks without an entry, and sort all entries in the order of the deck."""
@@ -112,18 +112,18 @@ class ExportReport:
                     if section.name.endswith("POSTPROCESSING"):
                         subject = "post-processing"
                     effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
-                    self.add(Where(i, j), ExportStatus.LEFT_OUT, "none", effect)
+                    self.add(Where(i, j), Outcome.LEFT_OUT, "none", effect)
         self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
 
     @property
     def lost(self) -> list[ExportEntry]:
         """Entries that are not carried."""
-        return [entry for entry in self.entries if entry.status is not ExportStatus.CARRIED]
+        return [entry for entry in self.entries if entry.status is not Outcome.CARRIED]
 
     @property
     def is_exact(self) -> bool:
         """True if nothing was approximated or left out."""
-        return all(entry.status in (ExportStatus.CARRIED, ExportStatus.RENAMED) for entry in self.entries)
+        return all(entry.status in (Outcome.CARRIED, Outcome.RENAMED) for entry in self.entries)
 
     def rows(self) -> list[tuple[str, str, str, str, str]]:
         """Return rows of what does not carry over: keyword, line, status, equivalent in the target and effect.
@@ -195,7 +195,5 @@ class TargetNames:
             name = f"{stem[: self.longest - len(str(count)) - 1]}_{count}"
         self._taken.add(name.casefold())
         if name != written:
-            self.report.add(
-                where, ExportStatus.RENAMED, name, "a name that the target accepts", f"name {short_name(written)}"
-            )
+            self.report.add(where, Outcome.RENAMED, name, "a name that the target takes", f"name {short_name(written)}")
         return name

@@ -20,7 +20,7 @@ from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
-from mudline.tools.exporting.report import ExportReport, ExportStatus, short_name
+from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
 _RIGID_SHARE = 1e-3
 """Penetration, as a share of the diameter, of a pipe on a rigid seabed."""
@@ -129,10 +129,10 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
     if (keyword := scene.extensions.get("SEABED FRICTION")) is not None:
         at = keyword.of_element
         names = (("coefficients", "first"), ("coefficients", "second"), ("stiffness", "first"), ("stiffness", "second"))
-        first, second, axial, lateral = (keyword.values(at, *path) for path in names)
+        first, second, along, across = (keyword.values(at, *path) for path in names)
         own, springs = (
             np.column_stack([first, second]),
-            np.column_stack([axial, np.where(np.isnan(lateral), axial, lateral)]),
+            np.column_stack([along, np.where(np.isnan(across), along, across)]),
         )
         coefficient = np.where(at[:, None] >= 0, np.nan_to_num(own), coefficient)
         spring = np.where(at[:, None] >= 0, springs / scene.length[:, None], spring)
@@ -217,7 +217,7 @@ def governing(soils: list[ExportSoil], length: Floats) -> ExportSoil:
     return soils[int(np.argmax(np.where(carrying, length, -1.0)))]
 
 
-def report_governing(report: ExportReport, soils: list[ExportSoil], chosen: ExportSoil, *, at_touchdown: bool) -> None:
+def report_governing(report: ExportReport, soils: list[ExportSoil], main: ExportSoil, *, at_touchdown: bool) -> None:
     """Report the stiffness in a target with one seabed, and the range over the line if stiffnesses differ."""
     carrying = [each.stiffness for each in soils if each.stiffness > 0.0]
     if carrying and max(carrying) > (1.0 + _SAME) * min(carrying):
@@ -228,11 +228,7 @@ def report_governing(report: ExportReport, soils: list[ExportSoil], chosen: Expo
             else "that of the elements most of the pipe rests on"
         )
         report.add(
-            chosen.where,
-            ExportStatus.APPROXIMATED,
-            f"one stiffness, {kilo(chosen.stiffness)}",
-            f"{what}; {span}",
-            "range",
+            main.where, Outcome.APPROXIMATED, f"one stiffness, {kilo(main.stiffness)}", f"{what}; {span}", "range"
         )
 
 
@@ -241,7 +237,7 @@ def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, u
     for soil, stiffness in zip(soils, used, strict=True):
         same = abs(stiffness - soil.stiffness) <= 1e-6 * stiffness
         target, effect = f"{name} {kilo(stiffness)}", soil.says()
-        status = ExportStatus.CARRIED if same and soil.kind is LawKind.LINEAR else ExportStatus.APPROXIMATED
+        status = Outcome.CARRIED if same and soil.kind is LawKind.LINEAR else Outcome.APPROXIMATED
         if soil.stiffness <= 0.0 and same:
             continue
         if soil.stiffness <= 0.0:
@@ -256,11 +252,11 @@ def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, u
     reported, laws = {soil.where for soil in soils}, report.scene.laws
     for law in laws.set_laws:
         if law.where not in reported:
-            report.add(law.where, ExportStatus.LEFT_OUT, "none", "no element follows this law")
+            report.add(law.where, Outcome.LEFT_OUT, "none", "no element follows this law")
     followed = {law.curve for law in laws.set_laws if law.where in reported}
     for number, entry in enumerate(laws.curves):
         if number not in followed:
-            report.add(entry.where, ExportStatus.LEFT_OUT, "none", "no element follows this curve")
+            report.add(entry.where, Outcome.LEFT_OUT, "none", "no element follows this curve")
 
 
 def report_friction(
@@ -268,14 +264,10 @@ def report_friction(
 ) -> None:
     """Report the friction of each seabed with the coefficients along and across in the target."""
     for soil, (axial, lateral) in zip(soils, used, strict=True):
-        coefficients = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
+        own = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
         same = (axial, lateral) == (soil.axial, soil.lateral)
-        effect = (
-            coefficients if same else f"{coefficients} in the deck; here {shown(axial)} along, {shown(lateral)} across"
-        )
-        report.add(
-            soil.friction_at, ExportStatus.CARRIED if same else ExportStatus.APPROXIMATED, target, effect, "friction"
-        )
+        effect = own if same else f"{own} in the deck; here {shown(axial)} along, {shown(lateral)} across"
+        report.add(soil.friction_at, Outcome.CARRIED if same else Outcome.APPROXIMATED, target, effect, "friction")
 
 
 def report_resistance(report: ExportReport, target: str) -> None:
@@ -288,10 +280,10 @@ def report_resistance(report: ExportReport, target: str) -> None:
             ("constant friction", values.constant, "as in mudline, which does not evaluate it"),
         ):
             if value > 0.0:
-                report.add(where, ExportStatus.LEFT_OUT, target, effect, setting)
+                report.add(where, Outcome.LEFT_OUT, target, effect, setting)
     for keyword, names in _SETTINGS.items():
         extension = report.scene.extensions.get(keyword)
         for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
             for name, effect in names.items():
                 if (choice := getattr(entry, name, None)) is not None and choice not in _PLAIN:
-                    report.add(where, ExportStatus.LEFT_OUT, target, effect, f"{name.upper()}=")
+                    report.add(where, Outcome.LEFT_OUT, target, effect, f"{name.upper()}=")

@@ -83,18 +83,12 @@ def actions(
 
 def _asked(kind: str, kinds: list[str] | None) -> bool:
     """Return True if a kind of action is requested; kinds have parts with dots, and `a` includes `a.b`."""
-    return kinds is None or any(
-        kind == requested or kind.startswith(f"{requested}.") or not requested for requested in kinds
-    )
+    return kinds is None or any(kind == asked or kind.startswith(f"{asked}.") or not asked for asked in kinds)
 
 
 def _fixes(analysis: Analysis) -> Iterator[tuple[Diagnostic, Fix]]:
     unfixable = analysis.settings.unfixable
-    return (
-        (finding, finding.fix)
-        for finding in analysis.found
-        if finding.fix is not None and finding.code not in unfixable
-    )
+    return ((each, each.fix) for each in analysis.found if each.fix is not None and each.code not in unfixable)
 
 
 def _quick_fixes(analysis: Analysis, asked: Span) -> Iterator[types.CodeAction]:

@@ -333,10 +333,8 @@ def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
     if analysis.origin is None or analysis.deck is None:
         return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
-    equations = (
-        span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end
-    )
-    return [_hint(analysis, span) for span in islice(equations, MOST_HINTS)]
+    spans = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
+    return [_hint(analysis, span) for span in islice(spans, MOST_HINTS)]
 
 
 def _hint(analysis: Analysis, equation: Span) -> types.InlayHint:

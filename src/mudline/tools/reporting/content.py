@@ -139,9 +139,7 @@ def report_on(
     sections = head["sections"]
     if "findings" in requested:
         sections["findings"] = _findings(given, settings, context)
-        content.named = _titles(
-            [row["code"] for row in (*sections["findings"]["reported"], *sections["findings"]["hidden"])]
-        )
+        content.named = _titles([row["code"] for rows in sections["findings"].values() for row in rows])
     of_scene = [name for name in SECTIONS[2:] if name in requested]
     content.scene, missing = _scene(deck) if of_scene or "verdict" in requested else (None, "")
     if content.scene is not None:

@@ -60,9 +60,7 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
         parted = [(table, MOST_BEFORE_APPENDIX[kind]) for table, kind in zip(tables[name], kinds, strict=True)]
         if long := [table for table, most in parted if len(table.rows) > most]:
             details[name] = [*long, *details.get(name, ())]
-        tables[name] = [
-            table.first(most, f"more-{name}") if len(table.rows) > most else table for table, most in parted
-        ]
+        tables[name] = [each.first(most, f"more-{name}") if len(each.rows) > most else each for each, most in parted]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(

@@ -256,29 +256,27 @@ def _advice(result: Study) -> Advice:
     return Advice(text, verdict, own, step, file, result.own_line or None)
 
 
-def _judged(result: Study) -> tuple[str, str, float | None]:
+def _judged(study: Study) -> tuple[str, str, float | None]:
     """Return the answer in words, the verdict, and the advised step."""
-    if "accuracy" not in result.parts or not result.steps:
+    if "accuracy" not in study.parts or not study.steps:
         return "", NOT_STUDIED, None
-    if result.reference is None:
-        return f"Not studied: {result.notes['accuracy'][-1]}", NOT_STUDIED, None
-    row, fine = next((each for each in result.steps if each.own), None), _advised(result.steps)
-    last = result.steps[-1] if row is None else row
-    mesh = _of_mesh(result, last)
-    if result.own is None:
-        steps = (
-            f"{result.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
-        )
+    if study.reference is None:
+        return f"Not studied: {study.notes['accuracy'][-1]}", NOT_STUDIED, None
+    row, fine = next((each for each in study.steps if each.own), None), _advised(study.steps)
+    last = study.steps[-1] if row is None else row
+    mesh = _of_mesh(study, last)
+    if study.own is None:
+        steps = f"{study.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
         text = f"The deck has no time step in *TIME: {steps} for its touchdown zone. {mesh}"
         return text.rstrip(), NOT_STUDIED, fine
-    place = f"The deck's own step, {result.milliseconds(result.own.largest)} (line {result.own_line}),"
-    verdict, step, tried = verdict_of(last.worst), None, result.milliseconds(last.step)
+    place = f"The deck's own step, {study.milliseconds(study.own.largest)} (line {study.own_line}),"
+    verdict, step, tried = verdict_of(last.worst), None, study.milliseconds(last.step)
     errors = f"the run {last.state}" if last.errors is None else _of_errors(last.errors)
     if row is not None:
         text = f"{place} is {verdict} for its touchdown zone: {errors}"
         if verdict == "too long":
             step = fine
-            text += f"; use {result.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
+            text += f"; use {study.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
     elif last.worst <= SHORT:
         text = f"{place} is short enough for its touchdown zone: {tried} is"
     else:
