@@ -42,7 +42,7 @@ COMMANDS = {
     "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
     "batch": "Evaluate many decks or load cases: a row and a result file each.",
     "index": "Bring decks into an archive.",
-    "study": "Measure accuracy, cost and stability of the touchdown zone of a deck.",
+    "study": "Measure accuracy, cost and stability of a touchdown zone.",
     "report": "Write a page about a deck for a checker to sign.",
     "rules": "List the rules, or explain one.",
     "export": "Export the model of a deck for another program.",

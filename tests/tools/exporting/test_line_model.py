@@ -176,7 +176,7 @@ def test_springs_below_friction_are_those_of_the_mobilisation_lengths_or_of_the_
         ),
         (
             "$MODEL\n*OCEAN\n 100.0\n*LINES\n LINE=A\n SECTION=B, 5.0\n",
-            "4: the deck shows no elements to export: those of *LINES",
+            "4: the deck has no elements to export: those of *LINES",
         ),
     ],
 )
