@@ -12,17 +12,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.limits import MOST_GENERATED
 from mudline.editing.comparison.blocks import blocks, record_values
-from mudline.editing.comparison.model import (
-    Allowance,
-    Difference,
-    Members,
-    Pair,
-    Side,
-    Value,
-    plain,
-    spans_of,
-    text_of,
-)
+from mudline.editing.comparison.model import Allowance, Difference, Members, Pair, Side, Value, plain, spans_of, text_of
 from mudline.language.deck.parameters import Definition, folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import Record
