@@ -67,7 +67,7 @@ __all__ += ["__version__"]
 
 
 def __getattr__(name: str) -> object:
-    """Public names are imported when they are first used: the command line asks for the version alone."""
+    """Import a public name when it is first used, so that `mudline --version` imports nothing."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module  # noqa: PLC0415 - as above

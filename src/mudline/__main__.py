@@ -1,4 +1,4 @@
-"""`mudline` and `python -m mudline`."""
+"""Entry point of `mudline` and `python -m mudline`."""
 
 from __future__ import annotations
 
@@ -12,21 +12,22 @@ from mudline.basics.version import __version__
 from mudline.cli import INTERRUPTED
 
 _COLLECTION = (5_000_000, 10, 10)
-"""Objects between two collections, and collections between two of older ones.
+"""Objects between two garbage collections, and collections between two of older generations.
 
-What a deck is read into has no cycles and is freed with it: a run of many decks leaves some ten objects of each to the
-collector. By default a third of the time of a deck of many entries goes into looking for cycles.
+A deck that was read has no cycles and is freed with its last reference. By default a third of the time of a deck with
+many entries goes into searching for cycles.
 """
 
 _THREADS = "OPENBLAS_NUM_THREADS"
-"""No command multiplies large matrices: threads for that would take as long to start as numpy, and forbid to fork."""
+"""Variable that limits threads: no command multiplies large matrices, and threads are slow to start and prevent forks.
+"""
 
 _PLUGINS = "PYDANTIC_DISABLE_PLUGINS"
-"""No command is for those who watch what pydantic does: to look for their plugins reads of every installed package."""
+"""Variable that disables pydantic's plugins: searching for them reads files of every installed package."""
 
 
 class Ended(KeyboardInterrupt):
-    """The system ends the program, by `kill`, at a shutdown, or because its terminal is closed; it cleans up first."""
+    """End of the program by the system (`kill`, shutdown, closed terminal), after cleaning up."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -54,7 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _take_signals() -> None:
-    """Raise Ended for SIGTERM and SIGHUP from now on; what was ignored before, as by nohup, stays so."""
+    """Raise Ended for SIGTERM and SIGHUP from now on; a signal ignored before, as by nohup, remains ignored."""
     import signal
     import threading
 
@@ -69,16 +70,16 @@ def _take_signals() -> None:
 
 
 def _leave() -> None:
-    """Keep Python from looking twice, as it ends, for cycles in all that was imported.
+    """Prevent Python from searching imported modules for cycles as it exits.
 
-    That takes as long as to import pydantic, and finds nothing. DuckDB complains of what is not looked at.
+    The search takes as long as the import of pydantic and finds nothing. DuckDB complains about objects left out.
     """
     if "_duckdb" not in sys.modules:
         gc.freeze()
 
 
 def _printed(text: str) -> bool:
-    """Whether standard output takes a text; if not, `run` tries again, and says what is wrong."""
+    """Return True if standard output accepts a text; otherwise `run` tries again and reports the error."""
     if sys.stdout is None:
         return False
     try:

@@ -1,4 +1,4 @@
-"""What `import mudline` offers: decks from files and texts, and their findings."""
+"""Public objects of `import mudline`: decks from files and texts, and their findings."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ if TYPE_CHECKING:
 class Deck(TypedDeck):
     """A deck: its sections and blocks as validated models, equations as written.
 
-    `read`, `from_keyword`, `from_json` and `from_yaml` make decks. Values are set as attributes of its blocks; one that
-    a field cannot have raises ValueError, and changes nothing.
+    `read`, `from_keyword`, `from_json` and `from_yaml` return decks. Values are set as attributes of blocks. A value
+    that a field cannot have raises ValueError and changes nothing.
     """
 
     def to_json(self) -> str:
@@ -66,13 +66,13 @@ class Deck(TypedDeck):
         """Set one value, as `mudline set` does: `deck.set("SEABED PROPERTIES[TDZ].friction", (0.3, 0.5))`.
 
         Args:
-            path: `KEYWORD.field`; of several records the one of a set or a name, `KEYWORD[TDZ].field`, or the N-th,
-                `KEYWORD[N].field`.
-            value: a number or a text; rows, for a table; several values, for a field that has them.
+            path: `KEYWORD.field`. If there are several records, `KEYWORD[TDZ].field` is that of a set or a name, and
+                `KEYWORD[N].field` the N-th.
+            value: a number or a text; rows for a table; several values for a field of several values.
 
         Raises:
             ValueError: no keyword has such a field; the deck has no such value, several, or an equation there; or the
-                field cannot have the value. The deck is as before then.
+                field cannot have the value. The deck is then unchanged.
         """
         from mudline.editing.assignment.assigning import set_value  # noqa: PLC0415 - most scripts set attributes
 
@@ -80,12 +80,12 @@ class Deck(TypedDeck):
         set_value(self, path, value)
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the deck to a file in one step: keyword text, or JSON or YAML, by its suffix.
+        """Write the deck to a file in one step: keyword text, JSON or YAML, by its suffix.
 
-        Keyword text that was read keeps its encoding and line ends, and every line that was not changed its bytes.
+        Keyword text that was read keeps its encoding and line ends. Unchanged lines keep their bytes.
 
         Raises:
-            OSError: the file cannot be written; one that was there is as before.
+            OSError: the file cannot be written; an existing file remains unchanged.
             DeckError: a name, comment or raw line cannot be written in a keyword file.
         """
         file = given_path(path)
@@ -104,25 +104,24 @@ class Deck(TypedDeck):
 class Scene:
     """A deck resolved: equations evaluated, sets expanded, everything as arrays in the deck's units; X is up.
 
-    `Deck.scene` makes scenes; `contact` makes the evaluator. n nodes, m elements. Its arrays cannot be
-    written: they are those that are evaluated.
+    `Deck.scene` returns scenes; `contact` returns the evaluator. The scene has n nodes and m elements. Its arrays are
+    read-only: evaluation uses the same arrays.
     """
 
     def __init__(self, resolved: scenes.Scene) -> None:
-        expect(resolved, "resolved", scenes.Scene, "what Deck.scene makes scenes of")
+        expect(resolved, "resolved", scenes.Scene, "the resolved scene of a deck")
         self._resolved = resolved
 
     def __repr__(self) -> str:
         return repr(self._resolved)
 
     def _repr_html_(self) -> str:
-        """Counts, laws, curves and sets, for notebooks."""
+        """Return counts, laws, curves and sets for notebooks."""
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
         from mudline.model.results.summary_tables import OPEN  # noqa: PLC0415 - as above
 
-        sets = [
-            (one.name, _members(len(one.elements), is_open=one.open)) for one in self._resolved.set_table.named.values()
-        ]
+        groups = self._resolved.set_table.named.values()
+        sets = [(group.name, _members(len(group.elements), is_open=group.open)) for group in groups]
         some_open = any(isinstance(number, str) for _, number in sets)
         counts = (
             ("nodes", len(self.node_ids)),
@@ -148,7 +147,7 @@ class Scene:
 
     @property
     def source(self) -> str:
-        """The deck: the file that it was made from, or its own."""
+        """Path of the file from which the deck was made, or of the deck."""
         return self._resolved.source
 
     @property
@@ -207,21 +206,24 @@ class Scene:
 
     @property
     def curves(self) -> ByName[ForceCurve]:
-        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
+        """The force-embedment curves by name, found without case; a curve of `*EMBEDMENT` has the name of its set.
 
-        Of two curves of one name the later one holds, a named one before that of a set.
+        The later of two curves of one name applies; a named curve comes before that of a set.
         """
         return self._resolved.curves
 
     def contact(self, tension: Literal["keep", "cut"] = "keep", *, backend: Backend = "auto") -> ContactModel:
-        """The evaluator of this scene, with only the stages it needs.
+        """Return the evaluator of this scene, with only the stages it needs.
 
-        `tension` "cut" sets force and stiffness of curves to 0 where they pull. `backend` "fast" steps through history
-        with compiled loops (extra `mudline[fast]`), "numpy" never does, "auto" does where a series is so long that
-        compiling pays.
+        Args:
+            tension: "cut" sets force and stiffness of curves to 0 where the force is tensile.
+            backend: "fast" steps through history with compiled loops (extra `mudline[fast]`), "numpy" never does,
+                "auto" does for series long enough to pay for compilation.
 
-        Raises ImportError where "fast" is not installed, and DeckError for the findings that keep the scene from being
-        evaluated, and (RUN001) for what no check covers, as a deck without elements.
+        Raises:
+            ImportError: "fast" is not installed.
+            DeckError: findings prevent evaluation, or (RUN001) a fault that no check covers, as a deck without
+                elements.
         """
         expect_word(tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         if not len(self.element_ids):
@@ -231,13 +233,14 @@ class Scene:
         return self._resolved.contact(tension, backend=backend)
 
     def rest_shape(self) -> Positions:
-        """Return the resting shape: positions of all nodes under weight and contents alone, no load case solved.
+        """Return the resting shape: positions of all nodes under weight and contents alone, without a load case.
 
-        A line hangs as a catenary between its held ends, the upper one moved by the `*OFFSET` of its vessel, lies at
-        static embedment, and bends about its touchdown. Nodes of lines without such a shape are NaN, and False in
-        `.present`.
+        A line hangs as a catenary between its held ends; the upper end is moved by the `*OFFSET` of its vessel. The
+        line lies at static embedment and bends near its touchdown. Nodes of lines without such a shape are NaN, and
+        False in `.present`.
 
-        Raises DeckError: no line has one (the reason of the first is in the message), or the deck cannot be evaluated.
+        Raises DeckError if no line has a resting shape (the message gives the reason of the first line), or if the deck
+        cannot be evaluated.
         """
         from mudline.tools.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - decks alone do without it
 
@@ -245,7 +248,7 @@ class Scene:
 
 
 def _members(number: int, *, is_open: bool) -> int | str:
-    """How many elements a set has; a text where it may have more, which are not read."""
+    """Return the number of elements of a set; a text if the set may have more elements that were not read."""
     return (f"{number}+" if number else "not known") if is_open else number
 
 
@@ -253,8 +256,8 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
     """Read a deck from a keyword, JSON or YAML file, by its suffix.
 
     Args:
-        path: the file. For the text of a deck there are `from_keyword`, `from_json` and `from_yaml`.
-        units: "metric", "imperial" or "user", instead of what the file tells.
+        path: the file. `from_keyword`, `from_json` and `from_yaml` read the text of a deck.
+        units: "metric", "imperial" or "user", in place of the units in the file.
 
     Raises:
         OSError: the file cannot be read.
@@ -269,16 +272,15 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
     """Read positions of a scene's nodes, at one or more times, from a file, a pandas frame or an xarray data set.
 
     Args:
-        path: a CSV with the columns `[time,]node,x,y,z[,vx,vy,vz]`, in the units of the deck, an NPZ or NPY, or what
-            MoorDyn and OrcaFlex write; a frame with the columns of the CSV; a data set with `positions` over `time`,
+        path: a CSV with the columns `[time,]node,x,y,z[,vx,vy,vz]` in the units of the deck, an NPZ or NPY, or an
+            output of MoorDyn or OrcaFlex; a frame with the columns of the CSV; a data set with `positions` over `time`,
             `node` and an axis, or that array alone.
-        scene: whose nodes they are. Nodes that are lacking are NaN, and False in `.present`.
-        columns: headings of a CSV or frame whose columns have other names, as in `{"x": "Z (m)"}`.
+        scene: the scene of the nodes. Missing nodes are NaN, and False in `.present`.
+        columns: headings of columns with other names in a CSV or frame, as in `{"x": "Z (m)"}`.
 
     Raises:
         OSError: the file cannot be read.
-        DeckError: it has faults, or nodes that the scene lacks, or is without numbers and in another order than that of
-            ascending ones.
+        DeckError: the file has faults or unknown nodes, or has no node numbers while those of the scene do not ascend.
     """
     from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
     from mudline.model.scene.given_positions import require_order  # noqa: PLC0415 - as above
@@ -291,25 +293,25 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
         raise ValueError(f"columns: no column {', '.join(unknown)}; expected some of {', '.join(positions.COLUMNS)}")
     resolved = scene._resolved  # noqa: SLF001 - a class of this module
     if any(hasattr(path, name) for name in ("iloc", "dims")):
-        given = positions.positions_of(path, resolved.nodes, headings)
-        return require_order(given, resolved, f"<{type(path).__name__}>")
+        placed = positions.positions_of(path, resolved.nodes, headings)
+        return require_order(placed, resolved, f"<{type(path).__name__}>")
     file = given_path(path)
     of_program = not headings and file.suffix.lower() not in {".npz", ".npy"}
-    found = read_returned(file, resolved) if of_program else None
-    if found is not None:
-        return found
+    returned = read_returned(file, resolved) if of_program else None
+    if returned is not None:
+        return returned
     return require_order(positions.read_positions(file, resolved.nodes, headings), resolved, file.as_posix())
 
 
 def contact_warnings(
     scene: Scene, result: ContactResult, positions: Floats | Positions | None = None
 ) -> list[ContactWarning]:
-    """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
+    """Return the warnings about a result of `scene.contact().evaluate(positions)`, in the order of the deck.
 
-    `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
-    coordinates, whose reaction is compared with the submerged weight.
+    `positions` are the evaluated ones, (nodes, 3) or (steps, nodes, 3). None stands for the deck's own coordinates, at
+    which the reaction is compared with the submerged weight.
 
-    Raises ValueError where result or positions are not those of the scene.
+    Raises ValueError if result or positions do not belong to the scene.
     """
     from mudline.model.contact.arrays import Positions  # noqa: PLC0415 - decks alone do without it
     from mudline.model.contact.result import ContactResult as Result  # noqa: PLC0415 - as above
@@ -326,11 +328,11 @@ def contact_warnings(
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
     """Return the deck of a keyword text, or of the bytes of a keyword file.
 
-    Files that the deck names are not looked for: a text has no folder.
+    Files that the deck names are not read: a text has no folder.
 
     Args:
         text: the text, with any line ends. Bytes are UTF-8, CP1252 or Latin-1.
-        units: "metric", "imperial" or "user", instead of what the text tells.
+        units: "metric", "imperial" or "user", in place of the units in the text.
 
     Raises:
         DeckError: the text cannot be read; `.diagnostics` has the places.
@@ -364,13 +366,13 @@ Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 def lint(
     path: Paths, *, select: Iterable[str] = (), ignore: Iterable[str] = (), units: str | None = None
 ) -> list[Diagnostic]:
-    """Return all findings in decks, file by file in the order of each; never raises for their content.
+    """Return all findings in decks, file by file, each in the order of the file; never raises for their content.
 
     Args:
-        path: a file, a folder with decks below it, or several of them; its configuration includes and excludes files.
+        path: a file, a folder searched for decks, or several of them; its configuration includes and excludes files.
         select: rules by code, prefix of a code, or slug; all rules if empty.
-        ignore: rules that are left out, named the same way.
-        units: "metric", "imperial" or "user", instead of what the files tell.
+        ignore: rules to leave out, named the same way.
+        units: "metric", "imperial" or "user", in place of the units in the files.
 
     Raises:
         OSError: a file cannot be read, or a folder has no deck.
@@ -380,37 +382,36 @@ def lint(
     files, units = decks_in(path, including=True), _units(units)
     words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
     rules = _chosen(*words)
-    found = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
-    return [*chain.from_iterable(found)]
+    listed = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
+    return [*chain.from_iterable(listed)]
 
 
 def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
-    """The files that are given, and the decks below folders that are, without what .gitignore files hide.
+    """Return the given files and the decks in given folders, without those hidden by .gitignore files.
 
-    Decks that the nearest configuration excludes are left out, those that it includes taken if `including`.
-    Raises FileNotFoundError for a folder without a deck, and ConfigurationError for a configuration that cannot be
-    used.
+    Decks that the nearest configuration excludes are left out; those that it includes are taken with `including`.
+    Raises FileNotFoundError for a folder without a deck, and ConfigurationError for an unusable configuration.
     """
     from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck  # noqa: PLC0415 - many name one file
 
-    one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
+    is_one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
     files, own = list[Path](), Configured()
 
     def wanted(file: str) -> bool:
         taken = own.includes(file) if including else is_in_any_form(file)
         return taken and not own.excludes(file) and may_be_deck(file)
 
-    for each in [path] if one else cast("Iterable[object]", path):
+    for each in [path] if is_one else cast("Iterable[object]", path):
         place = given_path(each, "save it to a file")
-        found = [Path(file) for _, file in Search(str(place)).files(wanted)] if place.is_dir() else [place]
-        if not found:
+        decks = [Path(file) for _, file in Search(str(place)).files(wanted)] if place.is_dir() else [place]
+        if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in this folder", str(place))
-        files += found
+        files += decks
     return files
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
-    """The deck of a text in a form. What no file can hold is replaced in a keyword text, and refused in a document."""
+    """Return the deck of a text in a form; invalid surrogates are replaced in keyword text, refused in a document."""
     expect(text, "text", (str, bytes), "str or bytes")
     errors = "replace" if form == KEYWORD else "surrogatepass"
     data = text if isinstance(text, bytes) else text.encode(errors=errors)
@@ -418,12 +419,12 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
 
 
 def given_deck(deck: Deck | str | os.PathLike[str], name: str = "deck") -> Deck:
-    """The deck that a function is given as an argument, read if it is given as a file."""
+    """Return the deck passed as an argument, read from its file if the argument is a path."""
     return deck if isinstance(deck, Deck) else read(given_path(deck, name=name))
 
 
 def public(deck: model.Deck) -> Deck:
-    """A deck that was read as users have it; raises DeckError when something in it could not be read."""
+    """Return the public form of a deck; raises DeckError if something in it could not be read."""
     return Deck(**vars(deck.require()))
 
 

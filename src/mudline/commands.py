@@ -1,4 +1,4 @@
-"""The commands as functions: they take a deck or its file, and return what the command of the name prints or writes."""
+"""Commands as functions: each takes a deck or its file and returns the content that the command prints or writes."""
 
 from __future__ import annotations
 
@@ -27,30 +27,30 @@ if TYPE_CHECKING:
     from mudline.checks.verdict import Judgement
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.comparison.superseded import Comparison
-    from mudline.editing.migration.migrating import Verdict
-    from mudline.tools.exporting.report import Report
+    from mudline.editing.migration.migrating import Verification
+    from mudline.tools.exporting.report import ExportReport
     from mudline.tools.touchdown_study.study import Study
 
 GivenDeck = Deck | str | os.PathLike[str]
 
 
-# ----------------------------------------------------------------------------------------------------- decks of decks
+# ------------------------------------------------------------------------------------------------------ changed decks
 
 
 @dataclass(frozen=True, kw_only=True)
 class ChangedFile:
-    """The new content of a deck's file."""
+    """New content of a deck's file."""
 
     content: bytes
     source: Deck
 
     @property
     def deck(self) -> Deck:
-        """The new deck; raises DeckError for one that cannot be read."""
+        """The new deck; raises DeckError if it cannot be read."""
         return _again(self.source, self.content)
 
     def content_as(self, name: str) -> bytes:
-        """The content in the form of a file of this name."""
+        """Return the content in the form given by a file name."""
         form = form_of(name)
         return self.content if form == form_of(self.source.file) else dump(self.deck, form).encode()
 
@@ -62,37 +62,40 @@ class ChangedFile:
 
 @dataclass(frozen=True, kw_only=True)
 class Fixed(ChangedFile):
-    """A deck with fixes made: the findings that are `fixed`, those that are `left`, and in `note` why not all are."""
+    """A deck with fixes made."""
 
     fixed: list[Diagnostic]
+    """Findings that were fixed."""
     left: list[Diagnostic]
+    """Findings that remain."""
     note: str
+    """Reason why some fixes were not made; "" for none."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Migrated(ChangedFile):
-    """A migrated deck: how many blocks were `replaced` by keyword, new `files` beside it by name, and the proof.
-
-    `verified` says what was compared, at how many positions; None where that was not asked for.
-    """
+    """A migrated deck."""
 
     replaced: dict[str, int]
+    """Number of replaced blocks by keyword."""
     files: dict[str, bytes]
-    verified: Verdict | None
+    """New files next to the deck, by name."""
+    verified: Verification | None
+    """Comparison of results and the number of positions; None unless verification was asked for."""
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the deck, and the new files beside it; raises OSError."""
+        """Write the deck, and the new files next to it; raises OSError."""
         for name, content in self.files.items():
             write_atomically(given_path(path).with_name(name), content)
         super().write(path)
 
 
 def format(deck: GivenDeck) -> Deck:  # noqa: A001 - the name of the command
-    """Return the deck in canonical layout, comments kept: `write` writes it so.
+    """Return the deck in canonical layout with its comments, which `write` keeps.
 
     Raises:
         DeckError: the deck has an error.
-        ValueError: formatting would lose or change something; the message says what.
+        ValueError: formatting would lose or change something; the message names it.
     """
     from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - each function brings what it needs
 
@@ -101,13 +104,13 @@ def format(deck: GivenDeck) -> Deck:  # noqa: A001 - the name of the command
 
 
 def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = (), unsafe: bool = False) -> Fixed:
-    """Make the fixes of findings that cannot change a result, `unsafe` the others too.
+    """Make the fixes of findings that cannot change a result; with `unsafe`, all other fixes too.
 
     Args:
-        deck: a deck, or its file, which may also be one that cannot be read as it is.
-        select: rules by code, prefix of a code, or slug; the default ones if empty.
-        ignore: rules that are left out, named the same way.
-        unsafe: make fixes too that may change what the deck means.
+        deck: a deck, or its file, which may have read errors.
+        select: rules by code, prefix of a code, or slug; the default rules if empty.
+        ignore: rules to leave out, named the same way.
+        unsafe: also make fixes that may change the meaning of the deck.
 
     Raises:
         OSError: the file cannot be read.
@@ -131,12 +134,12 @@ def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = 
 
 
 def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
-    """Rewrite the legacy seabed keywords of a deck in the new family; without any it stays as it is.
+    """Rewrite the superseded seabed keywords of a deck in the new family; a deck without them is returned unchanged.
 
     `verify` evaluates old and new deck around every point of every curve.
 
     Raises:
-        DeckError: the deck has errors, or says what the new family cannot.
+        DeckError: the deck has errors, or states something that the new family cannot express.
         ValueError: with `verify`, results differ.
     """
     from mudline.editing.migration.migrating import legacy_blocks  # noqa: PLC0415 - as above
@@ -145,33 +148,32 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
     current = _again(given, _content(given))
-    made = migrated(current, continuations_beside(current) if legacy_blocks(current) else ([], False), verify=verify)
-    if made.verified and made.verified.differences:
-        texts = "; ".join(f"{one.what}: {one.text}" for one in made.verified.differences[:3])
+    result = migrated(current, continuations_beside(current) if legacy_blocks(current) else ([], False), verify=verify)
+    if result.verified and result.verified.differences:
+        texts = "; ".join(f"{difference.what}: {difference.text}" for difference in result.verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
-    return made if made.replaced else replace(made, content=_content(given))
+    return result if result.replaced else replace(result, content=_content(given))
 
 
 def migrated(deck: Deck, beside: tuple[list[str], bool], *, verify: bool) -> Migrated:
-    """The migrated form of a deck as it was read, also where the proof fails; without `content` if nothing changes.
+    """Return the migrated form of a deck as read, also if verification fails; without `content` if nothing changes.
 
-    `beside` has the names of decks that continue it with a seabed of their own, and whether any has a model of its own.
+    `beside` has the names of decks that continue this deck with a seabed of their own, and True if any of them has a
+    model of its own.
     """
     from mudline.editing.migration import migrating  # noqa: PLC0415 - as above
 
     continued_by, extended = beside
     with naming_causes(deck):
-        made = migrating.migrate(deck, continued_by, extended=extended)
-    verified = migrating.verify(made) if verify and made.replaced else None
-    return Migrated(
-        content=made.content, source=deck, replaced=dict(made.replaced), files=made.files, verified=verified
-    )
+        new = migrating.migrate(deck, continued_by, extended=extended)
+    verified = migrating.verify(new) if verify and new.replaced else None
+    return Migrated(content=new.content, source=deck, replaced=dict(new.replaced), files=new.files, verified=verified)
 
 
 def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
-    """Return the decks that `*VARIATION` and `*COMBINATIONS` describe, one after the other, each with its name.
+    """Return the decks that `*VARIATION` and `*COMBINATIONS` describe, each with its name, made one at a time.
 
-    Raises DeckError for a deck with errors, and for what cannot be expanded.
+    Raises DeckError for a deck with errors, and for variations that cannot be expanded.
     """
     from mudline.editing.variations.planning import plan  # noqa: PLC0415 - as above
 
@@ -181,13 +183,13 @@ def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
 
 
 def _content(deck: Deck) -> bytes:
-    """The content of a deck's file as `Deck.write` would write it."""
+    """Return the content of a deck's file as `Deck.write` would write it."""
     form = form_of(deck.file)
     return keyword_file(deck.alone) if form == KEYWORD else dump(deck.alone, form).encode()
 
 
 def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
-    """The deck of a changed content, in the place of a deck."""
+    """Return the deck of a changed content, with file name, units and folder of the original deck."""
     return public(load_bytes(content, name or deck.file, units=deck.units, folder=deck.folder))
 
 
@@ -200,8 +202,8 @@ def validate(
     """Return the judgement on each deck: its `verdict` (`ok`, counts, `str()`), its `errors` and its `warnings`.
 
     Args:
-        path: a file, a folder with decks below it, or several of them.
-        units: "metric", "imperial" or "user", instead of what the files tell.
+        path: a file, a folder searched for decks, or several of them.
+        units: "metric", "imperial" or "user", in place of the units in the files.
 
     Raises:
         OSError: a file cannot be read, or a folder has no deck.
@@ -213,11 +215,11 @@ def validate(
 
 
 def show(deck: GivenDeck) -> Overview:
-    """Return what a deck holds: its `summary`, the `sheet` of its elements, and its `errors`.
+    """Return the contents of a deck: its `summary`, the `sheet` of its elements, and its `errors`.
 
     Raises:
         OSError: the file cannot be read.
-        DeckError: it is not a deck. One with errors is shown as far as it can be read.
+        DeckError: the file is not a deck. A deck with errors is shown as far as it can be read.
     """
     from mudline.checks.overview import overview  # noqa: PLC0415 - as above
 
@@ -225,18 +227,18 @@ def show(deck: GivenDeck) -> Overview:
 
 
 def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict: bool = False) -> Comparison:
-    """Return what differs between two decks in meaning, whatever their forms, layout and order; or between two folders.
+    """Return the differences in meaning between two decks or two folders, whatever their forms, layout and order.
 
     Args:
-        before: a deck, or its file, or a folder, whose decks are compared with those of the same path below `after`.
-        after: the other one; places and values that `before` lacks are "added".
-        tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger one.
+        before: a deck, its file, or a folder, whose decks are compared with those of the same path below `after`.
+        after: the second deck or folder; places and values that `before` lacks are "added".
+        tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger number.
         strict: count differences of spelling in superseded keywords as `differences` too.
 
     Raises:
         DeckError: one of two decks has errors; one of many in folders has the `status` "failed".
-        OSError: one of two files cannot be read, or there is no deck in both folders.
-        ValueError: one of them is a folder, the other is not.
+        OSError: one of two files cannot be read, or the folders have no deck in common.
+        ValueError: one argument is a folder, the other is not.
     """
     from mudline.editing.comparison.folders import compare_folders  # noqa: PLC0415 - as above
     from mudline.editing.comparison.superseded import Comparison, compare_decks  # noqa: PLC0415 - as above
@@ -256,8 +258,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
         decks = list(compare_folders(folders[0], folders[1], tolerance, strict=strict))
         if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
-        differences = [each for one in decks for each in one.comparison.differences]
-        return Comparison(differences, [each for one in decks for each in one.comparison.spelling], decks)
+        differences = [each for deck in decks for each in deck.comparison.differences]
+        return Comparison(differences, [each for deck in decks for each in deck.comparison.spelling], decks)
     first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
     return compare_decks(first, second, tolerance, strict=strict)
 
@@ -265,11 +267,11 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
 def diff_matrix(
     before: GivenDeck, decks: Iterable[GivenDeck], *, tolerance: float = 0.0, strict: bool = False
 ) -> list[DiffRow]:
-    """Return the values that are not the same in a family of decks: each with its `values`, that of `before` first.
+    """Return the values that differ within a family of decks: each with its `values`, that of `before` first.
 
     Args:
-        before: the deck with which the others are compared, or its file.
-        decks: the others, or their files.
+        before: the deck, or its file, with which the others are compared.
+        decks: the other decks, or their files.
         tolerance: as in `diff`.
         strict: as in `diff`.
 
@@ -283,14 +285,14 @@ def diff_matrix(
 
 
 class Export(NamedTuple):
-    """The model of a deck for another program: `files` by name, and the `report` of what does not carry over.
-
-    `notes` say what holds of a resting shape; there are none at the deck's own coordinates.
-    """
+    """The model of a deck for another program."""
 
     files: dict[str, str]
-    report: Report
+    """Texts of the files by name."""
+    report: ExportReport
+    """Keywords that do not carry over."""
     notes: tuple[str, ...] = ()
+    """Remarks on a resting shape; none at the deck's own coordinates."""
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Write the files into a folder; raises OSError."""
@@ -304,8 +306,8 @@ def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "
     Args:
         deck: a deck, or its file.
         to: "moordyn" or "orcaflex".
-        name: of the main file; that of the deck, with the other program's suffix, if empty.
-        rest_shape: export the resting shape, and its points as NAME-rest.csv; a line without one stays where it is.
+        name: name of the main file; if empty that of the deck, with the suffix of the program.
+        rest_shape: export the resting shape, and its points as NAME-rest.csv; a line without one keeps its coordinates.
 
     Raises:
         DeckError: the deck has errors on which the model depends, or no line has a resting shape.
@@ -342,17 +344,17 @@ def study(
     period: float | None = None,
     tracked: Callable[[Sequence[str]], Iterable[str]] = iter,
 ) -> Study:
-    """Return the study of a deck's touchdown zone: errors over run time, stiff and extreme cases, what it needs.
+    """Return the study of a deck's touchdown zone: errors over run time, stiff and extreme cases, recommended settings.
 
     Args:
         deck: a deck, or its file.
         only: some of "accuracy", "stability" and "pruning"; all if empty.
-        heave: amplitude of the hang-off in the deck's units, instead of what its waves give.
-        period: that of its motion, likewise.
-        tracked: goes through the names of the parts and shows how far it is, as `tqdm` does.
+        heave: amplitude of the hang-off in the deck's units, in place of that of its waves.
+        period: period of the motion, in place of that of its waves.
+        tracked: iterates over the names of the parts and shows progress, as `tqdm` does.
 
     Raises:
-        DeckError: the deck has errors, or cannot be evaluated. Where it has no touchdown zone, `.advice.text` says why.
+        DeckError: the deck has errors, or cannot be evaluated. `.advice.text` says why a deck has no touchdown zone.
         ValueError: `only` names no part, or an amplitude or a period is not above 0.
     """
     from mudline.tools.touchdown_study import study as studies  # noqa: PLC0415 - as above
@@ -384,20 +386,20 @@ def report(  # noqa: PLR0913 - as many as the command has options
     template: str | os.PathLike[str] | None = None,
     logo: str | os.PathLike[str] | None = None,
 ) -> list[dict[str, Any]]:
-    """Write a page about a deck to be signed, or an index with a page a deck; returns the rows of the index.
+    """Write a page about a deck to be signed, or an index with a page for each deck. Return the rows of the index.
 
     Args:
-        decks: a deck, its file or a folder with decks below it; or several of them.
-        path: the page; of several decks or a folder the index, with the pages in a folder beside it.
+        decks: a deck, its file or a folder searched for decks; or several of them.
+        path: the page; for several decks or a folder the index, with the pages in a folder next to it.
         sections: some of verdict, findings, inputs, model, curves, contact, study and plan; all but study if empty.
         rest_shape: evaluate contact at the resting shape, not at the deck's own coordinates.
-        title: what stands at its head, in place of the deck's own.
-        document: its number.
-        revision: its revision.
-        date: its date.
-        fields: what else is to stand there, by name.
+        title: title of the page, in place of the deck's own.
+        document: number of the document.
+        revision: revision of the document.
+        date: date of the document.
+        fields: further entries of the head, by name.
         template: a jinja2 template, which may extend "page.html".
-        logo: a picture for its head, .svg or .png.
+        logo: a picture for the head, .svg or .png.
 
     Raises:
         OSError: a file cannot be read or written, or a folder has no deck.
@@ -414,30 +416,30 @@ def report(  # noqa: PLR0913 - as many as the command has options
     expect(fields, "fields", (Mapping, NoneType), "texts by name")
     for name, value in (("title", title), ("document", document), ("revision", revision), ("date", date)):
         expect(value, name, (str, NoneType), "a str")
-    head = content.Document(title, document, revision, date, tuple((fields or {}).items()))
+    head = content.PageHead(title, document, revision, date, tuple((fields or {}).items()))
     pictured = [
         None if file is None else given_path(file, name=name) for file, name in ((template, "template"), (logo, "logo"))
     ]
     look = content.Look(*pictured)
-    wanted = (tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
+    choice = (tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
     alone = [decks] if isinstance(decks, Deck | str | os.PathLike) else None
-    them: list[GivenDeck] = alone or several(
+    listed: list[GivenDeck] = alone or several(
         decks, "decks", (Deck, str, os.PathLike), "decks, or their files or folders"
     )
-    given: list[content.Given] = []
-    many = len(them) > 1
-    for each in them:
+    inputs: list[content.DeckFile] = []
+    many = len(listed) > 1
+    for each in listed:
         if isinstance(each, Deck):
-            given.append(content.Given(_content(each), each.file, each.folder))
+            inputs.append(content.DeckFile(_content(each), each.file, each.folder))
         else:
             place = given_path(each, "save it to a file", name="decks")
-            given += [content.Given(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]
+            inputs += [content.DeckFile(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]
             many = many or place.is_dir()
-    if not given:
+    if not inputs:
         raise ValueError("decks must be one or more, not none")
-    made = pages.Pages(given_path(path), lambda file, text: write_atomically(file, text.encode()), several=many)
+    written = pages.Pages(given_path(path), lambda file, text: write_atomically(file, text.encode()), several=many)
     settings = nearest_settings()
-    for one in given:
-        made.add(pages.make_page(one, settings.of(one.name), wanted), one.name)
-    made.finish(look)
-    return made.rows
+    for item in inputs:
+        written.add(pages.make_page(item, settings.of(item.name), choice), item.name)
+    written.finish(look)
+    return written.rows

@@ -1,6 +1,6 @@
-"""The classes of the keywords, such as `Ocean` of `*OCEAN`: what `Deck.blocks` finds and `Deck.add` takes.
+"""Classes of the keywords, such as `Ocean` of `*OCEAN`: `Deck.blocks` finds and `Deck.add` takes them.
 
-`help(mudline.keywords.Ocean)` says what the fields mean, with units, ranges and defaults.
+`help(mudline.keywords.Ocean)` explains the fields, with units, ranges and defaults.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ _ENTRIES = {entry.name: entry for entry in ENTRIES if not entry.kept}
 
 
 def __getattr__(name: str) -> type[Block]:
-    """A class, whose module is imported when it is first used."""
+    """Import the module of a class when the class is first used."""
     if name not in _ENTRIES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = globals()[name] = catalogue.load(_ENTRIES[name])
-    found.__doc__ = "\n".join([f"*{_ENTRIES[name].keyword}: {found.summary}", "", *field_lines(found)])
-    return found
+    declared = globals()[name] = catalogue.load(_ENTRIES[name])
+    declared.__doc__ = "\n".join([f"*{_ENTRIES[name].keyword}: {declared.summary}", "", *field_lines(declared)])
+    return declared
 
 
 def __dir__() -> list[str]:

@@ -1,4 +1,4 @@
-"""What packages with rules of their own need: see docs/plugins.md."""
+"""Names that packages with rules of their own import: see docs/plugins.md."""
 
 from __future__ import annotations
 

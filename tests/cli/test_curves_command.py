@@ -23,7 +23,7 @@ ratio  ratio  [N/m]  [N/m]  [N/m]     [N/m2]
     0    0.1      0   1000  10000      20000
   0.1    0.5   1000   3000   5000      10000
 
-Below its first and above its last point a force-embedment curve goes on with the slope of its end segment.
+A force-embedment curve continues beyond its first and last point with the slope of its end segment.
 """
 
 VALUES = """\
@@ -272,7 +272,7 @@ def test_ends_are_continued_only_where_a_page_says_so(place: Place) -> None:
     ]
     text = run("curves", place(LINEAR + OTHERS)).out
     assert "beyond the last it keeps its value (inferred)" in text
-    assert "goes on with the slope" not in text
+    assert "with the slope of its end segment" not in text
     assert "[m/s per m]" in text
 
 

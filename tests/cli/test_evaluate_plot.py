@@ -67,7 +67,7 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     [
         (("--plot-elements", "1"), "--plot-elements: force over penetration needs time steps, and this is one state"),
         (("--positions", "steps.csv", "--plot-elements", "1,7"), "no evaluated element has the number 7"),
-        (("--plot-elements", "1,b"), "--plot-elements: 'b' is not a number of an element; give numbers as 12,13"),
+        (("--plot-elements", "1,b"), "--plot-elements: 'b' is not an element number; give numbers as 12,13"),
     ],
 )
 def test_what_cannot_be_drawn_is_wrong_usage(

@@ -108,8 +108,8 @@ def test_files_that_the_deck_names_are_not_copied_and_that_is_told(place: Place)
     place("", "c d")
     outcome = run("expand", name, "-o", "out")
     assert outcome.err.splitlines()[:-1] == [
-        "mudline: beds/a.txt: the deck names it and it is not copied: put it beside the new decks",
-        "mudline: c d: the deck names it and it is not copied: put it beside the new decks",
+        "mudline: beds/a.txt: this file, which the deck names, is not copied: put it next to the new decks",
+        "mudline: c d: this file, which the deck names, is not copied: put it next to the new decks",
     ]
     for side in ("Near", "Far"):
         place("", f"out/{side}/c d")

@@ -7,7 +7,7 @@ from unittest.mock import patch
 
 import pytest
 
-from mudline.editing.migration.migrating import Difference, Verdict
+from mudline.editing.migration.migrating import MigrationDifference, Verification
 from mudline.language.deck.loading import load_bytes, load_path
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run
@@ -77,7 +77,9 @@ def test_verify(place: Place) -> None:
 
 def test_a_deck_that_would_change_its_meaning_is_left_as_it_is(place: Place) -> None:
     name = place(SAMPLE)
-    verdict = Verdict(12, 4, 100, 8, (Difference("element 3", "force at depth 0.1: 1.0 before, 2.0 after"),))
+    verdict = Verification(
+        12, 4, 100, 8, (MigrationDifference("element 3", "force at depth 0.1: 1.0 before, 2.0 after"),)
+    )
     with patch("mudline.editing.migration.migrating.verify", return_value=verdict):
         outcome = run("migrate", "--verify", name)
     assert outcome.code == 1

@@ -24,7 +24,7 @@ from mudline.language.diagnostics import DeckError, Diagnostic, Severity, Where
 from mudline.language.syntax.source import Source
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.scene.model import resolve
-from mudline.tools.reporting.content import Given, report_on
+from mudline.tools.reporting.content import DeckFile, report_on
 from tests.cli.runner import run
 
 NAME = "deck.keyxm"
@@ -65,7 +65,9 @@ _VERDICTS: dict[str, Callable[[bytes], bool | None]] = {
     "validate": lambda data: judge_content(data, NAME, None, None).verdict.ok,
     "evaluate": _evaluates,
     "show": lambda data: not overview(load_bytes(data, NAME)).errors,
-    "report": lambda data: report_on(Given(data, NAME, None), LintSettings(rules()), ["verdict"]).json["verdict"]["ok"],
+    "report": lambda data: report_on(DeckFile(data, NAME, None), LintSettings(rules()), ["verdict"]).json["verdict"][
+        "ok"
+    ],
 }
 
 

@@ -24,7 +24,7 @@ import mudline
 from mudline.checks.configuration import CallerSettings, Configuration
 from mudline.checks.engine import lint_bytes
 from mudline.checks.settings import merged_settings
-from mudline.tools.lsp.documents import Document
+from mudline.tools.lsp.documents import OpenDocument
 from mudline.tools.lsp.server import DeckServer
 from mudline.tools.lsp.serving import quiet_logs, register
 
@@ -62,7 +62,7 @@ class _Input:
 class _Server(DeckServer):
     """A server that checks at once."""
 
-    def _schedule(self, document: Document, delay: float = 0.0) -> None:
+    def _schedule(self, document: OpenDocument, delay: float = 0.0) -> None:
         super()._schedule(document, 0.0 * delay)
 
 

@@ -1,1 +1,1 @@
-"""What every layer uses and what knows no deck: files, limits, numbers and names as they are shown, arguments."""
+"""Basics that every layer uses and that know no deck: files, limits, display of numbers and names, arguments."""

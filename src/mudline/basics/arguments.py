@@ -1,4 +1,4 @@
-"""What public functions are given: what cannot be used is refused with an error that names the argument."""
+"""Checks of the arguments of public functions: a bad one is refused with an error that names it."""
 
 from __future__ import annotations
 
@@ -16,33 +16,33 @@ from mudline.basics.short_repr import cut
 
 
 class ArgumentKindError(TypeError, ValueError):
-    """An argument is not of the kind that is expected: for callers that catch either."""
+    """Argument of another type than the expected one; callers may catch it as TypeError or as ValueError."""
 
 
 class ArgumentRangeError(IndexError, ValueError):
-    """A number of something that is not there."""
+    """Number of something that does not exist."""
 
 
 def expect(value: object, name: str, kind: type | tuple[type, ...], expected: str) -> None:
-    """Raise ArgumentKindError for an argument that is not of a kind, which `expected` says in words."""
+    """Raise ArgumentKindError unless the value is of the type `kind`, which `expected` names in words."""
     if not isinstance(value, kind):
         raise ArgumentKindError(f"{name} must be {expected}, not {type(value).__name__}")
 
 
 def expect_fields(holder: object, kinds: Mapping[str, tuple[Any, str]]) -> None:
-    """Raise ArgumentKindError for a field that is not of its kind, given with words for it by the field's name."""
+    """Raise ArgumentKindError for an attribute of the wrong type; `kinds` has type and its words by attribute name."""
     for name, (kind, expected) in kinds.items():
         expect(getattr(holder, name), name, kind, expected)
 
 
 def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: str) -> None:
-    """Raise ValueError for an argument that is not one of the allowed words, which `expected` lists."""
+    """Raise ValueError unless the value is one of the allowed words, which `expected` lists."""
     if not isinstance(value, str) or value not in allowed:
         raise ValueError(f"{name} must be {expected}, not {cut(repr(value), 60)}")
 
 
 def expect_number(value: object, name: str, *, or_zero: bool = False) -> None:
-    """Raise ValueError for an argument that is not a number above 0, or 0 where it may be."""
+    """Raise ValueError unless the value is a positive number, or 0 with `or_zero`."""
     expect(value, name, (int, float), "a number")
     number = cast("float", value)
     if not (0.0 < number < math.inf or (or_zero and number == 0.0)):
@@ -50,15 +50,15 @@ def expect_number(value: object, name: str, *, or_zero: bool = False) -> None:
 
 
 def several(values: object, name: str, kind: type | tuple[type, ...], expected: str) -> list[Any]:
-    """An argument as a list. Raises ArgumentKindError for what is not several of a kind: one str is not its letters."""
-    found = list(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else None
-    if found is None or not all(isinstance(each, kind) for each in found):
+    """Return the values as a list; raises ArgumentKindError unless all are of a type. A str is not several letters."""
+    items = list(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else None
+    if items is None or not all(isinstance(each, kind) for each in items):
         raise ArgumentKindError(f"{name} must be {expected}, not {cut(repr(values), 60)}")
-    return found
+    return items
 
 
 def as_array(values: ArrayLike, name: str) -> NDArray[Any]:
-    """An argument as an array. Raises ValueError for rows of different lengths."""
+    """Return the values as an array; raises ValueError for rows of different lengths."""
     try:
         return np.asarray(values)
     except ValueError as error:
@@ -66,7 +66,7 @@ def as_array(values: ArrayLike, name: str) -> NDArray[Any]:
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """A view of an array that others hold too, through which it cannot be changed."""
+    """Return a view of an array through which the array cannot be changed."""
     view = array.view()
     view.flags.writeable = False
     return view
@@ -78,7 +78,7 @@ _YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MU
 
 
 def given_path(given: object, advice: str = "use mudline.{}(text)", *, name: str = "path") -> Path:
-    """The path that is given; raises ValueError for the text of a deck, TypeError for what is not a path."""
+    """Return the argument as a path; raises ValueError for the text of a deck, TypeError for anything but a path."""
     path = os.fspath(given) if isinstance(given, os.PathLike) else given
     text = bytes(path).decode("utf-8-sig", "replace") if isinstance(path, bytes | bytearray) else path
     function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
@@ -92,7 +92,7 @@ def given_path(given: object, advice: str = "use mudline.{}(text)", *, name: str
 
 
 def _function_for(text: str) -> str | None:
-    """Name of the function that reads a text; None for what may be a path."""
+    """Return the name of the function that reads a text, or None for a text that may be a path."""
     several = any(end in text for end in "\r\n")
     if text.lstrip().startswith("{"):
         return "from_json" if several or text.rstrip().endswith("}") else None

@@ -1,4 +1,4 @@
-"""Tables as people read them: one list of columns, whether for a terminal or for a page."""
+"""Tables for people: one list of columns serves terminal and page."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import Any
 from mudline.basics.quantities import headed
 
 Cell = str | int | float | tuple[str, str] | None
-"""What a table shows: a text, a number, a text and its style, nothing."""
+"""Content of a cell: a text, a number, a text with its style, or nothing."""
 Value = str | int | Callable[[Any], Cell]
-"""The name of a key or an attribute of a row, its place in a row, or what makes a cell of a row."""
+"""Source of a cell: a key, attribute or index of the row, or a function of the row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,10 +21,10 @@ class DisplayColumn:
 
     Attributes:
         heading: one line or several.
-        value: what a cell is.
-        unit: stands below the heading; "" for none.
-        left: aligned left and folded where it is too wide, as text is; numbers are aligned right.
-        whole: never folded, as a path.
+        value: source of the cells.
+        unit: written below the heading; "" for none.
+        left: aligned left and wrapped where too wide, as text; numbers are aligned right.
+        whole: never wrapped, as a path.
         optional: left out where all its cells are empty.
     """
 
@@ -41,7 +41,7 @@ class DisplayColumn:
         return headed(self.heading, self.unit)
 
     def cell(self, row: Any) -> Cell:  # noqa: ANN401 - rows of JSON, or objects
-        """Return what the column shows of a row."""
+        """Return the cell of a row."""
         if callable(self.value):
             return self.value(row)
         by_name = isinstance(self.value, str) and not isinstance(row, Mapping)
@@ -50,11 +50,11 @@ class DisplayColumn:
 
 
 number = DisplayColumn
-"""A column of numbers."""
+"""Column of numbers, with the arguments of DisplayColumn."""
 
 
 text = partial(DisplayColumn, left=True)
-"""A column of texts."""
+"""Column of texts, with the arguments of DisplayColumn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,19 +67,21 @@ class DisplayTable:
     note: str = ""
 
     def cells(self) -> list[list[Cell]]:
-        """Return what each row shows."""
+        """Return the cells, row by row."""
         return [[column.cell(row) for column in self.columns] for row in self.rows]
 
     def filled(self) -> DisplayTable:
         """Return the table without optional columns whose cells are all empty."""
         cells = list(zip(*self.cells(), strict=True)) or [()] * len(self.columns)
         kept = [
-            one for one, given in zip(self.columns, cells, strict=True) if not one.optional or any(map(_is_full, given))
+            column
+            for column, values in zip(self.columns, cells, strict=True)
+            if not column.optional or any(map(_is_full, values))
         ]
         return replace(self, columns=kept)
 
     def first(self, most: int | None, words: str) -> DisplayTable:
-        """Return the table with the first rows (None: all), and how many more there are in its note."""
+        """Return the table with the first `most` rows (None: all); its note counts the rows left out."""
         left = 0 if most is None else len(self.rows) - most
         return replace(self, rows=self.rows[:most], note=f"{left} {words}") if left > 0 else self
 

@@ -1,4 +1,4 @@
-"""Files: whole contents written by atomic replacement, which files were looked at, and which are open elsewhere."""
+"""Files: atomic writing, paths that a result depends on, and texts that are open in an editor."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ PLOT_FORMS = ("png", "svg", "pdf")
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
 _NEW = 0o666
 _PRIVATE = 0o600
-"""Of a file that replaces another: until it has the permissions of the other one, nobody else reads it."""
+"""Permissions of a temporary file that replaces a file, until it gets those of the replaced file."""
 
 _MARK = ".mudline"
-"""The end of the names of temporary files: those that a killed run left are known by it."""
+"""Suffix of the names of temporary files, by which those of a killed run are recognised."""
 _RANDOM = 8
 """Random bytes in the name of a temporary file."""
 _TEMPORARY = re.compile(rf"\.(.*\.)?[0-9a-f]{{{2 * _RANDOM}}}{re.escape(_MARK)}", re.DOTALL)
-"""Names that `_new_beside` gives."""
+"""Names that `_new_beside` makes."""
 
 _tidied: set[str] = set()
-"""Folders in which this run has looked for what killed runs left."""
+"""Folders already searched by this run for temporary files of killed runs."""
 
 _LOOKED_AT: ContextVar[dict[str, None] | None] = ContextVar("looked_at", default=None)
 
 
 @contextmanager
 def recording_looks() -> Iterator[dict[str, None]]:
-    """Collect the paths that `look` is called with, each once, in order, until the block ends."""
+    """Collect the paths that `look` is called with until the block ends: each once, in order."""
     paths: dict[str, None] = {}
     token = _LOOKED_AT.set(paths)
     try:
@@ -47,7 +47,7 @@ def recording_looks() -> Iterator[dict[str, None]]:
 
 
 def look(path: Path) -> Path:
-    """Return the path, of which is now known that a result depends on what is there, or on nothing being there."""
+    """Return the path and record that a result depends on the file there, or on its absence."""
     reading(path)
     paths = _LOOKED_AT.get()
     if paths is not None:
@@ -56,7 +56,12 @@ def look(path: Path) -> Path:
 
 
 class Unsaved(NamedTuple):
-    """A file that is open in an editor: the number of its text, which changes with it, and the text as a file."""
+    """A file that is open in an editor.
+
+    Attributes:
+        revision: number of the text, which grows with each change.
+        content: the text as the bytes of a file.
+    """
 
     revision: int
     content: Callable[[], bytes]
@@ -67,7 +72,7 @@ _UNSAVED: ContextVar[Mapping[str, Unsaved] | None] = ContextVar("unsaved", defau
 
 @contextmanager
 def with_unsaved(files: Mapping[str, Unsaved]) -> Iterator[None]:
-    """Let `unsaved` know files that are open in an editor, by their absolute paths, until the block ends."""
+    """Make files that are open in an editor known to `unsaved`, by their absolute paths, until the block ends."""
     token = _UNSAVED.set(files)
     try:
         yield
@@ -76,18 +81,18 @@ def with_unsaved(files: Mapping[str, Unsaved]) -> Iterator[None]:
 
 
 def unsaved(path: Path) -> Unsaved | None:
-    """Return the text that an editor has of a file, which holds before that on the disk; None where it has none."""
+    """Return the text of a file that is open in an editor, which replaces that on the disk; None for any other file."""
     files = _UNSAVED.get()
     return files.get(os.path.abspath(path)) if files else None  # noqa: PTH100 - as in `look`
 
 
 def suffix_of(path: str | os.PathLike[str]) -> str:
-    """The suffix of a file, which names its format: in lower case, without the dot."""
+    """Return the suffix of a file, which names its format, in lower case without the dot."""
     return PurePath(path).suffix.lower().removeprefix(".")
 
 
 def form_of_file(path: str | os.PathLike[str], forms: Collection[str]) -> str:
-    """The form of a file to write, by its suffix; raises ValueError for one that is not among the forms."""
+    """Return the form of a file to write, by its suffix; raises ValueError unless it is among `forms`."""
     form = suffix_of(path)
     if form not in forms:
         *others, last = (f".{name}" for name in forms)
@@ -96,10 +101,10 @@ def form_of_file(path: str | os.PathLike[str], forms: Collection[str]) -> str:
 
 
 def write_atomically(path: Path, data: bytes | Iterable[bytes | memoryview], *, synced: bool = True) -> None:
-    """Write a file, whole or in pieces as they come, as `replacement` does it.
+    """Write a file by `replacement`, from bytes or from pieces as they are made.
 
-    What is not `synced` is not waited for until it is on the disk: for files with a checksum, that can be made again.
-    Raises OSError, and whatever making the pieces raises; the old file is then still there.
+    Without `synced`, the function does not wait until the data are on the disk: for files with a checksum that can be
+    made again. Raises OSError, and any error of making the pieces; the old file then remains.
     """
     with replacement(path, synced=synced) as stream:
         stream.writelines([data] if isinstance(data, bytes) else data)
@@ -107,13 +112,13 @@ def write_atomically(path: Path, data: bytes | Iterable[bytes | memoryview], *, 
 
 @contextmanager
 def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
-    """A temporary file beside `path` to write to, which replaces it in one step when all is written.
+    """Open a temporary file next to `path` for writing; it replaces `path` in one step when the block ends.
 
-    Permissions are kept, owner and group where this user may give files to them, and a symbolic link stays one: the
-    file that it points to is replaced. Other hard links to the file keep its old content. What is not a regular file,
-    such as a terminal or a pipe, is written to directly. Raises OSError; the old file is then still there.
+    Permissions are kept, and owner and group where this user may set them. Of a symbolic link the target is replaced;
+    other hard links keep the old content. Anything but a regular file, such as a terminal or a pipe, is written to
+    directly. Raises OSError; the old file then remains.
 
-    What a killed run has left in the folder is removed.
+    Temporary files of killed runs are removed from the folder.
     """
     if path.exists() and not path.is_file():
         with path.open("wb") as stream:  # a directory says here that it is one
@@ -152,10 +157,10 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
 
 @contextmanager
 def alone_at(path: Path, waiting: Callable[[], None] | None = None, *, made: bool = False) -> Iterator[None]:
-    """Let no other run of this program be in such a block for a file; one that is there is waited for.
+    """Let only one run of this program at a time be in such a block for a file; other runs wait.
 
-    `waiting` is called before that, and a missing file is `made`. Runs do not wait for each other on Windows, nor where
-    files cannot be opened or locked.
+    `waiting` is called before this run waits, and with `made` a missing file is created. Runs do not wait on Windows,
+    nor where files cannot be opened or locked.
     """
     handle = _alone(path, waiting, os.O_CREAT if made else 0)
     try:
@@ -166,7 +171,7 @@ def alone_at(path: Path, waiting: Callable[[], None] | None = None, *, made: boo
 
 
 def _alone(path: Path, waiting: Callable[[], None] | None, flags: int) -> int | None:
-    """A handle of a file that only this run has locked; None where there is none."""
+    """Return a handle of a file that this run has locked, or None where files cannot be opened or locked."""
     if sys.platform == "win32":
         return None
     import fcntl  # noqa: PLC0415 - as below
@@ -188,11 +193,11 @@ def _alone(path: Path, waiting: Callable[[], None] | None, flags: int) -> int | 
         except BaseException:
             os.close(handle)
             raise
-        os.close(handle)  # the run that was waited for has put another file there
+        os.close(handle)  # the other run has replaced the file
 
 
 def _sync_folder(folder: Path) -> None:
-    """Wait until the disk has the new name of a file; a folder that may not be read is left to the system."""
+    """Wait until the disk has the new name of a file, unless the folder may not be read."""
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:
@@ -202,9 +207,9 @@ def _sync_folder(folder: Path) -> None:
 
 
 def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:
-    """Give a file the owner and the group of another one, as far as this user may, and its permissions.
+    """Give a new file the permissions of the old one, and its owner and group as far as this user may.
 
-    A program that runs as its owner does not become one that runs as this user.
+    If owner or group cannot be set, setuid and setgid bits are dropped.
     """
     bits = old.st_mode & 0o7777
     if sys.platform != "win32":
@@ -225,10 +230,10 @@ def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:
 
 
 def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
-    """An open and locked new file in the folder of another one; the system takes its mask for new files off the mode.
+    """Return a new file in the folder of `target`, open and locked; the system's mask for new files applies to `mode`.
 
-    One that another run took for left behind, before it was locked, is given up. A signal that ends the run leaves
-    none, also between the making of the file and its first line.
+    A file that another run removed as left over, before it was locked here, is given up and made again. A signal that
+    ends the run leaves no file, not even between creation and the first line.
     """
     while True:
         path = target.with_name(f".{target.name[:40]}.{os.urandom(_RANDOM).hex()}{_MARK}")
@@ -246,9 +251,9 @@ def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
 
 
 def _locked(handle: int) -> bool | None:
-    """Whether a file is now locked until it is closed, by this run; None where files cannot be locked.
+    """Lock a file until it is closed. Return False if another run has it, and None where files cannot be locked.
 
-    The lock says that a temporary file is in use. On Windows, that it is open says so.
+    The lock marks a temporary file as in use. On Windows an open file cannot be removed anyway.
     """
     if sys.platform == "win32":
         return None
@@ -264,10 +269,10 @@ def _locked(handle: int) -> bool | None:
 
 
 def remove_left(folder: str) -> None:
-    """Remove the temporary files of a folder that no run has in use."""
+    """Remove the temporary files of a folder that no run uses."""
     with suppress(OSError), os.scandir(folder) as entries:
         for path in [
-            one.path for one in entries if _TEMPORARY.fullmatch(one.name) and one.is_file(follow_symlinks=False)
+            entry.path for entry in entries if _TEMPORARY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)
         ]:
             with suppress(OSError):  # it is another user's, or in use
                 _remove_left(path)

@@ -1,4 +1,4 @@
-"""Small tables of HTML, which notebooks show of an object: every text is escaped, long lists are cut."""
+"""Small HTML tables that notebooks show for an object: all text is escaped, long lists are cut."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ def html_page(title: str, summary: str, *tables: str) -> str:
 
 
 def html_table(headings: Sequence[str], rows: Iterable[Sequence[Cell]], count: int) -> str:
-    """Return a table of the first rows, and how many of `count` are left out; "" where there is none.
+    """Return a table of the first rows, with a line that counts those left out of `count`; "" if `count` is 0.
 
-    Texts stand at the left, numbers at the right in at most six digits, None is an empty cell.
+    Texts are aligned left. Numbers are aligned right, with at most six digits. None is an empty cell.
     """
     if not count:
         return ""
@@ -54,5 +54,5 @@ def _cell(value: Cell) -> str:
 
 
 def _text(text: str, most: int = SHOWN_LETTERS) -> str:
-    """A text as HTML has it; half a surrogate pair, as a name may hold, is escaped."""
+    """Return a text escaped for HTML; half a surrogate pair, as a name may hold, becomes an escape sequence."""
     return escape(cut(text, most).encode("utf-8", "backslashreplace").decode())

@@ -1,6 +1,6 @@
-"""What is installed beside mudline, and what installs more of it: the extras.
+"""Installed packages next to mudline, and the commands that install its extras.
 
-The folders on Python's path show it without their packages being read.
+The folders on Python's path are listed; the packages are not imported.
 """
 
 from __future__ import annotations
@@ -17,22 +17,21 @@ _METADATA = (".dist-info", ".egg-info")
 
 
 def install_hint(extra: str) -> str:
-    """Return the command that installs an extra, in the quotes that every shell takes: cmd.exe keeps single ones."""
+    """Return the command that installs an extra, in double quotes, which every shell accepts."""
     return f'python -m pip install "mudline[{extra}]"'
 
 
 def metadata_folders() -> Iterator[str]:
-    """The folders with what is known of each package; those inside archives are left out."""
+    """Yield the metadata folder of each installed package; those inside archives are left out."""
     for place in dict.fromkeys(sys.path):
         with suppress(OSError), os.scandir(place or ".") as entries:
             yield from [f"{place or '.'}/{entry.name}" for entry in entries if entry.name.lower().endswith(_METADATA)]
 
 
 def may_declare(group: str) -> bool:
-    """Whether a package may have entry points of a group.
+    """Return False if no installed package has entry points of a group; True means that one may.
 
-    False is certain. To read the entry points of all packages takes longer than to look for one word in them, and most
-    people have no such package.
+    Most people have no such package, and searching the files for one word is quicker than reading all entry points.
     """
     if any(hasattr(finder, "find_distributions") for finder in sys.meta_path if finder is not PathFinder):
         return True
@@ -50,23 +49,22 @@ def _entry_points(folder: str) -> bytes:
 
 
 def project_addresses(name: str) -> dict[str, str]:
-    """The addresses that an installed package names, by their labels in lower case; empty where it is not found.
+    """Return the addresses that an installed package gives, by their labels in lower case; empty if not installed.
 
-    Its metadata are read as far as the description: the library for all of them takes as long to import as to print
-    what is remembered.
+    Its metadata are read up to the description, without importlib.metadata, whose import takes too long.
     """
-    wanted = _normal(name)
+    normal_name = _normal(name)
     for folder in metadata_folders():
-        if _normal(os.path.basename(folder).partition("-")[0].removesuffix(".egg")) != wanted:  # noqa: PTH119 - hundreds
+        if _normal(os.path.basename(folder).partition("-")[0].removesuffix(".egg")) != normal_name:  # noqa: PTH119 - hundreds
             continue
         for file in ("METADATA", "PKG-INFO"):
             with suppress(OSError, UnicodeDecodeError), open(f"{folder}/{file}", encoding="utf-8") as stream:  # noqa: PTH123 - see above
                 lines = takewhile(str.strip, stream)
-                given = [line.partition(":")[2].partition(",") for line in lines if line.startswith("Project-URL:")]
-                return {label.strip().lower(): address.strip() for label, _, address in given}
+                urls = [line.partition(":")[2].partition(",") for line in lines if line.startswith("Project-URL:")]
+                return {label.strip().lower(): address.strip() for label, _, address in urls}
     return {}
 
 
 def _normal(name: str) -> str:
-    """The name of a package as those that mean the same one are compared."""
+    """Return a package name in the normal form of PEP 503, for comparison."""
     return re.sub("[-_.]+", "-", name).lower()

@@ -1,4 +1,4 @@
-"""Which files a deck may name: those outside of its project are read, but not shown, and may be refused."""
+"""Files that a deck may name: those outside its project are read but not shown, and may be refused."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from functools import lru_cache
 from pathlib import Path, PurePath
 
 _PROJECT = (".git", "mudline.toml", "pyproject.toml")
-"""What the folder of a project has: a repository or a configuration."""
+"""Names that mark the folder of a project: a repository or a configuration."""
 _NO_FILES = ("/proc", "/sys", "/dev")
-"""Folders whose files are no files: what is read there is made by the system."""
+"""Folders of virtual files, whose content the system makes when they are read."""
 
 _NO_TEXT = "its text is not shown, as the file lies outside of the project"
 _AT_LINE = re.compile(r"line \d+")
@@ -23,7 +23,7 @@ _REFUSES: ContextVar[Callable[[Path], bool] | None] = ContextVar("refuses", defa
 
 @contextmanager
 def refusing_outside(refuses: Callable[[Path], bool]) -> Iterator[None]:
-    """Until the block ends, decks of the folders for which `refuses` is true name no file outside of their project."""
+    """Forbid decks in folders for which `refuses` is true to name files outside their project, until the block ends."""
     token = _REFUSES.set(refuses)
     try:
         yield
@@ -33,33 +33,33 @@ def refusing_outside(refuses: Callable[[Path], bool]) -> Iterator[None]:
 
 @lru_cache(maxsize=256)
 def project_of(folder: Path) -> Path:
-    """The folder of the project that a folder is in: the nearest with a repository or a configuration, else itself."""
+    """Return the nearest folder with a repository or a configuration, from a folder upwards; else the folder itself."""
     here = Path(os.path.realpath(folder))
-    for each in (here, *here.parents):
-        if any(os.path.exists(each / name) for name in _PROJECT):  # noqa: PTH110 - Path raises where nobody may search
-            return each
+    for parent in (here, *here.parents):
+        if any(os.path.exists(parent / name) for name in _PROJECT):  # noqa: PTH110 - Path raises where nobody may search
+            return parent
     return here
 
 
 def is_outside(path: Path, folder: Path) -> bool:
-    """Whether a path, with all links followed, leads out of the project of the deck's folder."""
+    """Return True if a path, with links followed, lies outside the project of the deck's folder."""
     return not Path(os.path.realpath(path)).is_relative_to(project_of(folder))
 
 
 def is_refused(path: Path, folder: Path) -> bool:
-    """Whether a deck in a folder may not name the file: it lies outside of the project, and that is refused."""
+    """Return True if decks in a folder are forbidden to name the file because it lies outside their project."""
     refuses = _REFUSES.get()
     return refuses is not None and is_outside(path, folder) and refuses(folder)
 
 
 def is_made_by_system(path: Path) -> bool:
-    """Whether a path leads, with all links followed, to a file that only looks like one."""
+    """Return True if a path, with links followed, leads to a virtual file of the system."""
     real = PurePath(os.path.realpath(path))
     return any(real.is_relative_to(each) for each in _NO_FILES)
 
 
 def without_text(fault: str, path: Path, folder: Path | None) -> str:
-    """What is wrong with a file, without a text of it where it lies outside of the project: the line remains."""
+    """Return the description of a fault in a file; for a file outside the project only the line, without its text."""
     if folder is None or not is_outside(path, folder):
         return fault
     line = _AT_LINE.search(fault)

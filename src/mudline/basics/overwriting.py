@@ -1,4 +1,4 @@
-"""Files that a run reads and files that it writes: none is both, and no two outputs are one file."""
+"""Protection of the files of a run: no output is also an input or another output."""
 
 from __future__ import annotations
 
@@ -15,17 +15,23 @@ from mudline.basics.paths import relative_path
 
 StrPath = str | os.PathLike[str]
 _Identity = tuple[int, int] | str
-"""Device and number of a regular file, whatever it is called; the real path of one that is not there yet."""
+"""Device and inode of a regular file, whatever its name; the real path of a file that does not exist yet."""
 
 _STDIN = "standard input"
 
 
 class OverwriteError(Exception):
-    """An output of a run is a file that it reads, or that it also writes under another name."""
+    """Conflict of an output of a run with an input, or with another output of a different name."""
 
 
-class Output(NamedTuple):
-    """An output: the option that asks for it, "" for none, the name in messages, and the absolute path."""
+class ClaimedOutput(NamedTuple):
+    """An output of a run.
+
+    Attributes:
+        option: the option that names it; "" for none.
+        name: the name in messages.
+        path: the absolute path.
+    """
 
     option: str
     name: str
@@ -35,43 +41,43 @@ class Output(NamedTuple):
         return f"{self.option} {self.name}".lstrip()
 
 
-Outputs = dict[_Identity, Output]
+ClaimedOutputs = dict[_Identity, ClaimedOutput]
 
 
 @dataclass(slots=True)
-class Run:
-    """The files that a run has read, by their names then, and its outputs."""
+class RunFiles:
+    """Outputs of a run, and the files that it has read with the names by which it read them."""
 
-    outputs: Outputs = field(default_factory=dict)
+    outputs: ClaimedOutputs = field(default_factory=dict)
     read: dict[_Identity, str] = field(default_factory=dict)
 
 
-_RUN: ContextVar[Run | None] = ContextVar("run", default=None)
+_RUN: ContextVar[RunFiles | None] = ContextVar("run", default=None)
 
 
 @contextmanager
 def refusing_overwriting() -> Iterator[None]:
     """Let `reading` and `claim` raise OverwriteError until the block ends."""
-    token = _RUN.set(Run())
+    token = _RUN.set(RunFiles())
     try:
         yield
     finally:
         _RUN.reset(token)
 
 
-def outputs() -> Outputs:
-    """Return the outputs that are known of this run, for `continue_run`."""
+def outputs() -> ClaimedOutputs:
+    """Return the outputs known in this run, to be passed to `continue_run`."""
     run = _RUN.get()
     return {} if run is None else run.outputs
 
 
-def continue_run(known: Outputs) -> None:
-    """Refuse in this process what the run refuses that started it."""
-    _RUN.set(Run(known))
+def continue_run(known: ClaimedOutputs) -> None:
+    """Refuse in this process whatever the run that started it refuses."""
+    _RUN.set(RunFiles(known))
 
 
 def reading(path: StrPath | None) -> None:
-    """Note a file that the run reads, None for standard input; raises OverwriteError for one that is an output."""
+    """Record a file that the run reads, None for standard input; raises OverwriteError if it is an output."""
     run = _RUN.get()
     identity = None if run is None else _identity(path)
     if run is None or identity is None:
@@ -85,16 +91,16 @@ def reading(path: StrPath | None) -> None:
 
 
 def claim(path: StrPath, option: str = "") -> None:
-    """Note a file that the run writes.
+    """Record a file that the run writes.
 
-    An option claims its output when the command line is read. What is written later without an option may be the
-    output of an option, by the same path. Raises OverwriteError for a file that the run reads, and for another output.
+    An option claims its output when the command line is read. A later claim without an option may name the same path as
+    an option. Raises OverwriteError if the file is an input, or an output of another claim.
     """
     run = _RUN.get()
     if run is None:
         return
     absolute = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
-    output = Output(option, os.fspath(path), absolute)
+    output = ClaimedOutput(option, os.fspath(path), absolute)
     if (read := _read_as(run, path)) is not None:
         raise _refusal(output, read)
     identity = _identity(path) or _real(path)
@@ -111,8 +117,8 @@ def is_read(path: StrPath) -> bool:
     return run is not None and _read_as(run, path) is not None
 
 
-def _read_as(run: Run, path: StrPath) -> str | None:
-    """Return the name by which the run has read a file; numbers of files that are gone are given to new ones."""
+def _read_as(run: RunFiles, path: StrPath) -> str | None:
+    """Return the name by which the run has read a file, or None; inodes of deleted files may belong to new files."""
     identity = _identity(path)
     read = None if identity is None else run.read.get(identity)
     if read == _STDIN:
@@ -120,32 +126,32 @@ def _read_as(run: Run, path: StrPath) -> str | None:
     return read if read is not None and _is_same(read, path) else None
 
 
-def _refusal(output: Output, read: str) -> OverwriteError:
+def _refusal(output: ClaimedOutput, read: str) -> OverwriteError:
     absolute = read != _STDIN and os.path.isabs(read)  # noqa: PTH117 - text
     shown = relative_path(read) if absolute else read.replace(os.sep, "/")
     return OverwriteError(f"{output} would replace {shown}, which this run reads: give another name")
 
 
 def _identity(path: StrPath | None) -> _Identity | None:
-    """Return the device and the number of a regular file, None for standard input; None for anything else."""
+    """Return device and inode of a regular file, or of standard input for None; None for any other kind of file."""
     try:
-        found = os.fstat(sys.stdin.fileno()) if path is None else os.stat(path)  # noqa: PTH116 - Path raises for long names
+        status = os.fstat(sys.stdin.fileno()) if path is None else os.stat(path)  # noqa: PTH116 - Path raises for long names
     except (OSError, ValueError, AttributeError):  # standard input is closed, or no stream of the system
         return None
-    return (found.st_dev, found.st_ino) if S_ISREG(found.st_mode) else None
+    return (status.st_dev, status.st_ino) if S_ISREG(status.st_mode) else None
 
 
 def _real(path: StrPath) -> str | None:
-    """Return the real path of a file that is not there yet; None for what is there and is not a regular file."""
+    """Return the real path of a file that does not exist yet; None for an existing file that is not regular."""
     try:
         return None if os.path.exists(path) else os.path.normcase(os.path.realpath(path))  # noqa: PTH110 - as above
     except (OSError, ValueError):
         return None
 
 
-def _is_same(one: StrPath, other: StrPath) -> bool:
-    """Return True if two paths lead to one file, or would if both were there."""
+def _is_same(first: StrPath, second: StrPath) -> bool:
+    """Return True if two paths lead to one file, or would if both existed."""
     try:
-        return os.path.samefile(one, other)  # noqa: PTH121 - as above
+        return os.path.samefile(first, second)  # noqa: PTH121 - as above
     except (OSError, ValueError):
-        return _real(one) is not None and _real(one) == _real(other)
+        return _real(first) is not None and _real(first) == _real(second)

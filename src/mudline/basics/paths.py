@@ -1,4 +1,4 @@
-"""Paths as they are shown and recorded: from a folder, with `/`, also where Windows has another drive."""
+"""Paths as displayed and recorded: relative to a folder and with `/`, also across Windows drives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Patterns of paths as a `.gitignore` has them, each a regular expression."""
+"""Path patterns in the syntax of `.gitignore`, translated to regular expressions."""
 
 from __future__ import annotations
 
@@ -13,10 +13,16 @@ _FOLDERS = "(?:[^/]*/)*"
 _MEMBER = re.compile(r"\\?(.)(?:-\\?([^]]))?")
 
 
-class Pattern(NamedTuple):
-    """A pattern: what it fits, whether it takes back what patterns before it say (`!`), whether it means folders only.
+class PathPattern(NamedTuple):
+    """A pattern of a path.
 
-    A pattern with a "/" before its end is matched against `whole` paths, any other against each name on its own.
+    A pattern with a "/" before its end is matched against the whole path, any other pattern against each name.
+
+    Attributes:
+        expression: the regular expression.
+        whole: True if the pattern is matched against whole paths.
+        negated: True if a match cancels earlier patterns (`!`).
+        folders_only: True if the pattern matches only folders.
     """
 
     expression: re.Pattern[str]
@@ -25,7 +31,7 @@ class Pattern(NamedTuple):
     folders_only: bool
 
     def ends(self, path: str) -> Iterator[int]:
-        """Where the beginnings of a path end that are fitted: folders above it, and last the path itself."""
+        """Yield the end of each leading part of a path that matches: folders from the top, then the path itself."""
         start = 0
         for name in path.split("/"):
             end = start + len(name)
@@ -34,7 +40,7 @@ class Pattern(NamedTuple):
             start = end + 1
 
     def fits(self, path: str, *, folder: bool) -> bool:
-        """Whether a path itself is fitted."""
+        """Return True if the path itself matches."""
         return (folder or not self.folders_only) and self._fits(path, path.rfind("/") + 1, len(path))
 
     def _fits(self, path: str, start: int, end: int) -> bool:
@@ -42,8 +48,8 @@ class Pattern(NamedTuple):
 
 
 @cache
-def read_pattern(line: str) -> Pattern | None:
-    """The pattern in a line of a `.gitignore`; None for a blank line, a comment, and what can fit nothing."""
+def read_pattern(line: str) -> PathPattern | None:
+    """Return the pattern in a line of a `.gitignore`; None for a blank line, a comment or an invalid pattern."""
     text = _without_trailing_spaces(line.rstrip("\r\n"))
     if not text or text.startswith("#"):
         return None
@@ -51,20 +57,20 @@ def read_pattern(line: str) -> Pattern | None:
     text = text[negated:]
     body = text.removesuffix("/")
     whole = "/" in body
-    body = _ESCAPED.sub(lambda found: "/" if found[0] == r"\/" else found[0], body.removeprefix("/"))
+    body = _ESCAPED.sub(lambda match: "/" if match[0] == r"\/" else match[0], body.removeprefix("/"))
     expression = _expression(body, whole=whole) if body and body[0] != "/" else None
-    return Pattern(expression, whole, negated, text.endswith("/")) if expression else None
+    return PathPattern(expression, whole, negated, text.endswith("/")) if expression else None
 
 
 def matches(path: str, lines: Iterable[str]) -> bool:
-    """Whether a relative path with "/", or a folder above it, fits patterns, as in a `.gitignore`.
+    """Return True if a relative path with "/", or a folder above it, matches the patterns of a `.gitignore`.
 
-    Of those that fit one of them, the last counts.
+    For each folder or file the last matching pattern decides.
     """
-    said: dict[int, bool] = {}
+    verdicts: dict[int, bool] = {}
     for pattern in filter(None, map(read_pattern, lines)):
-        said.update(dict.fromkeys(pattern.ends(path), not pattern.negated))
-    return any(said.values())
+        verdicts.update(dict.fromkeys(pattern.ends(path), not pattern.negated))
+    return any(verdicts.values())
 
 
 def _without_trailing_spaces(text: str) -> str:
@@ -74,20 +80,20 @@ def _without_trailing_spaces(text: str) -> str:
 
 
 def _expression(body: str, *, whole: bool) -> re.Pattern[str] | None:
-    """The regular expression of a pattern; None for one that is not a pattern.
+    """Return the regular expression of a pattern; None for an invalid pattern.
 
-    The names between two `**`, and the letters between two `*`, are taken where they come first: what stands behind
-    them can be fitted there if it can be fitted anywhere.
+    Names between two `**`, and letters between two `*`, match at the first possible place: if the following part
+    matches at all, it matches there.
     """
     groups: list[list[str]] = [[]]
     for name in body.split("/") if whole else [body]:
         if whole and len(name) > 1 and not name.strip("*"):
             groups.append([])
             continue
-        one = _of_name(name)
-        if one is None:
+        part = _of_name(name)
+        if part is None:
             return None
-        groups[-1].append(one)
+        groups[-1].append(part)
     first, *between, last = ["/".join(group) for group in groups] if len(groups) > 1 else ["", "/".join(groups[0])]
     written = f"{first}/" if first else ""
     written += "".join(f"(?>{_FOLDERS}?{group}/)" for group in between if group)
@@ -100,28 +106,28 @@ def _expression(body: str, *, whole: bool) -> re.Pattern[str] | None:
 
 
 def _of_name(name: str) -> str | None:
-    """The regular expression of a pattern between two "/".
+    """Return the regular expression of a pattern between two "/"; None for an invalid pattern.
 
-    What follows a `*`, up to the next one, is taken where it comes first: a longer way round never fits more.
+    The text after a `*`, up to the next one, matches at its first possible place: a later place never matches more.
     """
     runs = [""]
     at = 0
     while at < len(name):
-        found = _PIECE.match(name, at)
-        if found is None or found["other"] in ("[", "\\") or "[:" in (found["set"] or ""):
+        piece = _PIECE.match(name, at)
+        if piece is None or piece["other"] in ("[", "\\") or "[:" in (piece["set"] or ""):
             return None
-        at = found.end()
-        if found["stars"]:
+        at = piece.end()
+        if piece["stars"]:
             runs.append("")
-        elif found["set"]:
-            runs[-1] += _of_set(found["set"], "^/" if found["not"] else "")
+        elif piece["set"]:
+            runs[-1] += _of_set(piece["set"], "^/" if piece["not"] else "")
         else:
-            runs[-1] += re.escape(found["plain"] or found["other"]) if found[0] != "?" else "[^/]"
+            runs[-1] += re.escape(piece["plain"] or piece["other"]) if piece[0] != "?" else "[^/]"
     first, *behind = runs
     return first + "".join(f"(?>[^/]*?{run})" for run in behind[:-1]) + (f"[^/]*{behind[-1]}" if behind else "")
 
 
 def _of_set(members: str, start: str) -> str:
-    """The regular expression of a class of characters, which never has a "/"."""
+    """Return the regular expression of a character class, which never matches "/"."""
     ranges = (re.escape(low) + (f"-{re.escape(high)}" if high else "") for low, high in _MEMBER.findall(members))
     return f"(?!/)[{start}{''.join(ranges)}]"

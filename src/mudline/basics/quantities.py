@@ -1,4 +1,4 @@
-"""The quantities of results with units and meaning, and how their values are written for people and for files."""
+"""Quantities of results: names, units and meaning, and the formatting of their values."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from typing import Any, Literal, NamedTuple
 from mudline.basics.short_repr import cut
 
 RESULT_FORMAT = "mudline-result/2"
-"""Name and version of the form of result files."""
+"""Name and version of the format of result files."""
 
 UNIT_SYSTEMS = ("metric", "imperial", "user")
 
 
 def checked_units(units: object) -> str:
-    """The name of a system of units; raises ValueError for what is none."""
+    """Return the name of a system of units; raises ValueError for an unknown name."""
     if not isinstance(units, str) or units not in UNIT_SYSTEMS:
         raise ValueError(f"units must be one of {', '.join(UNIT_SYSTEMS)}, not {cut(repr(units), 60)}")
     return units
 
 
 class UnitNames(NamedTuple):
-    """Names of units; empty where the deck's units are the user's own."""
+    """Names of units; empty for user units."""
 
     length: str
     force: str
@@ -34,7 +34,7 @@ class UnitNames(NamedTuple):
     """Force per length of pipe and length of penetration."""
 
     def behind(self, quantity: Literal["length", "force", "line_force", "stiffness"]) -> str:
-        """A unit as it is written behind a number, with a space; "" in user units."""
+        """Return a unit as written after a number, with a leading space; "" in user units."""
         unit: str = getattr(self, quantity)
         return f" {unit}" if unit else ""
 
@@ -45,34 +45,34 @@ _NONE = UnitNames("", "", "", "")
 
 
 def unit_names(units: str) -> UnitNames:
-    """The names of "metric", "imperial" or "user" units."""
+    """Return the unit names of "metric", "imperial" or "user" units."""
     return {"metric": _METRIC, "imperial": _IMPERIAL}.get(units, _NONE)
 
 
 def time_unit(units: str) -> str:
-    """The name of the unit of times; "" in user units."""
+    """Return the unit of time; "" in user units."""
     return "s" if unit_names(units).length else ""
 
 
 Names = tuple[str | None, ...]
 
 STATES: Names = ("free", "compression", "suction", "hold", "broken", None)
-"""Of an element with suction, by number; the last one stands for -1."""
+"""States of an element with suction, by index; the last stands for -1."""
 SLIDING: Names = ("open", "stick", "slip", None)
-"""Of a direction of a node with friction."""
+"""States of a direction of a node with friction, by index; the last stands for -1."""
 
 
 class Quantity(NamedTuple):
-    """What a column of results, or a figure of a step, is.
+    """A column of results, or a figure of a step.
 
     Attributes:
-        name: of the column, the array and the key.
-        meaning: for the documentation, Markdown.
+        name: name of the column, the array and the key.
+        meaning: text for the documentation, in Markdown.
         unit: a field of `UnitNames`; "" for none.
-        label: on the axis of a plot; the name where it is "".
-        names: the texts of a column of texts, whose values are indices; -1 is the last one, None.
-        vector: whether a value has three components.
-        over_steps: whether a step may change the value, even if nothing does in a scene.
+        label: label of a plot axis; the name where it is "".
+        names: texts of a column whose values are indices; the last, None, stands for -1.
+        vector: True if a value has three components.
+        over_steps: True if a step may change the value, even if nothing changes it in a given scene.
     """
 
     name: str
@@ -84,12 +84,12 @@ class Quantity(NamedTuple):
     over_steps: bool = True
 
     def unit_name(self, units: str) -> str:
-        """The name of the unit in a deck's units; "" for none."""
+        """Return the name of the unit in a system of units; "" for none."""
         name: str = getattr(unit_names(units), self.unit) if self.unit else ""
         return name
 
     def axis(self, units: str) -> str:
-        """The label of an axis with the unit in brackets."""
+        """Return the label of an axis with the unit in brackets."""
         return labelled(self.label or self.name, self.unit_name(units))
 
 
@@ -136,7 +136,7 @@ ELEMENTS = _by_name(
     Quantity("node1", "the node that it begins at", over_steps=False),
     Quantity("node2", "the node that it ends at", over_steps=False),
 )
-"""Of an element, in the order of the columns."""
+"""Columns of elements, in order."""
 
 NODES = _by_name(
     Quantity("node", "its number", over_steps=False),
@@ -162,7 +162,7 @@ NODES = _by_name(
         over_steps=False,
     ),
 )
-"""Of a node, in the order of the columns."""
+"""Columns of nodes, in order."""
 
 LINES = _by_name(
     Quantity("line", "its number, from 1", over_steps=False),
@@ -190,7 +190,7 @@ LINES = _by_name(
     Quantity("empty_weight", "the same without contents and masses", "force"),
     Quantity("ratio", "reaction / submerged weight"),
 )
-"""Of a line, in the order of the columns; `null` where there is none."""
+"""Columns of lines, in order; a value that does not exist is `null`."""
 
 STEPS = _by_name(
     Quantity("reaction", "total normal force on all nodes; `null` on a rigid seabed", "force", label="total reaction"),
@@ -209,7 +209,7 @@ STEPS = _by_name(
     Quantity("touching", "number of elements in contact", label="elements\nin contact"),
     Quantity("deepest", "largest depth of an element", "length", label="deepest\nembedment"),
 )
-"""Of a step: what is followed over time."""
+"""Figures of a step, as plotted over time."""
 
 CASES = _by_name(
     Quantity("deck", "the file, as it was given or found"),
@@ -246,33 +246,33 @@ CASES = _by_name(
     Quantity("warning_codes", "their codes, separated by spaces"),
     Quantity("result", "the file with its results, below the folder of `-o`"),
 )
-"""Of a deck among many: the worst over all lines and steps; `null` where there is none."""
+"""Columns of a deck among many: extremes over all lines and steps; a value that does not exist is `null`."""
 
 
 def labelled(text: str, unit: str) -> str:
-    """A label, with the unit in brackets behind it if it has one."""
+    """Return a label, followed by its unit in brackets if it has one."""
     return f"{text} [{unit}]" if unit else text
 
 
 def headed(name: str, unit: str) -> str:
-    """A heading: the name, and below it the unit in brackets if it has one."""
+    """Return a heading, with its unit in brackets on the next line if it has one."""
     return f"{name}\n[{unit}]" if unit else name
 
 
 def shown(value: float | None, digits: int = 6) -> str:
-    """A number in the shortest common form; "" for None and NaN."""
+    """Return a number in its shortest common form; "" for None and NaN."""
     if value is None or math.isnan(value):
         return ""
     return f"{value:.{digits}g}"
 
 
 def finite(value: float | None) -> float | None:
-    """A number that JSON can hold; None for what overflowed or is none."""
+    """Return a number that JSON can hold; None for infinity, NaN and None."""
     return value if value is not None and math.isfinite(value) else None
 
 
 def as_json(value: Any) -> Any:  # noqa: ANN401 - values of several kinds
-    """A value as JSON can hold it: named tuples as objects, others as lists, None for a number that overflowed."""
+    """Return a value that JSON can hold: named tuples as objects, tuples as lists, numbers that overflowed as None."""
     if isinstance(value, dict):
         return {name: as_json(each) for name, each in value.items()}
     if hasattr(value, "_asdict"):
@@ -283,7 +283,7 @@ def as_json(value: Any) -> Any:  # noqa: ANN401 - values of several kinds
 
 
 def csv_lines(rows: Iterable[Iterable[object]]) -> Iterator[str]:
-    """The lines with their ends (LF); None is an empty field, numbers read back to the same double."""
+    """Yield the lines of a CSV, each ended by LF; None is an empty field, numbers read back to the same double."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     for row in rows:

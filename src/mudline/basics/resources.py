@@ -1,4 +1,4 @@
-"""What mudline consists of: the grammar files, the pages of rules, the modules of a package that says what it has."""
+"""Data files and modules of the package: grammars, pages of rules, modules to import."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from types import ModuleType
 
 
 def grammar_file(name: str) -> Path:
-    """Path of the grammar file `name`: the package's own copy first, the checkout's second."""
+    """Return the path of the grammar file `name`: the package's own copy first, the checkout's second."""
     return _own_file(f"grammar/{name}")
 
 
 def rule_file(code: str) -> Path:
-    """Path of the page of a rule, in the package or the checkout."""
+    """Return the path of the page of a rule, in the package or the checkout."""
     return _own_file(f"docs/rules/{code}.md")
 
 
@@ -24,5 +24,5 @@ def _own_file(path: str) -> Path:
 
 
 def modules_of(package: str) -> list[ModuleType]:
-    """Import every module of a package, and of the packages in it; what they declare is there then."""
-    return [import_module(one.name) for one in walk_packages(import_module(package).__path__, f"{package}.")]
+    """Import every module of a package and of its subpackages, so that their declarations are known."""
+    return [import_module(module.name) for module in walk_packages(import_module(package).__path__, f"{package}.")]

@@ -1,4 +1,4 @@
-"""Representations of a line or two: names, counts and shapes instead of the data; the error about a name lists them."""
+"""Short representations: names, counts and shapes in place of data; errors that list the known names."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _SHORT_TUPLE = 4
 
 
 class UnknownNameError(KeyError):
-    """There is nothing of a name; the message says which names there are."""
+    """Unknown name; the message lists the known names."""
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
 
     @classmethod
     def among(cls, kind: str, name: object, names: Collection[str], hint: str = "") -> UnknownNameError:
-        """Return the error for a name that is not among `names`, those of things of a `kind` (`set`)."""
+        """Return the error for a name that is not among `names`, those of the objects of a `kind` (`set`)."""
         if not names:
             return cls(f"no {kind} {name!r}: there are no {kind}s")
         verb = "is" if len(names) == 1 else "are"
@@ -29,14 +29,14 @@ class UnknownNameError(KeyError):
 
 
 def short_repr(thing: object) -> str:
-    """Return class and fields of a dataclass or named tuple, arrays as shapes; classes use it as `__repr__`."""
-    shown = [one.name for one in fields(thing) if one.repr] if is_dataclass(thing) else getattr(thing, "_fields", ())
+    """Return class and fields of a dataclass or named tuple, arrays as shapes; for use as `__repr__`."""
+    shown = [item.name for item in fields(thing) if item.repr] if is_dataclass(thing) else getattr(thing, "_fields", ())
     return with_fields(thing, ((name, getattr(thing, name)) for name in shown))
 
 
-def with_fields(thing: object, given: Iterable[tuple[str, object]]) -> str:
-    """Return the class of a thing and its fields, arrays as shapes, in at most `LETTERS` characters."""
-    text = ", ".join(f"{name}={brief(value)}" for name, value in given)
+def with_fields(thing: object, values: Iterable[tuple[str, object]]) -> str:
+    """Return the class of an object and given fields, arrays as shapes, in at most `LETTERS` characters."""
+    text = ", ".join(f"{name}={brief(value)}" for name, value in values)
     return f"{type(thing).__name__}({cut(text, LETTERS - len(type(thing).__name__) - 2)})"
 
 
@@ -47,7 +47,7 @@ def outline(title: str, *parts: str) -> str:
 
 
 def brief(value: object) -> str:
-    """Return a value in a few words: numbers and short texts as they are, of anything else what and how many."""
+    """Return a value in a few words: numbers and short texts in full, otherwise the kind and size."""
     shape = getattr(value, "shape", None)
     if isinstance(value, Enum):
         text = value.name
@@ -68,7 +68,7 @@ def brief(value: object) -> str:
 
 
 def cut(text: str, most: int) -> str:
-    """Return a text in at most so many characters, with dots for what is left out."""
+    """Return a text in at most `most` characters, with dots in place of the omitted end."""
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
@@ -78,13 +78,13 @@ def counted(number: int, thing: str) -> str:
 
 
 def listed_numbers(numbers: Sequence[float]) -> str:
-    """Return the first numbers, and how many there are besides."""
+    """Return the first numbers, and the count of those left out."""
     more = f" and {len(numbers) - LISTED} more" if len(numbers) > LISTED else ""
     return ", ".join(map(repr, numbers[:LISTED])) + more
 
 
 def listed(names: Collection[str]) -> str:
-    """Return the first names in quotes, and how many there are besides."""
+    """Return the first names in quotes, and the count of those left out."""
     first = [repr(cut(name, SHOWN_LETTERS)) for name, _ in zip(names, range(LISTED), strict=False)]
     rest = len(names) - len(first)
     return ", ".join([*first, f"and {rest} more"] if rest else first)

@@ -1,4 +1,4 @@
-"""The version of mudline, which its tools print and write."""
+"""Version of mudline, which its tools print and write."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""The command line, a module for each command; and its exit codes."""
+"""Command line: a module for each command, and the exit codes."""
 
 from __future__ import annotations
 
 DONE = 0
 FOUND = 1
-"""Findings, or a deck that is illegal or cannot be processed."""
+"""Exit code for findings, or for a deck that is illegal or cannot be processed."""
 WRONG_USAGE = 2
-"""Wrong usage, or a path that cannot be read or written."""
+"""Exit code for wrong usage, or a path that cannot be read or written."""
 INTERRUPTED = 130
 CLOSED_PIPE = 141

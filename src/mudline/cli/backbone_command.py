@@ -1,4 +1,4 @@
-"""`mudline backbone`: a force-embedment curve of a published model, as lines for a deck."""
+"""Command `mudline backbone`: a force-embedment curve of a published model, as lines for a deck."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _DRAWN = 400
 
 
 def _strength(_context: click.Context, _parameter: click.Parameter, value: str) -> tuple[float, float]:
-    """`su0` or `su0,gradient` as two numbers."""
+    """Return `su0` or `su0,gradient` as two numbers."""
     try:
         numbers = [float(field) for field in value.split(",")]
     except ValueError:
@@ -40,10 +40,10 @@ def _strength(_context: click.Context, _parameter: click.Parameter, value: str) 
     callback=_strength,
     required=True,
     metavar="SU0[,GRADIENT]",
-    help="Undrained shear strength at the mudline, and its increase per depth (default 0).",
+    help="Undrained shear strength at the mudline, and its increase with depth (default: 0).",
 )
-@options.option("--weight", type=float, default=0.0, metavar="W", help="Submerged weight of the soil per volume.")
-@options.option("--depth", type=float, metavar="RATIO", help="Largest ratio z/D (default: as far as published).")
+@options.option("--weight", type=float, default=0.0, metavar="W", help="Submerged unit weight of the soil.")
+@options.option("--depth", type=float, metavar="RATIO", help="Largest ratio z/D (default: the published limit).")
 @options.option(
     "--tolerance",
     type=click.FloatRange(FINEST, COARSEST),
@@ -58,18 +58,18 @@ def _strength(_context: click.Context, _parameter: click.Parameter, value: str) 
     default=0.001,
     show_default=True,
     metavar="RATIO",
-    help="Smallest ratio z/D of a point above 0; below it a straight line replaces the model, steep as it is there.",
+    help="Smallest ratio z/D of a point above 0; below it a straight line with the slope there replaces the model.",
 )
 @options.option("--name", metavar="NAME", help="Name of the curve, or of the set with --legacy (default: MODEL).")
 @options.flag("--legacy", help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
-@options.flag("--extend", help="Go on beyond the ratios for which the model is published.")
+@options.flag("--extend", help="Continue beyond the ratios for which the model is published.")
 @plot_option("model and curve")
 @options.common
 def command(*, model: str, plot: Plot, depth: float | None, extend: bool, **given: Any) -> int:  # noqa: ANN401 - as the function
     """Print the penetration resistance of a published MODEL as a *SEABED STIFFNESS block.
 
-    MODEL: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin. Numbers are in one
-    system of units, as N and m; the points are as few as the tolerance needs.
+    MODEL: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin. All numbers belong to
+    one consistent system of units, such as N and m. The curve has as few points as the tolerance allows.
     """
     published = MODELS[model].published
     if depth is not None and published < depth < math.inf and not extend:

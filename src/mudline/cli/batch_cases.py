@@ -1,4 +1,4 @@
-"""A deck among many: its name below the common folder, its positions, its evaluation in any process."""
+"""One deck of a batch: its name below the common folder, its positions, its evaluation in any process."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ from mudline.model.results.series import SeriesSummary, series_summary, series_t
 from mudline.model.results.warnings import ContactWarning, ContactWatch
 
 SUMMARY = "summary"
-"""The name, without its suffix, of the file with the rows of all decks."""
+"""Name, without suffix, of the file with the rows of all decks."""
 
 _POSITIONS = (".csv", ".npz", ".npy")
 _FIELDS = ("name", "folder")
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
-    """A deck among many.
+class BatchCase:
+    """A deck of a batch.
 
     Attributes:
         file: the deck.
-        inside: its path below the folder that all have in common, with `/`.
+        inside: its path below the common folder of all decks, with `/`.
         result: the file of its results below the folder of all results, with `/`.
     """
 
@@ -49,14 +49,14 @@ class Case:
 
     @property
     def name(self) -> str:
-        """The name of the file without its suffix."""
+        """Name of the file without its suffix."""
         return PurePosixPath(self.inside).stem
 
 
-def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
-    """The common folder of decks, and a case for each.
+def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[BatchCase]]:
+    """Return the common folder of the decks, and a case for each deck.
 
-    A file of results is called as the deck without its suffix; decks of one name with different suffixes keep theirs.
+    A result file has the name of the deck without its suffix. Decks that differ only in their suffix keep it.
     """
     paths = [os.path.abspath(file.path or file.name) for file in files]  # noqa: PTH100 - links stay what they are called
     try:
@@ -68,10 +68,12 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
     counts = Counter(name.casefold() for stem in plain for name in (stem, *_others(stem, form)))
     counts.update([SUMMARY])
     stems = [
-        stem if all(counts[one.casefold()] == 1 for one in (stem, *_others(stem, form))) else name
-        for stem, name in zip(plain, inside, strict=True)
+        stem if all(counts[name.casefold()] == 1 for name in (stem, *_others(stem, form))) else path
+        for stem, path in zip(plain, inside, strict=True)
     ]
-    return common, [Case(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)]
+    return common, [
+        BatchCase(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)
+    ]
 
 
 def _others(stem: str, form: str) -> list[str]:
@@ -82,7 +84,7 @@ def _others(stem: str, form: str) -> list[str]:
 
 
 def check_positions(given: str | None) -> None:
-    """Refuse a pattern with unknown fields, and a file that is not there; raises click.ClickException."""
+    """Raise click.ClickException for a pattern with unknown fields, and for a missing file."""
     if given is None or Path(given).exists():
         return
     try:
@@ -95,10 +97,10 @@ def check_positions(given: str | None) -> None:
         raise click.ClickException(f"{given}: no such file or directory")
 
 
-def positions_of(case: Case, given: str | None) -> str | None:
-    """The file of a deck: one for all, one by a pattern, one of a folder, or none.
+def positions_of(case: BatchCase, given: str | None) -> str | None:
+    """Return the positions file of a deck: the same for all, from a pattern, from a folder, or None.
 
-    Raises click.ClickException where there is none or several, OSError.
+    Raises click.ClickException if there is none or more than one, and OSError.
     """
     if given is None or Path(given).is_file():
         return given
@@ -111,15 +113,15 @@ def positions_of(case: Case, given: str | None) -> str | None:
     return path
 
 
-def _in_folder(case: Case, folder: str) -> str:
-    """The file with the name of the deck: in the folder that the deck is in below the common one, or at the top."""
+def _in_folder(case: BatchCase, folder: str) -> str:
+    """Return the file named as the deck, from the deck's subfolder of the positions folder or from its top."""
     stem = str(PurePosixPath(case.inside).with_suffix(""))
     for start in dict.fromkeys((stem, case.name)):
-        found = [path.as_posix() for end in _POSITIONS if (path := Path(folder, f"{start}{end}")).is_file()]
-        if len(found) > 1:
-            raise click.ClickException(f"several files of positions: {', '.join(found)}")
-        if found:
-            return found[0]
+        files = [path.as_posix() for end in _POSITIONS if (path := Path(folder, f"{start}{end}")).is_file()]
+        if len(files) > 1:
+            raise click.ClickException(f"several files of positions: {', '.join(files)}")
+        if files:
+            return files[0]
     ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
     raise click.ClickException(f"its positions were not found: {Path(folder, stem).as_posix()} with {ends}")
 
@@ -128,9 +130,9 @@ def _in_folder(case: Case, folder: str) -> str:
 
 
 class Order(NamedTuple):
-    """A deck that is to be evaluated: everything that a process needs; `output` is the folder of all results."""
+    """A deck to evaluate, with all data that a process needs; `output` is the folder of all results."""
 
-    case: Case
+    case: BatchCase
     data: bytes
     inputs: EvaluateInputs
     output: Path
@@ -138,7 +140,7 @@ class Order(NamedTuple):
     summary_only: bool
 
     def from_anywhere(self) -> Order:
-        """The same for a worker with another working folder, which sees the files under the same absolute paths."""
+        """Return the order for a worker with another working folder; the files have the same absolute paths there."""
         file, given = self.case.file, self.inputs
         positions, elements = (path and os.path.abspath(path) for path in (given.positions, given.elements))  # noqa: PTH100 - links stay what they are called
         return self._replace(
@@ -149,7 +151,14 @@ class Order(NamedTuple):
 
 
 class Done(NamedTuple):
-    """A deck's row, codes and texts of its warnings, the files that it names, those of its results below the output."""
+    """Result of a deck.
+
+    Attributes:
+        row: the row of the summary.
+        warnings: codes and texts of its warnings.
+        read: files that the deck names.
+        written: result files, relative to the output folder.
+    """
 
     row: CaseSummary
     warnings: Sequence[tuple[str, str]] = ()
@@ -158,9 +167,9 @@ class Done(NamedTuple):
 
 
 def evaluate_case(order: Order) -> Done:
-    """Evaluate a deck and write its results; one that fails has a row with the reason, and no results.
+    """Evaluate a deck and write its results; a deck that fails has a row with the reason, and no results.
 
-    Results that cannot be written leave those of an earlier run.
+    If results cannot be written, those of an earlier run remain.
     """
     name = order.case.file.name
     with recording_looks() as looked_at:
@@ -175,7 +184,7 @@ def evaluate_case(order: Order) -> Done:
         except OSError as error:
             why = reason(error)
         else:
-            return Done(row, [(one.diagnostic.code, str(one)) for one in warnings], list(looked_at), written)
+            return Done(row, [(each.diagnostic.code, str(each)) for each in warnings], list(looked_at), written)
     for path in results_of(order.case, order.output):
         with suppress(OSError):
             path.unlink()
@@ -183,18 +192,18 @@ def evaluate_case(order: Order) -> Done:
 
 
 def failed(name: str, why: str) -> Done:
-    """The row of a deck that cannot be evaluated."""
+    """Return the result of a deck that cannot be evaluated."""
     return Done(CaseSummary(name, "failed", why))
 
 
-def results_of(case: Case, output: Path) -> list[Path]:
-    """The files of results that a deck has below a folder, in case it does not fail."""
+def results_of(case: BatchCase, output: Path) -> list[Path]:
+    """Return the result files that a deck has below a folder if it does not fail."""
     path = output / case.result
     return [path, *beside(path).values()]
 
 
 def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[str]]:
-    """The row, the warnings and the files of a deck; raises DeckError, click.ClickException, OSError."""
+    """Return row, warnings and result files of a deck; raises DeckError, click.ClickException, OSError."""
     file = order.case.file
     deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     evaluation = order.inputs.evaluation(deck)
@@ -214,13 +223,13 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[st
             sink.finish(watch.warnings())
         written = [path, *beside(path).values()]
     warnings = watch.warnings()
-    names = [one.relative_to(order.output).as_posix() for one in written]
+    names = [result.relative_to(order.output).as_posix() for result in written]
     return case_summary(series, file.name, warnings, order.case.result), warnings, names
 
 
-def _reason(found: Sequence[Diagnostic], name: str) -> str:
-    """The first of the diagnostics, and how many more there are."""
-    first = found[0]
+def _reason(diagnostics: Sequence[Diagnostic], name: str) -> str:
+    """Return the first of the diagnostics, and the count of the others."""
+    first = diagnostics[0]
     place = f"line {first.line}" if first.file == name else f"{first.file}:{first.line}"
-    more = f" ({len(found) - 1} more)" if len(found) > 1 else ""
+    more = f" ({len(diagnostics) - 1} more)" if len(diagnostics) > 1 else ""
     return f"{place}: {first.code} {first.message}{more}"

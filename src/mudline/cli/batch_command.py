@@ -1,4 +1,4 @@
-"""`mudline batch`: many decks or load cases evaluated, with a row and a result file each."""
+"""Command `mudline batch`: many decks or load cases evaluated, with a row and a result file for each."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from mudline.basics.quantities import CASES, csv_lines
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
     SUMMARY,
-    Case,
+    BatchCase,
     Done,
     Order,
     check_positions,
@@ -44,13 +44,13 @@ from mudline.tools.running.remembered import Memory, state
 
 _FORMS = ("csv", "json", "npz", "parquet")
 _MEMORY = ".mudline-batch"
-"""The file in the folder of results that says from what they were made."""
+"""File in the result folder that records the inputs of each result."""
 
 
 @options.command("batch")
 @takes_inputs(
-    "Read the positions of the nodes: one file for all decks, a folder with a file NAME.csv, .npz or .npy for each, "
-    "or a pattern such as {folder}/{name}.csv."
+    "Read the positions of the nodes from one file for all decks, from a folder with a file NAME.csv, .npz or .npy for "
+    "each deck, or by a pattern such as {folder}/{name}.csv."
 )
 @evaluate_inputs.summary_only
 @options.output_option(
@@ -63,7 +63,7 @@ _MEMORY = ".mudline-batch"
 @options.output_option(
     "--form",
     type=click.Choice(_FORMS),
-    help="Write result files in this form; without it Parquet, or NPZ where pyarrow is not installed.",
+    help="Write result files in this form (default: Parquet, or NPZ where pyarrow is not installed).",
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
@@ -73,7 +73,7 @@ _MEMORY = ".mudline-batch"
     metavar="ADDRESS",
     help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
 )
-@options.run_option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever DIR holds from before.")
+@options.run_option("--no-cache", is_flag=True, help="Evaluate every deck again, also those with results in DIR.")
 @takes_decks("DECKS...", stdin=False)
 def command(
     *,
@@ -89,10 +89,10 @@ def command(
     no_cache: bool,
     view: View,
 ) -> int:
-    """Evaluate many decks or load cases: a row for each, those that failed first, then the largest force.
+    """Evaluate many decks or load cases. Each has a row: failed decks first, then by largest force.
 
-    DECKS are files or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das). What is in DIR already and has not
-    changed is not evaluated again.
+    DECKS are files or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das). Decks that have not changed since
+    their results in DIR were written are not evaluated again.
     """
     if scheduler is not None:
         if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
@@ -106,22 +106,22 @@ def command(
     if not has_library(form):
         return FOUND
     check_positions(inputs.positions)
-    found = decks.collect()
-    if not found.files:
-        return found.code
+    selected = decks.collect()
+    if not selected.files:
+        return selected.code
     once: dict[str, Input] = {}
-    for file in found.files:  # each once, by whatever names it was given
+    for file in selected.files:  # a file may be given by several names
         once.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
-    found.files = list(once.values())
-    common, cases = named_cases(found.files, form)
+    selected.files = list(once.values())
+    common, cases = named_cases(selected.files, form)
     folder = Path(output)
     make_folder(folder)
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
     memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form, summary_only)))
     order = Order(cases[0], b"", inputs, folder, decks.units, summary_only)
-    done, taken = _evaluated(found, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
-    ranked = worst_first(one.row for one in done)
+    done, taken = _evaluated(selected, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
+    ranked = worst_first(result.row for result in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:
         _notify_warnings(done)
@@ -135,14 +135,14 @@ def command(
     else:
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and fail_on == "warning") for row in ranked)
-    return max(found.code, FOUND if failing else DONE)
+    return max(selected.code, FOUND if failing else DONE)
 
 
 # --------------------------------------------------------------------------------------------------------- evaluating
 
 
 class _Task(NamedTuple):
-    """A deck, the key of its results, the files that it depends on; `known` is what needs no work."""
+    """A deck with the key of its results and the files that it depends on; `known` is a result that needs no work."""
 
     file: Input
     key: str = ""
@@ -151,8 +151,8 @@ class _Task(NamedTuple):
 
 
 def _evaluated(
-    found: Inputs,
-    cases: Sequence[Case],
+    decks: Inputs,
+    cases: Sequence[BatchCase],
     first: Order,
     memory: Memory,
     view: View,
@@ -161,9 +161,9 @@ def _evaluated(
     jobs: int,
     scheduler: str | None,
 ) -> tuple[list[Done], int]:
-    """What each deck gave, and how many were taken over; what is new is remembered.
+    """Evaluate the decks and remember new results. Return all results, and how many came from an earlier run.
 
-    A deck that cannot be read, has no positions, or for which the program fails, has failed.
+    A deck fails if it cannot be read, if it has no positions, or if the program fails.
     """
     case_of = {case.file: case for case in cases}
 
@@ -185,24 +185,24 @@ def _evaluated(
 
     done: dict[Input, Done] = {}
     taken = 0
-    results = many_files(found, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
+    results = many_files(decks, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
     with _saved(memory, cases, first.output), closing(results):
-        for task, made in results:
-            if made is not None:
-                done[task.file] = made
-                if not made.row.failed:
-                    written = {name: state(str(first.output / name)) for name in made.written}
-                    held = {"row": made.row.row(), "warnings": made.warnings, "written": written}
-                    memory.put(task.key, held, [*made.read, *task.files])
+        for task, result in results:
+            if result is not None:
+                done[task.file] = result
+                if not result.row.failed:
+                    written = {name: state(str(first.output / name)) for name in result.written}
+                    held = {"row": result.row.row(), "warnings": result.warnings, "written": written}
+                    memory.put(task.key, held, [*result.read, *task.files])
             elif task.known is not None:
                 done[task.file] = task.known
                 taken += not task.known.row.failed
-    return [done.get(file) or failed(file.name, found.undone[file]) for file in found.files], taken
+    return [done.get(file) or failed(file.name, decks.undone[file]) for file in decks.files], taken
 
 
 @contextmanager
-def _saved(memory: Memory, cases: Sequence[Case], folder: Path) -> Iterator[None]:
-    """What is done is remembered, also when the run is interrupted; half-written files are removed then."""
+def _saved(memory: Memory, cases: Sequence[BatchCase], folder: Path) -> Iterator[None]:
+    """Save the results when the block ends, also when the run is interrupted; half-written files are then removed."""
     try:
         yield
     except BaseException:
@@ -217,17 +217,17 @@ def _saved(memory: Memory, cases: Sequence[Case], folder: Path) -> Iterator[None
 
 
 def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
-    """What an earlier run gave, if the files of results are still there as they were written."""
+    """Return the result of an earlier run, if its result files are still unchanged."""
     try:
-        row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
+        row, warnings, written = TypeAdapter(_RememberedCase).validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
     unchanged = all(state(str(output / name)) == mark for name, mark in written.items())
     return Done(row, warnings) if unchanged and row.deck == file.name and not row.failed else None
 
 
-class _Held(NamedTuple):
-    """What is remembered of a deck."""
+class _RememberedCase(NamedTuple):
+    """Remembered data of a deck."""
 
     row: CaseSummary
     warnings: list[tuple[str, str]]
@@ -238,7 +238,7 @@ class _Held(NamedTuple):
 
 
 def _write_summary(rows: Sequence[CaseSummary], folder: Path) -> str:
-    """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path."""
+    """Write the rows of all decks, in Parquet if installed, else as CSV. Return the path."""
     stream = io.BytesIO()
     path = _summary_path(folder)
     if path.suffix == ".parquet":
@@ -261,10 +261,10 @@ def _csv(rows: Sequence[CaseSummary]) -> Iterator[str]:
 
 
 def _notify_warnings(done: Sequence[Done]) -> None:
-    """Report each warning once, with the first deck that has it and how many others do."""
+    """Report each warning once, with the first deck that has it and the number of the others."""
     decks: dict[str, list[str]] = {}
-    for one in done:
-        for code, text in dict(one.warnings).items():
+    for result in done:
+        for code, text in dict(result.warnings).items():
             decks.setdefault(code, []).append(text)
     for texts in list(decks.values())[:SHOWN_ROWS]:
         more = f" ({counted(len(texts) - 1, 'more deck')})" if len(texts) > 1 else ""

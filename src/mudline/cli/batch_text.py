@@ -1,4 +1,4 @@
-"""Many decks for people: those that failed with the reasons, then what is worst in the results of the others."""
+"""Batch results for people: decks that failed with the reasons, then the extremes of the others."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mudline.model.results.cases import CaseSummary
 
 _DIGITS = 5
 _SHORT = 24
-"""Letters of a name that is not folded."""
+"""Letters of a name that is never wrapped."""
 _OF_FORCES = (
     "largest_force",
     "largest_force_element",
@@ -25,11 +25,11 @@ _OF_FORCES = (
     "ratio",
 )
 _LARGE = 1e7
-"""Numbers from here on have an exponent."""
+"""Limit above which numbers have an exponent."""
 
 
 def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, str], view: View) -> None:
-    """Print the decks that failed and the others, called by their `names` below a folder; most of many only with -v."""
+    """Print the failed decks and then the others, with their `names` below a folder; -v prints all."""
     printer = view.printer()
     failed = [row for row in ranked if row.failed]
     evaluated = ranked[len(failed) :]
@@ -51,7 +51,7 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
 
 
 def _inside(folder: str) -> str:
-    """A folder as seen from this one; "" for this one, and for none."""
+    """Return a folder relative to the working folder; "" for the working folder itself."""
     place, here = Path(folder), Path.cwd()
     if place == here:
         return ""
@@ -64,7 +64,7 @@ def _more(rows: Sequence[CaseSummary], most: int | None) -> str:
 
 
 def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
-    """What is shown of the evaluated decks, without columns that say nothing."""
+    """Yield the columns of the evaluated decks; columns in which all rows agree on nothing are left out when empty."""
     systems = {row.units for row in listed}
     units = listed[0].units or "" if len(systems) == 1 else ""
 
@@ -90,7 +90,7 @@ def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
 
 
 def _touchdown(row: CaseSummary) -> str:
-    """Between which arc lengths the touchdown points are, or that all of the line is on the seabed or above."""
+    """Return the range of arc lengths of the touchdown points; "all" or "none" for a line without touchdown point."""
     if row.touchdown_from is None:
         return "all" if row.contact_length else "none"
     low, high = _number(row.touchdown_from), _number(row.touchdown_to)
@@ -98,6 +98,6 @@ def _touchdown(row: CaseSummary) -> str:
 
 
 def _number(value: float | None) -> str:
-    """A number with few digits; one that is large for that is whole, rather than with an exponent."""
+    """Return a number with few digits, without an exponent below 1e7."""
     short = shown(value, _DIGITS)
     return f"{value:.0f}" if value is not None and "e+" in short and abs(value) < _LARGE else short

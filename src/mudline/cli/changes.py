@@ -1,4 +1,4 @@
-"""The new content of a file: written, printed, or shown as a unified diff."""
+"""New content of a file: written, printed, or shown as a unified diff."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mudline.cli.view import View
 from mudline.language.syntax.source import Source
 
 _LONG = 2000
-"""Lines from which on those of texts with equally many are compared in pairs, as looking for moved ones takes long."""
+"""Lines from which on texts with equally many lines are compared in pairs, as the search for moved lines takes long."""
 _NO_END = "\n\\ No newline at end of file\n"
 _STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"}
 
@@ -21,9 +21,10 @@ _STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"
 def deliver(
     inputs: Inputs, file: Input, old: bytes, new: bytes, view: View, *, check: str = "", diff: bool = False
 ) -> bool:
-    """Print the new content of standard input, write that of a file; or name the file under `check`, or show a diff.
+    """Write the new content to the file, or print it for standard input.
 
-    Returns False for a file that could not be written, which is reported.
+    With `check`, only name the file under that word; with `diff`, show a diff. Return False for a file that could not
+    be written, which is reported.
     """
     if file.path is None and not (check or diff):
         emit_deck(new)
@@ -37,7 +38,7 @@ def deliver(
 
 
 def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: bool = False) -> None:
-    """Print how a file changes, coloured on a terminal; a pipe gets a patch. `created`: the file is new."""
+    """Print the changes of a file, coloured on a terminal, as a patch for a pipe. `created`: the file is new."""
     before, after = (Source.from_bytes(data, name).text for data in (old, new))
     lines = unified_diff(before, after, visible(name), created=created)
     if view.color == "always" or (view.color == "auto" and sys.stdout.isatty()):
@@ -48,7 +49,7 @@ def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: boo
 
 
 def unified_diff(old: str, new: str, name: str, *, created: bool = False) -> Iterator[str]:
-    """The lines of a unified diff of two texts in which only LF ends a line; `created`: there was no old file."""
+    """Yield the lines of a unified diff of two texts in which only LF ends a line; `created`: there was no old file."""
     before, after = _lines(old), _lines(new)
     matcher = _Matcher(before, after)
     if before != after:
@@ -65,23 +66,23 @@ def unified_diff(old: str, new: str, name: str, *, created: bool = False) -> Ite
 
 
 class _Matcher(SequenceMatcher[str]):
-    """Compares long texts of equally many lines line by line, in linear time."""
+    """Matcher that compares long texts with equally many lines line by line, in linear time."""
 
     def __init__(self, old: Sequence[str], new: Sequence[str]) -> None:
         self.old, self.new = old, new
         super().__init__(None, old, new, autojunk=False)
 
     def get_matching_blocks(self) -> list[Match]:
-        """Where lines are the same."""
+        """Return the blocks of equal lines."""
         size = len(self.old)
         if size != len(self.new) or size < _LONG:
             return super().get_matching_blocks()
-        found = [Match(size, size, 0)]
+        matches = [Match(size, size, 0)]
         for i in range(size - 1, -1, -1):
             if self.old[i] == self.new[i]:
-                joined = found[-1].a == i + 1 and found[-1].size
-                found[-1:] = [Match(i, i, found[-1].size + 1)] if joined else [found[-1], Match(i, i, 1)]
-        return found[::-1]
+                joined = matches[-1].a == i + 1 and matches[-1].size
+                matches[-1:] = [Match(i, i, matches[-1].size + 1)] if joined else [matches[-1], Match(i, i, 1)]
+        return matches[::-1]
 
 
 def _lines(text: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""`mudline config`."""
+"""Command `mudline config`."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _DEFAULTS = {EXTEND: "", ENCODING: "", "fail-on": "warning", "dialect": "mudline
 @options.output_format("text", "json")
 @options.common
 def command(*, path: str, config: str | None, isolated: bool, output_format: str) -> int:
-    """Show the configuration of a deck, or of the decks in a directory, and where each value comes from."""
+    """Show the configuration of a deck, or of the decks in a directory, with the origin of each value."""
     from mudline.checks.registry import code_fault  # noqa: PLC0415 - of the commands, lint alone needs all rules
 
     inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
@@ -48,11 +48,11 @@ def command(*, path: str, config: str | None, isolated: bool, output_format: str
     return DONE
 
 
-def _rows(found: Configuration) -> Iterator[tuple[str, Any, str]]:
-    """Key, value and origin of every key."""
+def _rows(configuration: Configuration) -> Iterator[tuple[str, Any, str]]:
+    """Yield key, value and origin of every key."""
     for key in KEYS:
-        if key in found.values:
-            path, line = found.origins[key]
-            yield key, found.values[key], f"{path.as_posix()}:{line}"
+        if key in configuration.values:
+            path, line = configuration.origins[key]
+            yield key, configuration.values[key], f"{path.as_posix()}:{line}"
         else:
             yield key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"

@@ -1,4 +1,4 @@
-"""`mudline curves`: the curves of a deck by kind, as evaluated, as rows, tables and texts."""
+"""Command `mudline curves`: the curves of a deck by kind, as evaluated, as rows, tables and texts."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _AT = ("ratio", "force", "slope", "segment", "extrapolated")
 _KIND = ("kind", "abscissa", "ordinate")
 _ENDS = ("from", "to")
 _OF_DIAMETER = ("diameter", "depth", "stiffness")
-_GOES_ON = "Below its first and above its last point a force-embedment curve goes on with the slope of its end segment."
+_GOES_ON = "A force-embedment curve continues beyond its first and last point with the slope of its end segment."
 _OF_WATER = "without values beyond them and above the surface"
-_SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper sinks on to the next stable embedment"
+_SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper sinks to the next stable embedment"
 
 
 @options.command("curves")
@@ -40,7 +40,7 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
     type=float,
     multiple=True,
     metavar="RATIO",
-    help="Evaluate the curves at this embedment ratio, or at this value of what is their abscissa. Repeatable.",
+    help="Evaluate the curves at this embedment ratio, or at this value of their abscissa. Repeatable.",
 )
 @options.option(
     "--weight",
@@ -60,10 +60,10 @@ def command(
     output_format: str,
     view: View,
 ) -> int:
-    """Show each curve of a deck as evaluated: sorted, with the slope of every segment; of a seabed with its stiffness.
+    """Show each curve of a deck as evaluated: sorted, with the slope of every segment, and stiffnesses for the seabed.
 
     Force-embedment curves come first, then moment-curvature curves, soil springs, current profiles and so on. --weight
-    is about force-embedment curves. CSV holds one table: the points, or the values for --at or --weight.
+    applies to force-embedment curves only. CSV holds one table: the points, or the values for --at or --weight.
     """
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
@@ -92,7 +92,7 @@ def command(
 def _csv_rows(
     rows: list[dict[str, Any]], ratios: tuple[float, ...], weight: float | None
 ) -> Iterator[Sequence[object]]:
-    """One table of all curves under its heading: values at ratios, static embedments by diameter, or points."""
+    """Yield the table of all curves with its heading: values at ratios, static embedments by diameter, or points."""
     if ratios:
         yield ("curve", *_AT, *_KIND)
         yield from ((row["name"], *value.values(), *_kind(row)) for row in rows for value in row["at"])
@@ -111,8 +111,8 @@ def _csv_rows(
 
 
 def _kind(row: dict[str, Any]) -> list[str]:
-    """What a curve is, and its abscissa (below `ratio`) and ordinate (below `force`) with their units."""
-    return [row["kind"], *(labelled(*one) for one in zip(row["axes"], row["units"], strict=True))]
+    """Return the kind of a curve, its abscissa (below `ratio`) and its ordinate (below `force`), with units."""
+    return [row["kind"], *(labelled(*axis) for axis in zip(row["axes"], row["units"], strict=True))]
 
 
 # ---------------------------------------------------------------------------------------------------------- output
@@ -145,7 +145,7 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
 
 
 def _per(units: Sequence[str]) -> str:
-    """The unit of a slope."""
+    """Return the unit of a slope."""
     over, value = units
     return f"{value or '1'} per {over}" if over else value
 
@@ -173,16 +173,16 @@ def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool, of_secti
 
 
 def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[float, ...]]:
-    """Both ends of each segment, by their abscissa and by their value, its slope, and its stiffness by diameter."""
+    """Return for each segment its ends by abscissa and by value, its slope, and its stiffness by diameter."""
     points = row["points"]
     return [
-        (start, end, first, last, one["slope"], *(one["slope"] / size for size in sizes))
-        for one, (start, first), (end, last) in zip(row["segments"], points, points[1:], strict=False)
+        (start, end, first, last, segment["slope"], *(segment["slope"] / size for size in sizes))
+        for segment, (start, first), (end, last) in zip(row["segments"], points, points[1:], strict=False)
     ]
 
 
 def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> None:
-    found = [
+    embedments = [
         {**static, **each} for static in row["static"] for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
     ]
     columns = (
@@ -191,10 +191,10 @@ def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> No
         number("depth", "depth", names.length),
         number("stiffness", "stiffness", names.stiffness),
         number("extrapolated", "extrapolated"),
-        text("equilibrium", lambda one: "" if one["stable"] else "unstable", optional=True),
+        text("equilibrium", lambda embedment: "" if embedment["stable"] else "unstable", optional=True),
     )
-    if found:
-        note = "" if all(one["stable"] for one in found) else _SOFTENS
-        printer.table(DisplayTable(f"{row['name']}: static embedment", columns, found, note))
+    if embedments:
+        note = "" if all(embedment["stable"] for embedment in embedments) else _SOFTENS
+        printer.table(DisplayTable(f"{row['name']}: static embedment", columns, embedments, note))
     else:
         notify(f"curve {row['name']} never carries this weight")

@@ -1,4 +1,4 @@
-"""`mudline diff`: two decks, or the decks of two folders in pairs of one name; as text, JSON or Markdown."""
+"""Command `mudline diff`: two decks, or the decks of two folders in pairs of the same name."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from mudline.commands import diff, diff_matrix
 from mudline.editing.comparison.folders import compare_folders
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
-from mudline.editing.comparison.superseded import ComparedDeck, Comparison, Status
+from mudline.editing.comparison.superseded import ComparedDeck, Comparison, DeckStatus
 from mudline.language.deck.loading import load_bytes
 
 if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
@@ -44,25 +44,25 @@ _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "ye
 
 _NOT_COMPARED = "cannot be compared"
 _OF_DECKS = {
-    Status.ADDED: ("+", "green", "only in the second folder"),
-    Status.REMOVED: ("-", "red", "only in the first folder"),
-    Status.FAILED: ("!", "red", _NOT_COMPARED),
+    DeckStatus.ADDED: ("+", "green", "only in the second folder"),
+    DeckStatus.REMOVED: ("-", "red", "only in the first folder"),
+    DeckStatus.FAILED: ("!", "red", _NOT_COMPARED),
 }
 
 
 @options.command("diff")
 @click.argument("before", metavar="A")
 @click.argument("others", metavar="B...", nargs=-1, required=True)
-@options.flag("--matrix", help="What differs of A in decks B...: a row a value, a column a deck.")
+@options.flag("--matrix", help="Compare decks B... with A: a row for each value, a column for each deck.")
 @options.option(
     "--tolerance",
     type=click.FloatRange(min=0, max=1),
     default=0.0,
     show_default=True,
     metavar="REL",
-    help="Ignore differences of numbers up to this one, relative to the larger number.",
+    help="Ignore differences of numbers up to this value, relative to the larger number.",
 )
-@options.flag("--strict", help="List differences of spelling in superseded keywords too: exit code 1.")
+@options.flag("--strict", help="Also list differences of spelling in superseded keywords; the exit code is then 1.")
 @options.output_format("text", "json", "markdown", "csv")
 @options.every_file
 @options.stdin_name
@@ -82,12 +82,12 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Compare two decks semantically, whatever their formats, layout and order; or the decks of two folders.
+    """Compare two decks, or the decks of two folders, semantically, whatever their formats, layout and order.
 
-    A and B are decks in keyword text, JSON or YAML, of which one may be - for standard input; or folders, whose decks
-    are compared in pairs of the same relative path. The exit code is 0 when all mean the same, as a deck and its
-    migrated form do, and 1 when something differs, was added or removed, or a deck cannot be read. With --matrix, B...
-    are a family of load cases, each compared with A.
+    A and B are decks in keyword text, JSON or YAML, of which one may be - for standard input. Of two folders, decks
+    with the same relative path are compared. The exit code is 0 if all decks mean the same, as a deck and its migrated
+    form do. It is 1 if something differs, was added or removed, or a deck cannot be read. With --matrix, B... are a
+    family of load cases, each compared with A.
     """
     if [before, *others].count(STDIN) > 1:
         raise click.UsageError("only one of the decks can come from standard input")
@@ -108,9 +108,9 @@ def command(
                 raise click.ClickException(f"{path}: no such file or directory")
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
-        found = _Folders(before, after, tolerance)
-        compared = found.compared(strict=strict, units=units, gitignore=not every_file)
-        return _print_folders(found, compared, output_format, view)
+        both = _Folders(before, after, tolerance)
+        compared = both.compared(strict=strict, units=units, gitignore=not every_file)
+        return _print_folders(both, compared, output_format, view)
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
     summary = summary_of(comparison)
@@ -135,7 +135,7 @@ def command(
 
 
 def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, output_format: str, view: View) -> int:
-    """Print what differs of the first deck in the others."""
+    """Print the differences of the other decks from the first."""
     rows = diff_matrix(decks[0], decks[1:], tolerance=tolerance, strict=strict)
     names = [deck.file for deck in decks]
     if output_format == "json":
@@ -152,20 +152,20 @@ def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, outp
 
 
 def _cells(values: Iterable[Value]) -> Iterator[object]:
-    """Values as CSV has them: no value is an empty field, several are in brackets."""
+    """Yield values for CSV: None is an empty field, several values are in brackets."""
     return (value_text(value) if isinstance(value, list) else value for value in values)
 
 
 def _short(names: Sequence[str]) -> list[str]:
-    """Names of files without the folder that all of them are in."""
+    """Return file names relative to their common folder."""
     folder = os.path.commonpath(names) if len({os.path.isabs(name) for name in names}) == 1 else ""  # noqa: PTH117
     return [os.path.relpath(name, folder) if folder and name != folder else name for name in names]
 
 
 def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[Deck, Deck]:
-    """The decks of two files; the null device, which git gives for a file that is not there, is an empty one.
+    """Return the decks of two files; the null device, by which git denotes a missing file, is an empty deck.
 
-    An empty deck has the units of the other one.
+    An empty deck has the units of the deck that exists.
     """
     decks = [None if path == os.devnull else GivenDeck(path, stdin_name, units).load() for path in (before, after)]
     there = next((deck.units for deck in decks if deck), units)
@@ -179,24 +179,26 @@ def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[
 
 @dataclass(slots=True)
 class _Folders:
-    """Two folders and how their decks are compared; `counts` and `code` are whole when all of them have been taken."""
+    """Two folders to be compared; `counts` and `code` are complete when all decks have been yielded."""
 
     before: str
     after: str
     tolerance: float
     code: int = DONE
-    counts: Counter[Status] = field(default_factory=Counter)
+    counts: Counter[DeckStatus] = field(default_factory=Counter)
 
     def compared(self, *, strict: bool, units: str | None, gitignore: bool) -> Iterator[ComparedDeck]:
         """Yield each deck, and count it."""
         words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
-        for one in compare_folders(self.before, self.after, self.tolerance, **words):
-            notify_diagnostics(one.errors)
-            if one.unread is not None:
-                notify(one.why)
-            self.counts[one.status] += 1
-            self.code = max(self.code, WRONG_USAGE if one.unread else DONE if one.status is Status.EQUAL else FOUND)
-            yield one
+        for pair in compare_folders(self.before, self.after, self.tolerance, **words):
+            notify_diagnostics(pair.errors)
+            if pair.unread is not None:
+                notify(pair.why)
+            self.counts[pair.status] += 1
+            self.code = max(
+                self.code, WRONG_USAGE if pair.unread else DONE if pair.status is DeckStatus.EQUAL else FOUND
+            )
+            yield pair
         if not self.counts:
             notify(f"{self.before}, {self.after}: no deck in these folders")
             self.code = WRONG_USAGE
@@ -217,7 +219,7 @@ def _print_folders(folders: _Folders, compared: Iterator[ComparedDeck], output_f
 
 
 def _json_lines(head: Mapping[str, object], name: str, rows: Iterable[Mapping[str, object]]) -> Iterator[str]:
-    """Yield an object in JSON up to the end of its last value, a list called `name` with a row on each line."""
+    """Yield a JSON object up to the end of its last value, a list called `name` with a row on each line."""
     yield json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}") + f',\n "{name}": ['
     comma = ""
     for row in rows:
@@ -230,17 +232,17 @@ def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterat
     head = {"format": FOLDER_FORMAT, "before": folders.before, "after": folders.after, "tolerance": folders.tolerance}
     rows = (
         {
-            "deck": one.name,
-            "status": one.status.value,
-            "why": one.why or None,
-            "spelling_differences": len(one.comparison.spelling),
-            "differences": [asdict(each) for each in one.comparison.differences],
+            "deck": deck.name,
+            "status": deck.status.value,
+            "why": deck.why or None,
+            "spelling_differences": len(deck.comparison.spelling),
+            "differences": [asdict(each) for each in deck.comparison.differences],
         }
-        for one in compared
+        for deck in compared
     )
     yield from _json_lines(head, "decks", rows)
-    counts = {status.value: folders.counts[status] for status in Status}
-    end = {"equivalent": folders.counts.total() == folders.counts[Status.EQUAL], "summary": counts}
+    counts = {status.value: folders.counts[status] for status in DeckStatus}
+    end = {"equivalent": folders.counts.total() == folders.counts[DeckStatus.EQUAL], "summary": counts}
     yield "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"
 
 
@@ -248,12 +250,12 @@ def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterat
 
 
 def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Part]:
-    """The differences of two decks by group, under the names of the decks if they have any."""
-    found = comparison.differences
-    if found and before:
+    """Yield the differences of two decks by group, below the names of the decks unless these are empty."""
+    all_differences = comparison.differences
+    if all_differences and before:
         yield visible(f"--- {before}"), "bold"
         yield visible(f"+++ {after}"), "bold"
-    for group, members in groupby(found, key=lambda one: one.group):
+    for group, members in groupby(all_differences, key=lambda difference: difference.group):
         differences = list(members)
         yield visible(group), "cyan"
         if not view.verbose:
@@ -262,80 +264,80 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
                 mark, style = _MARKS[kind]
                 yield f"  {mark} {text}", style
         most = len(differences) if view.verbose else SHOWN_ROWS
-        for one in differences[:most]:
-            mark, style = _MARKS[one.kind]
-            yield f"  {mark} {visible(_described(one))}", style
+        for difference in differences[:most]:
+            mark, style = _MARKS[difference.kind]
+            yield f"  {mark} {visible(_described(difference))}", style
         if len(differences) > most:
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[Status, int], view: View) -> Iterator[Part]:
-    """The differences of the decks of two folders, then how many decks differ, of which `counts` are whole then."""
-    for one in compared:
-        if one.status is Status.CHANGED:
-            yield from difference_lines(one.before, one.after, one.comparison, view)
-        elif one.status is Status.EQUAL:
+def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int], view: View) -> Iterator[Part]:
+    """Yield the differences of the decks of two folders, then the counts of decks, which `counts` then has in full."""
+    for deck in compared:
+        if deck.status is DeckStatus.CHANGED:
+            yield from difference_lines(deck.before, deck.after, deck.comparison, view)
+        elif deck.status is DeckStatus.EQUAL:
             if view.verbose:
-                yield visible(f"= {one.name}: {summary_of(one.comparison)}")
+                yield visible(f"= {deck.name}: {summary_of(deck.comparison)}")
         else:
-            mark, style, words = _OF_DECKS[one.status]
-            yield visible(f"{mark} {one.name}: {words}"), style
+            mark, style, words = _OF_DECKS[deck.status]
+            yield visible(f"{mark} {deck.name}: {words}"), style
     if not view.quiet:
-        names = {**{status: status.value for status in Status}, Status.FAILED: _NOT_COMPARED}
-        parts = [f"{counts[status]} {names[status]}" for status in Status if counts[status]]
+        names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
+        parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
         yield f"{counted(sum(counts.values()), 'deck')}: {', '.join(parts)}" if parts else "no deck was compared"
 
 
 def summary_of(comparison: Comparison) -> str:
-    """How many differences there are, and how many of spelling."""
-    found, spelling = len(comparison.differences), len(comparison.spelling)
+    """Return the number of differences, and of those of spelling."""
+    count, spelling = len(comparison.differences), len(comparison.spelling)
     if not spelling:
-        return counted(found, "difference") if found else "no difference"
+        return counted(count, "difference") if count else "no difference"
     beside = f"{counted(spelling, 'difference')} of spelling in superseded keywords"
-    return f"{counted(found, 'difference')}, and {beside} (--strict lists them)" if found else f"equivalent: {beside}"
+    return f"{counted(count, 'difference')}, and {beside} (--strict lists them)" if count else f"equivalent: {beside}"
 
 
 def _as_ranges(group: str, differences: Sequence[Difference]) -> tuple[list[tuple[str, str]], list[Difference]]:
-    """Nodes or elements that only one deck has, where they are many: kind and ranges of numbers; and the others."""
-    found: list[tuple[str, str]] = []
+    """Return long ranges of nodes or elements that only one deck has, by kind, and the differences left."""
+    listed: list[tuple[str, str]] = []
     left = list(differences)
     for kind in ("removed", "added") if group in _NUMBERED else ():
-        numbers = [number for one in differences if one.kind == kind and (number := _number(one)) is not None]
+        numbers = [number for change in differences if change.kind == kind and (number := _number(change)) is not None]
         if len(numbers) >= _FEW:
             ranges = text_of(spans_of(np.array(numbers, dtype=np.int64)))
-            found.append((kind, f"{ranges}: {len(numbers)} {group}"))
-            left = [one for one in left if one.kind != kind or _number(one) is None]
-    return found, left
+            listed.append((kind, f"{ranges}: {len(numbers)} {group}"))
+            left = [change for change in left if change.kind != kind or _number(change) is None]
+    return listed, left
 
 
-def _number(one: Difference) -> int | None:
-    """The number of a node or an element; None for one with a label."""
-    last = one.where.rpartition("/")[2]
+def _number(difference: Difference) -> int | None:
+    """Return the number of a node or an element; None for one with a label."""
+    last = difference.where.rpartition("/")[2]
     return int(last) if last.lstrip("-").isdecimal() else None
 
 
-def _described(one: Difference) -> str:
-    """What differs, without the name of its group; its values, and its lines in the two decks as `-12 +14`."""
-    if one.kind == "changed":
-        values = f": {value_text(one.before)} -> {value_text(one.after)}"
+def _described(difference: Difference) -> str:
+    """Return a difference without its group: its values, and its lines in both decks as `-12 +14`."""
+    if difference.kind == "changed":
+        values = f": {value_text(difference.before)} -> {value_text(difference.after)}"
     else:
-        value = one.after if one.kind == "added" else one.before
+        value = difference.after if difference.kind == "added" else difference.before
         values = "" if value is None else f": {value_text(value)}"
-    numbers = (("-", one.before_line), ("+", one.after_line))
+    numbers = (("-", difference.before_line), ("+", difference.after_line))
     lines = " ".join(f"{side}{line}" for side, line in numbers if line is not None)
-    return one.where.removeprefix(f"{one.group}/") + values + (f"  (line {lines})" if lines else "")
+    return difference.where.removeprefix(f"{difference.group}/") + values + (f"  (line {lines})" if lines else "")
 
 
 # ------------------------------------------------------------------------------------------------------------- Markdown
 
 COMMENT_LETTERS = 60_000
-"""Characters of all: a comment on GitHub holds 65,536. What is beyond is left out, unless all is asked for."""
+"""Characters of a Markdown comment: GitHub accepts 65,536. Further lines are left out without -v."""
 
 
 def markdown(before: str, after: str, summary: str, lines: Iterable[Part], view: View) -> list[str]:
-    """What is compared, the result, and the lines of the text, which GitHub and GitLab colour.
+    """Return a heading with both names and the result, and the lines of the text, which GitHub and GitLab colour.
 
-    All text of a deck stands in code, where neither of them makes links, mentions or HTML of it.
+    All text of a deck stands in code, where it cannot become links, mentions or HTML.
     """
     head = f"### Differences of decks\n\n{code(before)} → {code(after)}: **{summary}**\n"
     texts = [(line if isinstance(line, str) else line[0]).removeprefix("  ") for line in lines]
@@ -346,7 +348,7 @@ def markdown(before: str, after: str, summary: str, lines: Iterable[Part], view:
 
 
 def code(text: str) -> str:
-    """A text as code within a line, in marks longer than any in it."""
+    """Return a text as inline code, in marks longer than any in the text."""
     shown = visible(text)
     mark = "`" * (1 + _longest_run([shown]))
     blank = " " if "`" in shown else ""
@@ -354,11 +356,11 @@ def code(text: str) -> str:
 
 
 def fenced(lines: Sequence[str]) -> str:
-    """Lines as they are, in a fence longer than any in them."""
+    """Return lines unchanged, in a fence longer than any in them."""
     fence = "`" * max(3, 1 + _longest_run(lines))
     return "\n".join([f"{fence}diff", *lines, fence, ""])
 
 
 def _longest_run(lines: Sequence[str]) -> int:
-    """Backticks that stand side by side."""
+    """Return the length of the longest run of backticks."""
     return max((len(run) for line in lines for run in re.findall(r"`+", line)), default=0)

@@ -1,4 +1,4 @@
-"""What is evaluated: the scene of a deck, and positions and elements from files, as `evaluate` and `batch` are told."""
+"""Inputs of `evaluate` and `batch`: the scene of a deck, and positions and elements from files."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.positions import COLUMNS
 
 _MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
-"""NAME=HEADING up to a comma with another name behind it: a comma may be in a heading."""
+"""NAME=HEADING up to a comma that is followed by another name: a heading may contain commas."""
 
 _Read = TypeVar("_Read")
 
 
 @dataclass(frozen=True)
 class EvaluateInputs:
-    """What is evaluated of a deck: `positions` is the file, of `batch` also the folder or pattern, that was given."""
+    """Inputs of an evaluation; `positions` is a file, for `batch` also a folder or a pattern."""
 
     tension: Tension = "keep"
     positions: str | None = None
@@ -42,28 +42,28 @@ class EvaluateInputs:
     rest_shape: bool = False
 
     def scene(self, deck: Deck) -> Scene:
-        """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
+        """Return the scene of a deck; raises DeckError with the causes that prevent evaluation."""
         external = read_file(self.elements, read_external) if self.elements else None
         with naming_causes(deck):
             return resolve(deck, external).require_evaluable(self.tension)
 
     def evaluation(self, deck: Deck) -> Evaluation:
-        """A deck ready to be evaluated, at positions of a file or its own. Raises DeckError, click.ClickException."""
+        """Return the evaluation of a deck at positions of a file or its own. Raises DeckError, click.ClickException."""
         scene = self.scene(deck)
         if self.rest_shape:
             from mudline.tools.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - few runs ask for it
 
-            found = rest_shape(scene)
-            return evaluate_scene(scene, found.positions, self.tension, at_rest=found.sentences(scene.units))
+            rest = rest_shape(scene)
+            return evaluate_scene(scene, rest.positions, self.tension, at_rest=rest.sentences(scene.units))
         return evaluate_scene(scene, self._placed(scene), self.tension)
 
     def prepared(self, deck: Deck) -> Prepared:
-        """The evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""
+        """Return the evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""
         scene = self.scene(deck)
         return prepare(scene, self._placed(scene), self.tension)
 
     def _placed(self, scene: Scene) -> Positions | None:
-        """Positions of a scene's nodes; with `time_step` those without times get them."""
+        """Return the positions of a scene's nodes, with times from `time_step` if they have none."""
         path = self.positions
         if path is None:
             return None
@@ -79,7 +79,7 @@ class EvaluateInputs:
 
 
 def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
-    """Add the options on what is evaluated; they reach the command as `inputs`, an EvaluateInputs."""
+    """Add the options about the inputs; they reach the command as `inputs`, an EvaluateInputs."""
 
     def added(command: Command) -> Command:
         @wraps(command)
@@ -113,13 +113,13 @@ _INPUTS = (
         "--columns",
         multiple=True,
         metavar="NAME=HEADING,...",
-        help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
+        help='Headings of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
     ),
     input_option(
         "--time-step",
         type=ABOVE_ZERO,
         metavar="DT",
-        help="Set the time between the steps of positions that have no times.",
+        help="Set the time between the steps of positions without times.",
     ),
     input_option(
         "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."
@@ -128,21 +128,21 @@ _INPUTS = (
         "--rest-shape",
         "at_rest",
         is_flag=True,
-        help="Evaluate the resting shape: lines hang and lie under weight and contents alone, no load case solved.",
+        help="Evaluate the resting shape: lines hang and lie under weight and contents alone, without a load case.",
     ),
     option(
         "--tension",
         type=click.Choice(["keep", "cut"]),
         default="keep",
         show_default=True,
-        help="Keep the tension where a curve is negative in contact, or cut force and stiffness to 0.",
+        help="Where a curve is negative in contact: keep the tension, or cut force and stiffness to 0.",
     ),
 )
 
 summary_only = click.option(
     "--summary-only",
     is_flag=True,
-    help="Keep of a long series only extremes with their times, counts and envelopes.",
+    help="Of a long series, keep only extremes with their times, counts and envelopes.",
 )
 
 fail_on = click.option(
@@ -150,12 +150,12 @@ fail_on = click.option(
     type=click.Choice(["error", "warning"]),
     default="error",
     show_default=True,
-    help="Exit with 1 for warnings about the results too.",
+    help="Exit with 1 for errors only, or also for warnings about the results.",
 )
 
 
 def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:
-    """What is read from a file; ends the command when it cannot be read."""
+    """Return the content of a file as read by `read`; ends the command if the file cannot be read."""
     reading(path)
     try:
         return read(Path(path))
@@ -164,18 +164,18 @@ def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:
 
 
 def read_headings(given: Sequence[str]) -> dict[str, str]:
-    """The headings of columns of positions, from texts as `time="Time [s]",node=Node`; raises click.UsageError."""
+    """Return headings of position columns from texts such as `time="Time [s]",node=Node`; raises click.UsageError."""
     headings: dict[str, str] = {}
     for text in given:
         place = 0
         while place < len(text) or not text:
-            found = _MAPPING.match(text, place)
-            if found is None or not (heading := _unquoted(found[2])):
+            match = _MAPPING.match(text, place)
+            if match is None or not (heading := _unquoted(match[2])):
                 raise click.UsageError(f'--columns {text!r}: expected NAME=HEADING, as in node=Node,x="X [m]"')
-            name, place = found[1].lower(), found.end()
+            name, place = match[1].lower(), match.end()
             if name not in COLUMNS:
                 names = f"{', '.join(COLUMNS[:-1])} or {COLUMNS[-1]}"
-                raise click.UsageError(f"--columns: {found[1]!r} is not a column of positions: use {names}")
+                raise click.UsageError(f"--columns: {match[1]!r} is not a column of positions: use {names}")
             if name in headings:
                 raise click.UsageError(f"--columns gives {name} twice")
             headings[name] = heading

@@ -1,4 +1,4 @@
-"""An evaluation for people: totals by law, what is in contact, summaries of steps, the plan, a comparison."""
+"""Evaluation for people: totals by law, contact, summaries of steps, the plan, a comparison."""
 
 from __future__ import annotations
 
@@ -45,22 +45,22 @@ _MORE_OF = {
     "nodes": "more lines: -v shows all, -o writes all",
 }
 _DIGITS = 4
-"""Of the largest number of a column; the others have as many decimals."""
+"""Digits of the largest number of a column; the others have as many decimals."""
 _ALIKE = 0.005
-"""Of the largest number of a column: by how much rows differ at most that are shown as one, with the largest."""
+"""Share of the largest number of a column by which rows may differ that are shown as one, with the largest."""
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
 
 
 def print_plan(plan: Plan, view: View) -> None:
-    """Print the stages, active or not, and why."""
-    columns = (text("stage", "stage"), text("active", lambda one: "yes" if one.active else "no"), text("why", "why"))
+    """Print the stages, whether they are active, and why."""
+    columns = (text("stage", "stage"), text("active", lambda row: "yes" if row.active else "no"), text("why", "why"))
     view.printer().table(DisplayTable(f"Plan, {plan.steps}", columns, list(plan)))
 
 
 class Screen:
-    """Keeps of the results what the terminal shows: the first state, rows of steps and lines, extremes of a series."""
+    """Results that the terminal shows: the first state, rows of steps and lines, extremes of a series."""
 
     def __init__(self, evaluation: Evaluation, which: str, view: View, *, every: bool) -> None:
         self.evaluation, self.which = evaluation, which
@@ -74,9 +74,9 @@ class Screen:
 
 
 def print_evaluation(screen: Screen, view: View) -> None:
-    """Print totals and rows of one state; of time steps a line each, as rows are for files.
+    """Print totals and rows of one state, or a line for each time step, with the columns of result files.
 
-    Where no element has a law, a line says so in their place; `view.verbose` shows them too.
+    If no element has a law, a line reports it instead; `view.verbose` shows totals and rows too.
     """
     printer, evaluation = view.printer(), screen.evaluation
     if not evaluation.has_seabed_law:
@@ -96,7 +96,7 @@ def print_evaluation(screen: Screen, view: View) -> None:
 
 
 def print_series(series: SeriesSummary, view: View) -> None:
-    """Print the largest of all steps, and between which values the figures of the lines were."""
+    """Print the extremes over all steps, and the range of each figure of the lines."""
     printer = view.printer()
     printer.line(f"{_title(series.evaluation)}, {series.evaluation.steps} steps")
     _print_peaks(printer, series)
@@ -112,13 +112,13 @@ def _title(evaluation: Evaluation) -> str:
 
 
 def _print_state(printer: Printer, screen: Screen, first: ResultPart) -> None:
-    """Print totals by law, touchdown, states of laws that have some, and what is in contact."""
+    """Print totals by law, touchdown, states of laws with states, and the elements or nodes in contact."""
     evaluation, result = screen.evaluation, first.result.step(0)
     _print_totals(printer, evaluation, first)
     _print_lines(printer, screen)
-    if found := states(evaluation, result):
+    if rows_of_states := states(evaluation, result):
         of_state = (text("law", "law"), text("state", "state"), number("count", "number"))
-        printer.table(DisplayTable("States", of_state, found))
+        printer.table(DisplayTable("States", of_state, rows_of_states))
     if screen.which == "elements":
         acts = (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
         distance = _from_touchdown(screen)[evaluation.elements[acts]]
@@ -146,14 +146,15 @@ def _print_state(printer: Printer, screen: Screen, first: ResultPart) -> None:
 
 
 def _from_touchdown(screen: Screen) -> Floats:
-    """The distances (m,) of elements from a touchdown point of their line along it; infinite without one."""
+    """Return the distances (m,) of elements along their line from a touchdown point; infinite without one."""
     lines = screen.evaluation.model.input.lines
-    found = np.full(len(lines.element_arc), np.inf)
+    distances = np.full(len(lines.element_arc), np.inf)
     for row in screen.lines.rows:
         elements = lines.elements[row.line - 1]
         for point in row.touchdown:
-            found[elements] = np.minimum(found[elements], np.abs(lines.element_arc[elements] - point.arc_length))
-    return found
+            apart = np.abs(lines.element_arc[elements] - point.arc_length)
+            distances[elements] = np.minimum(distances[elements], apart)
+    return distances
 
 
 _OF_ELEMENT = {name: name for name in ("element", "law", "depth", "ratio", "force", "stiffness", "length", "state")}
@@ -170,18 +171,18 @@ _OF_NODE = {
 def _touching(
     table: ResultTable, first: ResultPart, acts: Mask, headings: Mapping[str, str], *, every: bool
 ) -> tuple[list[DisplayColumn], Iterable[Cells]]:
-    """Columns of the elements or nodes on which the seabed acts, at the first step of a part, and their rows."""
+    """Return columns and rows of the elements or nodes on which the seabed acts, at the first step of a part."""
     lacking = {"state"} if first.result.state is None else set()
     lacking |= {name for name in headings if "_force" in name and first.result.friction is None}
     lacking |= {name for name in headings if "_state" in name and first.result.friction_state is None}
-    found = {column.name: column for each in table.columns(first) for column in each.flat()}
-    chosen = [found[name] for name in headings if name not in lacking]
-    columns = [number(headings[one.name], at, one.unit, left=bool(one.names)) for at, one in enumerate(chosen)]
-    return columns, zip(*(_cells(one, acts, every=every) for one in chosen), strict=True)
+    available = {column.name: column for group in table.columns(first) for column in group.flat()}
+    chosen = [available[name] for name in headings if name not in lacking]
+    columns = [number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(chosen)]
+    return columns, zip(*(_cells(column, acts, every=every) for column in chosen), strict=True)
 
 
 def _cells(column: ResultColumn, acts: Mask, *, every: bool) -> list[str | float]:
-    """The cells of a column, with all digits where `every` row is shown, else with those that matter in the column."""
+    """Return the cells of a column, with all digits if `every`, else with the significant digits of the column."""
     values = column.cut(0, 1)[0, acts].tolist()
     if column.names:
         return [column.names[code] or "" for code in values]
@@ -205,15 +206,15 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: ResultPart) ->
 
 
 def _joined(rows: Sequence[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float, bool]]:
-    """Rows that show nearly the same, with numbers one after the other, as one row; with their least distance.
+    """Join consecutive rows with nearly equal values, and yield each with the least of their distances.
 
-    Such a row has the largest of its numbers; the last value is True if some differ.
+    A joined row has the largest of its numbers; the last value is True if some differ.
     """
-    apart = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
+    tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
     runs: list[tuple[list[Cells], list[float]]] = []
     for row, distance in zip(rows, near, strict=True):
         same = runs[-1][0] if runs else []
-        if not same or row[0] != float(same[-1][0]) + 1 or not all(map(_alike, row[1:], same[0][1:], apart[1:])):
+        if not same or row[0] != float(same[-1][0]) + 1 or not all(map(_alike, row[1:], same[0][1:], tolerances[1:])):
             same = []
             runs.append((same, []))
         same.append(row)
@@ -231,8 +232,8 @@ def _is_number(cells: Cells) -> TypeGuard[tuple[float, ...]]:
     return not isinstance(cells[0], str)
 
 
-def _alike(one: str | float, other: str | float, apart: float) -> bool:
-    return one == other or (not isinstance(one, str) and not isinstance(other, str) and abs(one - other) <= apart)
+def _alike(a: str | float, b: str | float, tolerance: float) -> bool:
+    return a == b or (not isinstance(a, str) and not isinstance(b, str) and abs(a - b) <= tolerance)
 
 
 def _of_run(cells: Cells) -> str:
@@ -248,7 +249,7 @@ def _span(first: int, last: int) -> str:
 
 
 def _print_steps(printer: Printer, screen: Screen) -> None:
-    """Print a line for each step: of the elements, or of the nodes."""
+    """Print a row for each step: of the elements, or of the nodes."""
     evaluation, rows = screen.evaluation, screen.steps.rows
     names, of_nodes = unit_names(evaluation.scene.units), screen.which == "nodes"
     which = "node" if of_nodes else "element"
@@ -273,7 +274,7 @@ def _time(evaluation: Evaluation, value: str | int) -> DisplayColumn:
 
 
 def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
-    """The largest of all steps, also of those that are not listed."""
+    """Print the extremes over all steps, including those not listed."""
     evaluation, times, peaks = series.evaluation, series.evaluation.time, series.totals()
     names = unit_names(evaluation.scene.units)
     figures = {
@@ -296,7 +297,7 @@ def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
 
 
 def _print_lines(printer: Printer, screen: Screen) -> None:
-    """Print touchdown, largest forces, reaction and weight of lines, a row for each at each step."""
+    """Print touchdown, largest forces, reaction and weight of lines, a row for each line and step."""
     evaluation, rows = screen.evaluation, screen.lines.rows
     names = unit_names(evaluation.scene.units)
     pulled = any(row.largest_uplift is not None for row in rows)
@@ -321,7 +322,7 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
 
 
 def _largest(what: str, name: str, names: UnitNames) -> Iterator[DisplayColumn]:
-    """A largest force of a line, where there is one, and its element."""
+    """Yield the columns of a largest force of a line, if it has one, and of its element."""
 
     def part(key: str, row: LineSummary) -> Cell:
         cell: Cell = getattr(getattr(row, name), key, None)
@@ -337,7 +338,7 @@ def _touchdown(row: LineSummary) -> str:
 
 
 def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) -> None:
-    """Print between which values touchdown, length in contact, forces and reaction of lines were."""
+    """Print the ranges of touchdown, length in contact, forces and reaction of each line."""
     evaluation, times = series.evaluation, series.evaluation.time
     names, lines = unit_names(evaluation.scene.units), evaluation.lines.tolist()
     figures = {
@@ -350,9 +351,9 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) ->
     }
     rows = []
     for at, line in enumerate(lines):
-        found = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
-        several = "last" in found and found["last"] != found.get("first")
-        for name, extent in found.items():
+        extents = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
+        several = "last" in extents and extents["last"] != extents.get("first")
+        for name, extent in extents.items():
             what, unit = figures[name]
             if name != "last" or several:
                 rows.append((line + 1, f"first {what}" if name == "first" and several else what, unit, *extent))
@@ -374,7 +375,7 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) ->
 
 
 def print_comparison(comparison: ResultComparison, view: View) -> None:
-    """Print for each column how many values were compared, the largest differences and where they are."""
+    """Print for each column the number of compared values, and the largest differences with their places."""
 
     def columns_of(heading: str, name: str) -> Iterator[DisplayColumn]:
         def of(key: str, row: Any) -> Any:  # noqa: ANN401 - a difference, and a cell

@@ -1,4 +1,4 @@
-"""`mudline expand`."""
+"""Command `mudline expand`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _COLUMNS = (
     text("case", "description"),
     text("values", lambda deck: ", ".join(f"{name}={value}" for name, value in deck.values.items())),
 )
-_NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"
+_NOT_COPIED = "{}: this file, which the deck names, is not copied: put it next to the new decks"
 
 
 @options.command("expand")
@@ -36,7 +36,7 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
     """Write the decks that *VARIATION and *COMBINATIONS describe.
 
     Each new deck is the text of DECK with other values of its parameters and without the two keywords. All names are
-    checked before the first file is written, and none lies outside the folder. manifest.json in it lists the decks.
+    checked before the first file is written, and no file lies outside the folder. Its manifest.json lists the decks.
     """
     if output is None and not dry_run:
         raise click.UsageError("no folder to write to: give -o DIR, or --dry-run")

@@ -1,4 +1,4 @@
-"""`mudline export`: the model of a deck for another program, and the table of what does not carry over."""
+"""Command `mudline export`: the model of a deck for another program, and a table of what does not carry over."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
 from mudline.commands import export
-from mudline.tools.exporting.report import Report
+from mudline.tools.exporting.report import ExportReport
 
 _TARGETS = ("moordyn", "orcaflex")
 
@@ -27,10 +27,10 @@ _TARGETS = ("moordyn", "orcaflex")
     required=True,
     type=options.OUTPUT_FILE,
     metavar="OUT",
-    help="Write to this file, and others beside it.",
+    help="Write to this file, and further files next to it.",
 )
 @options.flag(
-    "--rest-shape", help="Export the resting shape, not the deck's own coordinates; it is written to OUT-rest.csv."
+    "--rest-shape", help="Export the resting shape, not the deck's own coordinates; it is also written to OUT-rest.csv."
 )
 @options.flag("--strict", help="Exit with 1 if anything was approximated or left out.")
 @options.output_format("text", "json")
@@ -66,13 +66,13 @@ def command(
     return FOUND if strict and not report.is_exact else DONE
 
 
-def _print(report: Report, view: View) -> None:
-    """The table of what does not carry over."""
+def _print(report: ExportReport, view: View) -> None:
+    """Print the table of keywords that do not carry over."""
     printer = view.printer()
     rows = report.rows()
     carried = len(report.entries) - len(report.lost)
     heads = ("keyword", "line", "status", "in the target", "effect")
-    columns = [DisplayColumn(one, at, left=one != "line", whole=one == "status") for at, one in enumerate(heads)]
+    columns = [DisplayColumn(head, at, left=head != "line", whole=head == "status") for at, head in enumerate(heads)]
     note = f"{carried} carried; JSON lists them too"
     if rows:
         printer.table(DisplayTable("What does not carry over", columns, rows, note))

@@ -1,4 +1,4 @@
-"""Findings as people read them: the place and the message, then the source line with a mark under the fault."""
+"""Findings for people: place and message, then the source line with a mark under the fault."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
     from mudline.cli.printing import Line, Part
 
 EXCERPT_WIDTH = 120
-"""Columns of a source line that are shown where no terminal sets a limit."""
+"""Columns of a source line that are shown without a terminal."""
 
 STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold blue"}
 
@@ -25,50 +25,50 @@ _NARROWEST_LINE = 20
 _FOLLOWS = "    follows: "
 
 
-def print_findings(view: View, found: Iterable[Diagnostic], source: Source) -> None:
-    """Print the findings of one file, each with its source line; with `-v` also those that follow from it."""
-    view.lines(_lines(found, source, view))
+def print_findings(view: View, findings: Iterable[Diagnostic], source: Source) -> None:
+    """Print the findings of one file, each with its source line; with `-v` also the findings that follow from it."""
+    view.lines(_lines(findings, source, view))
 
 
-def _lines(found: Iterable[Diagnostic], source: Source, view: View) -> Iterator[Line]:
+def _lines(findings: Iterable[Diagnostic], source: Source, view: View) -> Iterator[Line]:
     width, encoding = min(view.width or EXCERPT_WIDTH, EXCERPT_WIDTH), (sys.stdout.encoding or "utf-8").lower()
-    for one in found:
-        yield _headline(one, encoding)
-        yield from excerpt(one, source, width, encoding)
-        for each in one.following if view.verbose else ():
+    for finding in findings:
+        yield _headline(finding, encoding)
+        yield from excerpt(finding, source, width, encoding)
+        for each in finding.following if view.verbose else ():
             yield [_FOLLOWS, *_headline(each, encoding)]
 
 
-def print_summary(view: View, found: Sequence[Diagnostic], files: int) -> None:
-    """Print how many findings of each severity there are in so many files."""
+def print_summary(view: View, findings: Sequence[Diagnostic], files: int) -> None:
+    """Print how many findings of each severity there are in how many files."""
     parts: list[Part] = []
     for severity, style in STYLES.items():
-        if count := sum(one.severity is severity for one in found):
+        if count := sum(finding.severity is severity for finding in findings):
             word = f"{count} {severity.value}" if severity is Severity.INFO else counted(count, severity.value)
             parts += [", ", (word, style)]
     view.lines([["Found ", *parts[1:], f" in {counted(files, 'file')}."]])
 
 
-def _headline(found: Diagnostic, encoding: str) -> list[Part]:
-    style = STYLES[found.severity]
+def _headline(finding: Diagnostic, encoding: str) -> list[Part]:
+    style = STYLES[finding.severity]
     return [
-        (visible(f"{found.file}:{found.line}:{found.column}", encoding), "bold"),
+        (visible(f"{finding.file}:{finding.line}:{finding.column}", encoding), "bold"),
         ": ",
-        (found.severity.value, style),
+        (finding.severity.value, style),
         " ",
-        (found.code, style),
-        f" {visible(found.message, encoding)} ",
-        (f"[{found.slug}]", "dim"),
+        (finding.code, style),
+        f" {visible(finding.message, encoding)} ",
+        (f"[{finding.slug}]", "dim"),
     ]
 
 
-def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Line]:
-    """The source line with a mark under the fault; a long line is cut around it."""
-    line = _line_span(source, found.line)
-    number = str(found.line)
+def excerpt(finding: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Line]:
+    """Yield the source line with a mark under the fault; a long line is cut around it."""
+    line = _line_span(source, finding.line)
+    number = str(finding.line)
     width = max(_NARROWEST_LINE, width - len(f" {number} | "))
-    start = min(line.start + found.column - 1, line.end)
-    end = min(line.start + found.end_column - 1, line.end) if found.end_line == found.line else line.end
+    start = min(line.start + finding.column - 1, line.end)
+    end = min(line.start + finding.end_column - 1, line.end) if finding.end_line == finding.line else line.end
     piece = _window(source.text, line, start, width, encoding)
     if not source.readable or not source.text[slice(*piece)].strip():
         yield []
@@ -81,11 +81,11 @@ def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-
     before = _cells(left + shown(piece.start, start))
     marks = "^" * max(1, _cells(shown(start, min(end, piece.end))))
     yield [(f" {number} | ", "cyan"), left + shown(*piece) + right]
-    yield [(f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, STYLES[found.severity])]
+    yield [(f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, STYLES[finding.severity])]
 
 
 def _line_span(source: Source, number: int) -> Span:
-    """A line without its end, as offsets: a line may be the whole of a large file, and is not copied."""
+    """Return the offsets of a line without its end: a line may be the whole of a large file, and is not copied."""
     starts, text = source.line_starts, source.text
     if number > len(starts):
         return Span(len(text), len(text))
@@ -96,7 +96,7 @@ def _line_span(source: Source, number: int) -> Span:
 
 
 def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Span:
-    """The part of a line that fits into `width` columns and shows what stands before and behind `start`."""
+    """Return the part of a line that fits into `width` columns and shows the text around `start`."""
     if line.end - line.start <= width and _cells(visible(text[slice(*line)], encoding)) <= width:
         return line
     first = max(line.start, start - width // 3)
@@ -108,7 +108,7 @@ def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Spa
 
 
 def _cells(text: str) -> int:
-    """The columns that a text without control characters takes."""
+    """Return the columns that a text without control characters takes."""
     if text.isascii():
         return len(text)
     from rich.cells import cell_len  # noqa: PLC0415 - most decks are ASCII

@@ -1,4 +1,4 @@
-"""`mudline format`."""
+"""Command `mudline format`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 @options.force_exclude
 @takes_decks(units=False)
 def command(*, decks: GivenDecks, check: bool, diff: bool, force_exclude: bool, view: View) -> int:
-    """Rewrite decks in canonical layout, in place: the same deck, line by line, comments included.
+    """Rewrite decks in canonical layout, in place; contents and comments stay the same, line by line.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input, whose deck
     is printed. A deck with an error is reported and left unchanged.
@@ -35,15 +35,15 @@ def command(*, decks: GivenDecks, check: bool, diff: bool, force_exclude: bool, 
     outcomes = Counter(_outcome(inputs, *each, view, check=check, diff=diff) for each in inputs.contents())
     would = "would be " if check or diff else ""
     words = {_CHANGED: f"{would}{_CHANGED}", _SAME: f"{would}{_SAME}", _FAILED: _FAILED}
-    texts = [f"{counted(outcomes[one], 'file')} {word}" for one, word in words.items() if outcomes[one]]
+    texts = [f"{counted(outcomes[outcome], 'file')} {word}" for outcome, word in words.items() if outcomes[outcome]]
     if texts and not view.quiet:
         click.echo(", ".join(texts), err=True)
-    found = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
-    return max(inputs.code, FOUND if found else DONE)
+    failing = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
+    return max(inputs.code, FOUND if failing else DONE)
 
 
 def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: bool, diff: bool) -> str:
-    """Write, print or name the formatted deck; "" for one that is printed."""
+    """Write, print or name the formatted deck, and return the outcome; "" for a deck that is printed."""
     try:
         new = formatted(data, file.name)
     except DeckError as error:

@@ -1,4 +1,4 @@
-"""`mudline index`: decks into an archive of Parquet tables, in this process or in others."""
+"""Command `mudline index`: decks into an archive of Parquet tables, with several processes."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 
 @options.command("index")
-@click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; made if missing.")
-@click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files are no longer there.")
+@click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; created if missing.")
+@click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files no longer exist.")
 @options.config
 @options.isolated
 @options.jobs
@@ -50,8 +50,8 @@ def command(
     """Bring decks into an archive: Parquet tables, and a DuckDB file that shows them.
 
     PATHS are decks, or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that
-    begin as decks do). Decks that have not changed are not read again; those that are no longer
-    there are dropped. Needs the extra mudline[archive].
+    begin as decks do). Decks that have not changed are not read again. Decks that no longer exist are dropped. Needs
+    the extra mudline[archive].
     """
     if missing := [name for name in ("duckdb", "pyarrow") if find_spec(name) is None]:
         notify_missing("mudline index", " and ".join(missing), "archive")
@@ -91,14 +91,14 @@ def _is_inside(path: str, folder: Path) -> bool:
 
 
 def read_deck(data: bytes, name: str, settings: LintSettings, folder: Path | None) -> tuple[Rows, list[str]]:
-    """Read a deck, in any process: its rows, and the paths that they depend on; never raises for content."""
+    """Return the rows of a deck, and the paths that they depend on; never raises for content. Runs in any process."""
     with recording_looks() as paths:
         rows = rows_of(data, name, settings, folder)
     return rows, list(paths)
 
 
 def _index(inputs: Inputs, settings: Settings, archive: Archive, view: View, jobs: int) -> set[str]:
-    """Read the decks that are new or have changed; returns the places of all. One that cannot be opened stays."""
+    """Read new and changed decks; return the places of all decks. A deck that cannot be opened stays in the archive."""
     files, plugins = {archive.place(file.path or file.name): file for file in inputs.files}, plugin_files()
     inputs.files = list(files.values())
 

@@ -1,4 +1,4 @@
-"""The decks that a command reads: files, those found in directories without what a .gitignore hides, standard input."""
+"""Decks that a command reads: given files, files of directories that no .gitignore hides, standard input."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ _Deck = TypeVar("_Deck", bound="model.Deck")
 STDIN = "-"
 
 CHANGED = "it has changed during the run: left unchanged, run it again"
-"""Said of a file that somebody else has written."""
+"""Message for a file that somebody else has written."""
 
 
 def require_text(deck: _Deck) -> _Deck:
-    """Return a deck of a file that is a text of its own; raises DeckError for others: a merge conflict, binary data."""
+    """Return a deck whose file is a text; raises DeckError for a merge conflict or binary data."""
     from mudline.language.deck.reading import TextOrigin  # noqa: PLC0415 - completion does without it
 
     if isinstance(deck.origin, TextOrigin) and not deck.origin.source.readable:
@@ -46,9 +46,9 @@ def require_text(deck: _Deck) -> _Deck:
 
 
 class Input(NamedTuple):
-    """A file by the name that it is reported under; `path` None is standard input.
+    """A file with the name under which it is reported; `path` None is standard input.
 
-    A keyword text in an `encoding` is read as if it were in UTF-8, and written back in its own.
+    A keyword text in an `encoding` is read as if it were UTF-8, and written back in its encoding.
     """
 
     name: str
@@ -57,13 +57,13 @@ class Input(NamedTuple):
 
     @property
     def folder(self) -> Path | None:
-        """The folder of files that the deck names; None for standard input, beside which none is read."""
+        """Folder of files that the deck names; None for standard input, which may name none."""
         if self.path is None:
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
 
     def read(self) -> bytes:
-        """The content; raises OSError."""
+        """Return the content; raises OSError."""
         if self.path is not None:
             reading(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
@@ -82,7 +82,7 @@ class Input(NamedTuple):
             raise OSError(errno.EILSEQ, f"it is not in {self.encoding}: {error}") from error
 
     def own_bytes(self, content: bytes) -> bytes:
-        """Return a content in the encoding of the file; raises OSError for a letter that this lacks."""
+        """Return a content in the encoding of the file; raises OSError for a letter that the encoding lacks."""
         if not self.encoding or form_of(self.name) != "keyword":
             return content
         try:
@@ -98,9 +98,9 @@ def _folder(path: str) -> Path:
 
 @dataclass(slots=True, eq=False)
 class Inputs:
-    """The files found, each once, and whether something could not be found or read.
+    """Files to process, each once, and the exit code for paths that could not be found or read.
 
-    `undone` are those of the files that could not be read, or for which the program failed, with the reasons.
+    `undone` has the files that could not be read, or for which the program failed, with the reasons.
     """
 
     files: list[Input] = field(default_factory=list)
@@ -108,14 +108,14 @@ class Inputs:
     undone: dict[Input, str] = field(default_factory=dict)
 
     def contents(self) -> Iterator[tuple[Input, bytes]]:
-        """Each file that can be read; the others are reported and set the exit code."""
+        """Yield each readable file with its content; unreadable files are reported and set the exit code."""
         for file in self.files:
             data = self.content(file)
             if data is not None:
                 yield file, data
 
     def content(self, file: Input) -> bytes | None:
-        """The content of a file; one that cannot be read is reported and sets the exit code."""
+        """Return the content of a file, or None for an unreadable file, which is reported and sets the exit code."""
         try:
             return file.read()
         except OSError as error:
@@ -128,17 +128,17 @@ class Inputs:
         self.fail(f"{file.name}: {reason(error)}")
 
     def replaced(self, file: Input, read: bytes, content: bytes) -> bool:
-        """Whether a file has its new content; if not, that is reported.
+        """Return True if a file has its new content; otherwise the reason is reported.
 
-        A file that no longer holds what was read of it stays as it is: somebody else has written it, perhaps the same.
+        A file whose content is no longer `read` stays unchanged: somebody else has written it.
         """
         path = Path(file.path or file.name)
         try:
             with alone_at(path):
-                found = file.read()
-                if found == read:
+                current = file.read()
+                if current == read:
                     write_atomically(path, file.own_bytes(content))
-                elif found != content:
+                elif current != content:
                     self.fail(f"{file.name}: {CHANGED}")
                     return False
         except OSError as error:
@@ -153,7 +153,7 @@ class Inputs:
 
 
 Wanted = Callable[[str], bool]
-"""Whether a file of a directory, given by its path, is taken as a deck."""
+"""Predicate of the paths in a directory that are taken as decks."""
 
 
 def _why_skipped(path: str) -> str:
@@ -174,23 +174,23 @@ def _single(given: str, stdin_name: str) -> Input:
     return Input(stdin_name, None) if given == STDIN else Input(_slashed(given), given)
 
 
-def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
+def _directory(search: Search, inputs: Inputs, taken: Wanted) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     files = [Input(start + inside, path) for inside, path in search.files(taken)]
     for error in search.unreadable:
-        found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
+        inputs.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
     if not (files or search.unreadable):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
-        found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
-    found.files += files
+        inputs.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
+    inputs.files += files
 
 
 # ------------------------------------------------------------------------------------------------ the one deck
 
 
 class GivenDeck(NamedTuple):
-    """The one deck of a command, with the name of standard input and the units that its options give."""
+    """The deck of a command that takes one, with the name of standard input, units and encoding from its options."""
 
     path: str
     stdin_name: str
@@ -198,7 +198,7 @@ class GivenDeck(NamedTuple):
     encoding: str = ""
 
     def content(self) -> tuple[bytes, str]:
-        """The content of the file and its name in messages; ends the command when the path cannot be read."""
+        """Return the content of the file and its name in messages; ends the command if the path cannot be read."""
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
         file = _single(self.path, self.stdin_name)
@@ -209,7 +209,7 @@ class GivenDeck(NamedTuple):
             raise click.ClickException(f"{self.path}: {reason(error)}") from error
 
     def load(self, form: str | None = None) -> Deck:
-        """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
+        """Return the deck; ends the command if the path cannot be read. Raises DeckError."""
         data, name = self.content()
         from mudline.api import Deck  # noqa: PLC0415 - what only looks for files reads no deck
         from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
@@ -221,17 +221,17 @@ class GivenDeck(NamedTuple):
 
 
 def reading_named_files(deck: model.Deck) -> None:
-    """Note the files that a deck names as read, also where the command does not open them; raises OverwriteError."""
+    """Record all files that a deck names as read, even if the command does not open them; raises OverwriteError."""
     if outputs():
         from mudline.model.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
         from mudline.model.scene.restart import decks_before  # noqa: PLC0415 - as above
 
-        deque(missing_files(deck), 0)  # what is looked for is noted
+        deque(missing_files(deck), 0)  # records each file that is searched
         decks_before(deck)
 
 
 class GivenDecks(NamedTuple):
-    """The decks of a command: paths, the name of standard input, and the units that its options give."""
+    """The decks of a command: paths, and the name of standard input, units and encoding from its options."""
 
     paths: tuple[str, ...]
     every_file: bool = False
@@ -247,14 +247,14 @@ class GivenDecks(NamedTuple):
         skipped: list[str] | None = None,
         force_exclude: bool = False,
     ) -> Inputs:
-        """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
+        """Return the given files; directories are searched for wanted files, in sorted order; `-` is standard input.
 
-        What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen. Of a
-        directory what its `.gitignore` files hide is left out, unless `every_file` is asked for, and what the
-        configuration excludes; with `force_exclude` no file that it excludes is taken, not even by its name. `skipped`
-        gets a line, with the reason, for each file of a searched directory that is not taken.
+        Paths that exist but cannot be inspected are included, and reported when read: no deck passes unseen. Files of a
+        directory are left out if its `.gitignore` files hide them, unless `every_file` is set, or if the configuration
+        excludes them. With `force_exclude` the configuration also excludes files given by name. `skipped` receives a
+        line, with the reason, for each file of a searched directory that is not taken.
         """
-        own, found = configured or Configured(), Inputs()
+        own, inputs = configured or Configured(), Inputs()
 
         def taken(path: str) -> bool:
             is_taken = wanted(path) and not own.excludes(path) and may_be_deck(path)
@@ -264,21 +264,21 @@ class GivenDecks(NamedTuple):
 
         for given in self.paths:
             if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-                _directory(Search(given, not self.every_file), found, taken)
+                _directory(Search(given, not self.every_file), inputs, taken)
             elif given == STDIN or not (force_exclude and own.excludes(given)):
-                found.files.append(_single(given, self.stdin_name))
-        files = dict.fromkeys(found.files)
-        found.files = [file._replace(encoding=self.encoding or own.encoding(file.path or file.name)) for file in files]
-        for file in found.files:
+                inputs.files.append(_single(given, self.stdin_name))
+        files = dict.fromkeys(inputs.files)
+        inputs.files = [file._replace(encoding=self.encoding or own.encoding(file.path or file.name)) for file in files]
+        for file in inputs.files:
             if file.path is not None:
                 reading(file.path)
-        return found
+        return inputs
 
 
 def takes_decks(
     metavar: str = "PATHS...", *, stdin: bool = True, units: bool = True
 ) -> Callable[[options.Command], options.Command]:
-    """Add the decks, the options about them and those of all commands; they arrive as `decks`, a GivenDecks."""
+    """Add the decks, the options about them and the common options; they reach the command as `decks`, a GivenDecks."""
 
     def added(command: options.Command) -> options.Command:
         @wraps(command)
@@ -293,21 +293,21 @@ def takes_decks(
         ) -> int:
             return command(decks=GivenDecks(paths, every_file, stdin_name, units, encoding), **others)
 
-        found = options.common(given)
-        for option, wanted in (
+        decorated = options.common(given)
+        for option, included in (
             (options.encoding, True),
             (options.units, units),
             (options.stdin_name, stdin),
             (options.every_file, True),
         ):
-            found = option(found) if wanted else found
-        return options.decks(metavar)(found)
+            decorated = option(decorated) if included else decorated
+        return options.decks(metavar)(decorated)
 
     return added
 
 
 def takes_deck(command: options.Command) -> options.Command:
-    """Add DECK, the options about it and those of all commands; the deck arrives as `deck`, a GivenDeck."""
+    """Add DECK, the options about it and the common options; the deck reaches the command as `deck`, a GivenDeck."""
 
     @wraps(command)
     def given(*, deck: str, stdin_name: str, units: str | None, encoding: str, **others: object) -> int:

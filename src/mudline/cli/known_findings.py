@@ -1,4 +1,4 @@
-"""Findings that `mudline lint` remembers from earlier runs: unchanged decks are not read again by its rules."""
+"""Findings that `mudline lint` remembers from earlier runs: unchanged decks are not linted again."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severi
 from mudline.tools.running.remembered import Memory, of_working_folder
 
 MOST_HELD = 64_000_000
-"""Bytes of decks with findings that are held until these are printed."""
+"""Bytes of decks with findings that are kept in memory until these are printed."""
 
 Known = tuple[tuple[Diagnostic, ...], Coverage]
-"""The findings of a file, and how much of it was read."""
+"""Findings of a file, and how much of it was read."""
 
 
 @dataclass(eq=False)
 class KnownFindings:
-    """The memory, and the contents of decks of a run with what it knows of them; those without findings are empty."""
+    """Memory of findings, and the contents of a run's decks with their known findings; empty for decks without any."""
 
     memory: Memory
     configured: Configured
@@ -32,13 +32,14 @@ class KnownFindings:
 
     @property
     def whole(self) -> bool:
-        """Whether all decks of the run are known."""
+        """True if all decks of the run are known."""
         return bool(self.known) and len(self.known) == len(self.inputs.files)
 
     def key(self, file: Input, data: bytes) -> str:
-        """What the findings of a file are kept under; its name gives units and form, and is named in findings.
+        """Return the key of the findings of a file.
 
-        What lies outside of its project is not shown, and may be refused.
+        Its name is part of the key: it gives units and form, and is in findings. So is its project: files outside are
+        not shown, and may be refused.
         """
         configuration = self.configured.of(file.path)
         place = configuration.path
@@ -48,20 +49,20 @@ class KnownFindings:
         return self.memory.key(self._settings[place], project, file.name, data)
 
     def get(self, key: str) -> Known | None:
-        """What is known of a file; None where nothing is, or where a file that it depends on has changed."""
+        """Return the known findings of a file; None if there are none, or if a file that it depends on has changed."""
         held = self.memory.get(key)
         try:
             return tuple(_finding(**each) for each in held[1:]), _coverage(*held[0])
         except (TypeError, ValueError, LookupError, RecursionError):  # None, or what this program does not write
             return None
 
-    def put(self, key: str, found: Sequence[Diagnostic], coverage: Coverage, looked_at: Sequence[str]) -> None:
-        """Keep the findings of a file, which depend on what is at some paths, and how much of it was read."""
+    def put(self, key: str, findings: Sequence[Diagnostic], coverage: Coverage, looked_at: Sequence[str]) -> None:
+        """Store the findings of a file and how much of it was read; they depend on the content at some paths."""
         covered = [*asdict(coverage).values()]
-        self.memory.put(key, [covered, *map(asdict, found)], looked_at)
+        self.memory.put(key, [covered, *map(asdict, findings)], looked_at)
 
     def look(self) -> None:
-        """Find the decks that are known, as far as their contents may be held."""
+        """Look up the decks, as far as their contents may be kept in memory."""
         held = 0
         for file in self.inputs.files:
             if file.path is None:
@@ -78,52 +79,52 @@ class KnownFindings:
 
 
 def known_findings(inputs: Inputs, given: CallerSettings, configured: Configured) -> KnownFindings | None:
-    """What is known of the decks of a run; None where there is no place for a memory."""
+    """Return the known findings for the decks of a run; None where no memory can be kept."""
     memory = of_working_folder("lint", repr(given))
     if memory is None:
         return None
-    found = KnownFindings(memory, configured, inputs)
+    known = KnownFindings(memory, configured, inputs)
     if memory:
-        found.look()
-    return found
+        known.look()
+    return known
 
 
-# ------------------------------------------------------------------------------- what JSON holds, which may be anything
+# ------------------------------------------------------------------------------------- JSON that may hold anything
 
 
 def _coverage(total: int, read: int, partly: dict[str, int], unread: dict[str, int]) -> Coverage:
-    """How much of a file was read; raises TypeError for anything else."""
+    """Return the coverage of a file; raises TypeError for other data."""
     _demand(dict, partly, unread)
     _demand(int, total, read, *partly.values(), *unread.values())
     return Coverage(total, read, partly, unread)
 
 
 def _finding(*, severity: str, fix: list[Any] | None, following: list[dict[str, Any]], **others: Any) -> Diagnostic:  # noqa: ANN401 - as JSON
-    """A finding; raises TypeError, ValueError or LookupError for anything else."""
-    found = Diagnostic(
+    """Return a finding; raises TypeError, ValueError or LookupError for other data."""
+    finding = Diagnostic(
         **others,
         severity=Severity(severity),
         fix=None if fix is None else _fix(*fix),
         following=tuple(_finding(**each) for each in following),
     )
-    _demand(str, found.file, found.code, found.slug, found.message)
-    _demand(int, found.line, found.column, found.end_line, found.end_column)
-    _demand(bool, found.blocks)
-    return found
+    _demand(str, finding.file, finding.code, finding.slug, finding.message)
+    _demand(int, finding.line, finding.column, finding.end_line, finding.end_column)
+    _demand(bool, finding.blocks)
+    return finding
 
 
 def _fix(applicability: str, message: str, edits: list[Any]) -> Fix:
-    made = []
+    checked = []
     for start, end, text in edits:
         (line, column), (end_line, end_column) = start, end
         _demand(str, text)
         _demand(int, line, column, end_line, end_column)
-        made.append(Edit((line, column), (end_line, end_column), text))
+        checked.append(Edit((line, column), (end_line, end_column), text))
     _demand(str, applicability, message)
-    return Fix(applicability, message, tuple(made))
+    return Fix(applicability, message, tuple(checked))
 
 
 def _demand(kind: type, *values: object) -> None:
-    """Raise TypeError for a value of another kind."""
+    """Raise TypeError for a value of another type."""
     if not all(type(value) is kind for value in values):
         raise TypeError

@@ -1,4 +1,4 @@
-"""`mudline lint`: its options, the answer for decks that have not changed since they were linted, and `--watch`."""
+"""Command `mudline lint`: its options, the result for unchanged decks, and `--watch`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.known_findings import known_findings
-from mudline.cli.lint_report import Report, complete, outputs
+from mudline.cli.lint_report import LintReport, complete, outputs
 from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.language.deck.searching import is_deck
@@ -50,12 +50,12 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
-    help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}; "
-    "=FILE writes a file too. Repeatable.",
+    help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}. "
+    "With =FILE, also write a file. Repeatable.",
 )
-@options.flag("--fix", group=_FIXES, help="Apply the safe fixes, in place; the deck of - is printed.")
-@options.flag("--unsafe-fixes", "unsafe", group=_FIXES, help="With --fix or --diff: also apply fixes that guess.")
-@options.flag("--diff", group=_FIXES, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
+@options.flag("--fix", group=_FIXES, help="Apply the safe fixes in place; for -, print the fixed deck.")
+@options.flag("--unsafe-fixes", "unsafe", group=_FIXES, help="With --fix or --diff: also apply unsafe fixes.")
+@options.flag("--diff", group=_FIXES, help="Print the changes of --fix, and write nothing; exit with 1 if any.")
 @options.option("--baseline", group=_KNOWN, metavar="FILE", help="Hide the findings that are recorded in this file.")
 @options.flag("--write-baseline", "recording", group=_KNOWN, help="Record all findings in the file of --baseline.")
 @options.option(
@@ -69,7 +69,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @options.isolated
 @options.force_exclude
 @options.output_option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
-@options.output_option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
+@options.output_option("--exit-zero", is_flag=True, help="Exit with 0 even if there are findings.")
 @options.jobs
 @options.run_option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
 @options.run_option(
@@ -104,11 +104,11 @@ def command(
     """Find faults in decks: all findings of every file in one run.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
-    as decks do), or - for standard input. With -v the files of directories that are skipped are named.
+    as decks do), or - for standard input. With -v, files of directories that are skipped are named too.
     """
     given = CallerSettings(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
-    wanted = outputs(forms)
+    requested = outputs(forms)
     if baseline and recording:
         claim(baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
@@ -120,13 +120,13 @@ def command(
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
+        report = LintReport(requested, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.whole and not (baseline or recording):
             for file in inputs.files:
-                data, (found, coverage) = known.known[file]
+                data, (findings, coverage) = known.known[file]
                 limit = Severity(fail_on or configured.of(file.path).fail_on)
-                report.add(file.name, data, [*found], 0, limit)
+                report.add(file.name, data, [*findings], 0, limit)
                 report.coverage.add(coverage)
             report.finish()
             return max(inputs.code, FOUND if report.failing and not exit_zero else DONE)
@@ -141,7 +141,7 @@ def command(
         from mudline.cli import lint_run  # noqa: PLC0415 - as above
 
         lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, wanted.form)
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, requested.form)
         watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
     return once()
 
@@ -149,17 +149,17 @@ def command(
 # ------------------------------------------------------------------------------------------------------------- --watch
 
 WAIT = 0.3
-"""Seconds between two looks."""
+"""Seconds between two checks for changes."""
 
 _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _PRINTED = (TEXT, "concise")
 
 State = dict[str, tuple[int, int]]
-"""When each file was changed, in nanoseconds, and its size."""
+"""Modification time of each file, in nanoseconds, and its size."""
 
 
 def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None:
-    """Raise click.UsageError for what cannot be repeated."""
+    """Raise click.UsageError for options that cannot be combined with --watch."""
     for option, given in writing.items():
         if given:
             raise click.UsageError(f"--watch and {option} exclude each other: give one of them")
@@ -173,7 +173,7 @@ def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None
 
 
 def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoReturn:
-    """Lint, and again after each change; ends by KeyboardInterrupt only. An error that ends a run is reported."""
+    """Lint now and after each change, until KeyboardInterrupt. An error that ends a run is reported."""
     while True:
         before = state(paths)
         click.clear()
@@ -187,7 +187,7 @@ def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoRetu
 
 
 def wait_for_change(paths: Sequence[str], before: State) -> None:
-    """Return as soon as the files differ from `before`, and no longer change: editors write in several steps."""
+    """Return as soon as the files differ from `before` and no longer change: editors write in several steps."""
     last, now = before, state(paths)
     while now == before or now != last:
         time.sleep(WAIT)
@@ -195,23 +195,23 @@ def wait_for_change(paths: Sequence[str], before: State) -> None:
 
 
 def state(paths: Sequence[str]) -> State:
-    """The state of the files given, of the decks below folders and beside files, and of the configurations for them.
+    """Return the state of the given files, of decks below folders and next to files, and of their configurations.
 
-    Those that are missing or unreadable are left out.
+    Missing and unreadable files are left out.
     """
-    found: State = {}
+    states: State = {}
     for file in (*paths, *(file for path in paths for file in _near(path))):
         try:
-            now = os.stat(file)  # noqa: PTH116 - asked for many files
+            status = os.stat(file)  # noqa: PTH116 - asked for many files
         except (OSError, ValueError):
             continue
-        if S_ISREG(now.st_mode):
-            found[file] = (now.st_mtime_ns, now.st_size)
-    return found
+        if S_ISREG(status.st_mode):
+            states[file] = (status.st_mtime_ns, status.st_size)
+    return states
 
 
 def _near(given: str) -> Iterator[str]:
-    """The decks and configurations in a folder and below, or beside a file; and the configurations above."""
+    """Yield the decks and configurations in or below a folder, or next to a file; and the configurations above."""
     folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
     for place, folders, names in os.walk(folder):
         yield from (os.path.join(place, name) for name in names if is_deck(name) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files

@@ -1,4 +1,4 @@
-"""The findings of `mudline lint`: at once for people, at the end for programs, on standard output and in files."""
+"""Report of `mudline lint`: immediately for people, at the end for programs, on standard output and in files."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ from mudline.language.syntax.source import Source
 
 
 def complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
-    """What a shell completes after `--output-format`."""
+    """Return completions of the shell after `--output-format`."""
     return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
 
 
 class Outputs(NamedTuple):
-    """The format of standard output, and those of files."""
+    """Format of standard output, and formats of files."""
 
     form: str
     files: tuple[tuple[str, Path], ...]
 
 
 def outputs(given: Sequence[str]) -> Outputs:
-    """What `--output-format` asks for: FORM, or FORM=FILE. Raises click.UsageError."""
+    """Return the outputs from values of `--output-format`: FORM, or FORM=FILE. Raises click.UsageError."""
     known = [TEXT, *form_names()]
     printed: list[str] = []
     files: list[tuple[str, Path]] = []
@@ -58,8 +58,8 @@ def outputs(given: Sequence[str]) -> Outputs:
 
 
 @dataclass(eq=False)
-class Report:
-    """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
+class LintReport:
+    """Findings of a run. With `aside`, findings go to standard error, since standard output carries something else."""
 
     outputs: Outputs
     view: View
@@ -74,93 +74,93 @@ class Report:
     failing: bool = False
     coverage: Coverage = field(default_factory=Coverage)
 
-    def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
-        """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
+    def add(self, name: str, data: bytes, findings: list[Diagnostic], fixed: int, limit: Severity) -> None:
+        """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
         self.files += 1
-        # Text does not name the files, and there may be very many.
+        # Text output does not need the names of files, of which there may be very many.
         if self.aside or self.view.quiet or self.outputs.form != TEXT or self.outputs.files:
             self.names.append(name)
-        self.found += found
+        self.found += findings
         self.fixed += fixed
-        self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
+        self.failing = self.failing or any(finding.severity.rank >= limit.rank for finding in findings)
         as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
-        if as_they_come and found:
-            shown = found if self.view.verbose else [*_with_style_folded(found)]
+        if as_they_come and findings:
+            shown = findings if self.view.verbose else [*_with_style_folded(findings)]
             print_findings(self.view, shown, Source.from_bytes(data, name))
         if self.view.verbose:
-            notify(f"{name}: {counted(len(found), 'finding')}")
+            notify(f"{name}: {counted(len(findings), 'finding')}")
 
     def finish(self) -> None:
-        """Write and print what needs all findings."""
-        found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
+        """Write and print the outputs that need all findings."""
+        findings = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
         for name, path in self.outputs.files:
-            write_text(path, self._in_form(name, found))
+            write_text(path, self._in_form(name, findings))
         if self.aside:
-            self._print_aside(found)
+            self._print_aside(findings)
         elif self.statistics:
-            emit(statistics_lines(found))
+            emit(statistics_lines(findings))
         elif self.outputs.form != TEXT:
-            emit(self._in_form(self.outputs.form, found))
+            emit(self._in_form(self.outputs.form, findings))
         elif self.view.quiet:
-            emit(self._in_form("concise", found))
+            emit(self._in_form("concise", findings))
         elif self.files:
-            self._summary(found)
+            self._summary(findings)
 
-    def _in_form(self, name: str, found: list[Diagnostic]) -> Iterator[str]:
-        if may_declare(GROUP):  # findings that are remembered may be of plugins, which say where their pages are
+    def _in_form(self, name: str, findings: list[Diagnostic]) -> Iterator[str]:
+        if may_declare(GROUP):  # remembered findings may come from plugins, which give the addresses of their pages
             from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
 
             rules()
-        return form(name, self.names, __version__)(found)
+        return form(name, self.names, __version__)(findings)
 
-    def _print_aside(self, found: list[Diagnostic]) -> None:
+    def _print_aside(self, findings: list[Diagnostic]) -> None:
         name = "concise" if self.outputs.form == TEXT else self.outputs.form
-        for piece in statistics_lines(found) if self.statistics else self._in_form(name, found):
+        for piece in statistics_lines(findings) if self.statistics else self._in_form(name, findings):
             click.echo(piece, err=True, nl=False)
         if self.fixing and not self.view.quiet and name == "concise":
-            click.echo(self._fixed_summary(found), err=True)
+            click.echo(self._fixed_summary(findings), err=True)
 
-    def _summary(self, found: list[Diagnostic]) -> None:
-        if self.fixing and (self.fixed or found):
-            click.echo(self._fixed_summary(found))
-        elif found:
-            print_summary(self.view, found, self.files)
+    def _summary(self, findings: list[Diagnostic]) -> None:
+        if self.fixing and (self.fixed or findings):
+            click.echo(self._fixed_summary(findings))
+        elif findings:
+            print_summary(self.view, findings, self.files)
         else:
             click.echo(f"No findings in {counted(self.files, 'file')}.")
-        if hint := fixable(found):
+        if hint := fixable(findings):
             click.echo(hint)
         if self.coverage.total:
             click.echo(visible(self.coverage.sentence(), sys.stdout.encoding or "ascii"))
 
-    def _fixed_summary(self, found: list[Diagnostic]) -> str:
-        total = counted(self.fixed + len(found), "finding")
-        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(self.files, 'file')}."
+    def _fixed_summary(self, findings: list[Diagnostic]) -> str:
+        total = counted(self.fixed + len(findings), "finding")
+        return f"Found {total} ({self.fixed} fixed, {len(findings)} remaining) in {counted(self.files, 'file')}."
 
 
 _MOST_ALIKE = 2
-"""Findings of one rule of style in a file that stand on their own; more are one entry."""
+"""Findings of one style rule in a file that are listed individually; more are joined into one."""
 _LINES_NAMED = 5
 
 
-def _with_style_folded(found: list[Diagnostic]) -> Iterator[Diagnostic]:
-    """Return the findings with many of one rule of style under the first: an old deck has one on most of its lines."""
+def _with_style_folded(findings: list[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield the findings, joined under the first of each frequent style rule: old decks have one on most lines."""
     alike: dict[str, list[Diagnostic]] = {}
-    for one in found:
-        if one.code.startswith("STY"):
-            alike.setdefault(one.code, []).append(one)
-    for one in found:
-        first, *others = alike.get(one.code, [one])
+    for finding in findings:
+        if finding.code.startswith("STY"):
+            alike.setdefault(finding.code, []).append(finding)
+    for finding in findings:
+        first, *others = alike.get(finding.code, [finding])
         if len(others) < _MOST_ALIKE:
-            yield one
-        elif one is first:
-            lines = [str(each.line) for each in others[:_LINES_NAMED]]
+            yield finding
+        elif finding is first:
+            lines = [str(joined.line) for joined in others[:_LINES_NAMED]]
             more = ", ..." if len(others) > _LINES_NAMED else ""
-            yield replace(one, message=f"{one.message}; {len(others)} more in lines {', '.join(lines)}{more}")
+            yield replace(finding, message=f"{finding.message}; {len(others)} more in lines {', '.join(lines)}{more}")
 
 
-def fixable(found: list[Diagnostic]) -> str:
-    """How many findings have fixes of each kind, or ""."""
-    kinds = [one.fix.applicability for one in found if one.fix is not None]
+def fixable(findings: list[Diagnostic]) -> str:
+    """Return the number of findings with fixes of each kind, or ""."""
+    kinds = [finding.fix.applicability for finding in findings if finding.fix is not None]
     safe, unsafe = kinds.count("safe"), kinds.count("unsafe")
     if not kinds:
         return ""
@@ -170,7 +170,7 @@ def fixable(found: list[Diagnostic]) -> str:
 
 
 def statistics_lines(diagnostics: list[Diagnostic]) -> Iterator[str]:
-    """Findings counted by rule, the most frequent first."""
-    counts = Counter((found.code, found.slug) for found in diagnostics)
+    """Yield the number of findings of each rule, the most frequent first."""
+    counts = Counter((finding.code, finding.slug) for finding in diagnostics)
     for (code, slug), count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
         yield f"{count:6}  {code}  {slug}\n"

@@ -1,7 +1,7 @@
 """One run of `mudline lint`: the settings of each deck, its findings without the known ones, and fixed decks.
 
-Of many files those that are remembered are not linted again; the rest is linted here or in other processes, always in
-the order given.
+Remembered files are not linted again. Further files are linted in this or in other processes, and reported in the order
+given.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from mudline.checks.settings import Settings
 from mudline.checks.suppression import Baseline, BaselineError, read_baseline
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
-from mudline.cli.lint_report import Report
+from mudline.cli.lint_report import LintReport
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, reason, write_text
 from mudline.cli.view import Progress, View
@@ -30,7 +30,7 @@ from mudline.language.deck.forms import form_of
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
-    """The known findings; none yet when they are to be recorded. Ends the command for a file that is not a baseline."""
+    """Return the known findings, none yet if they are to be recorded; ends the command for an invalid file."""
     if given is None:
         if recording:
             raise click.UsageError("--write-baseline needs --baseline FILE: the file to write")
@@ -50,7 +50,7 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
 def checked_settings(
     config: str | None, given: CallerSettings, fixing: str, *, isolated: bool, fail_on: str | None
 ) -> Settings:
-    """The settings of a command line; ends the command for a word that names no rule, whatever the files are."""
+    """Return the settings of a command line; ends the command for a word that names no rule."""
     settings = Settings(Configured(config, isolated, code_fault), given, fail_on, Fixing(fixing))
     try:
         settings.merged(Configuration())
@@ -62,7 +62,7 @@ def checked_settings(
 def lint_files(
     inputs: Inputs,
     settings: Settings,
-    report: Report,
+    report: LintReport,
     known: KnownFindings | None,
     baseline: str | None,
     *,
@@ -70,15 +70,15 @@ def lint_files(
     diff: bool,
     jobs: int,
 ) -> bool:
-    """Lint all files; returns whether there is a reason to fail.
+    """Lint all files and return True if the run fails.
 
-    Fixed decks are written or shown, with `diff` shown only. `baseline` is the file of the findings that are left out,
-    or that are to be recorded.
+    Fixed decks are written or shown; with `diff` they are only shown. `baseline` is the file of findings to be left
+    out, or to be recorded.
     """
     recorded = _baseline(baseline, recording=recording)
     fixing = settings.fixing is not Fixing.NONE
     differs, documents = False, 0
-    if fixing:  # a deck that is fixed may be one that others continue
+    if fixing:  # another deck may continue a deck that is being fixed
         jobs = 1
     with closing(_lint_all(inputs, settings, known, jobs, report.view)) as results:
         for file, data, result in results:
@@ -93,13 +93,13 @@ def lint_files(
                 if not deliver(inputs, file, data, content, report.view, diff=diff):
                     unfixed = replace(own, fixing=Fixing.NONE)
                     content, result = data, lint_one(file.name, data, unfixed, file.folder)  # noqa: PLW2901 - of the deck as it stays
-            found = list(result.found)
+            findings = list(result.found)
             if recorded is not None:
                 path = file.path or file.name
                 if recording:
-                    recorded.record(found, content, path)
-                found = recorded.unknown(found, content, path)
-            report.add(file.name, content, found, len(result.fixed), own.fail_on)
+                    recorded.record(findings, content, path)
+                findings = recorded.unknown(findings, content, path)
+            report.add(file.name, content, findings, len(result.fixed), own.fail_on)
             report.coverage.add(result.coverage)
     if documents:
         notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
@@ -120,7 +120,7 @@ def lint_files(
 
 
 class _Read(NamedTuple):
-    """A file; `key` is what its report is remembered under, if at all, and `known` the report if that is remembered."""
+    """A file; `key` is the key of its report in the memory, if any, and `known` the remembered report."""
 
     file: Input
     data: bytes
@@ -131,30 +131,30 @@ class _Read(NamedTuple):
 def _lint_all(
     inputs: Inputs, settings: Settings, known: KnownFindings | None, jobs: int, view: View
 ) -> Generator[tuple[Input, bytes, FileReport], None, None]:
-    """Each file that can be read with its content and its report, in the order of the files.
+    """Yield each readable file with its content and its report, in the order of the files.
 
-    Reports that are remembered are not made again, but for that of standard input. Files that are known are not read
-    either, and the content of those without a finding is given as empty.
+    Remembered reports are not made again, except for standard input. Known files are not read either, and the content
+    of those without findings is empty.
     """
     plugins = plugin_files() if known is not None else ()
 
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
         own = settings.of(file.path or file.name)
         if known is not None and file in known.known:
-            data, (found, coverage) = known.known[file]
-            return _Read(file, data, known=FileReport(file.name, found, coverage=coverage)), None
+            data, (findings, coverage) = known.known[file]
+            return _Read(file, data, known=FileReport(file.name, findings, coverage=coverage)), None
         data = file.read()
         key = "" if known is None or file.path is None else known.key(file, data)
-        if known is not None and key and (one := known.get(key)) is not None:
-            return _Read(file, data, key, FileReport(file.name, one[0], coverage=one[1])), None
+        if known is not None and key and (remembered := known.get(key)) is not None:
+            return _Read(file, data, key, FileReport(file.name, remembered[0], coverage=remembered[1])), None
         return _Read(file, data, key), (file.name, data, own, file.folder)
 
     progress = Progress(len(inputs.files), view, shown=False)
     with closing(many_files(inputs, prepared, lint_one, progress, jobs=jobs)) as reports:
-        for one, made in reports:
-            report = made or one.known or FileReport(one.file.name, ())
-            if known is not None and one.key and one.known is None:
-                known.put(one.key, report.found, report.coverage, (*report.looked_at, *plugins))
-            yield one.file, one.data, report
+        for item, linted in reports:
+            report = linted or item.known or FileReport(item.file.name, ())
+            if known is not None and item.key and item.known is None:
+                known.put(item.key, report.found, report.coverage, (*report.looked_at, *plugins))
+            yield item.file, item.data, report
     if known is not None:
         known.memory.save()

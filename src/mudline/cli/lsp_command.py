@@ -1,4 +1,4 @@
-"""`mudline lsp`."""
+"""Command `mudline lsp`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mudline.cli.streams import notify, notify_missing
 def command() -> int:
     """Serve an editor: findings, fixes, help, names and formatting of open decks, over the language server protocol.
 
-    An editor starts this command and talks to it on standard input and output; docs/editors.md says how to set it up.
+    An editor starts this command and exchanges messages on standard input and output; docs/editors.md shows the setup.
     """
     if find_spec("pygls") is None:
         notify_missing("lsp", "pygls", "lsp")

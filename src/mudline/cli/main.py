@@ -1,4 +1,4 @@
-"""The command group and exit codes of faults; a command's module is imported when the command is run."""
+"""Command group, and exit codes of faults; the module of a command is imported when the command is run."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ from mudline.language.diagnostics import PluginError
 from mudline.tools.running.executors import RunError
 
 COMPLETION = "_MUDLINE_COMPLETE"
-"""The variable by which a shell asks for completions, as click describes."""
+"""Variable by which a shell asks for completions, as click describes."""
 
 COMMANDS = {
     "lint": "Find faults in decks.",
     "validate": "Validate decks.",
-    "format": "Rewrite decks in canonical layout, or check that they are.",
+    "format": "Rewrite decks in canonical layout, or check their layout.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
     "set": "Change one value in many decks.",
     "expand": "Write the decks that *VARIATION and *COMBINATIONS describe.",
     "diff": "Compare two decks semantically.",
-    "migrate": "Rewrite the legacy seabed keywords as the new family.",
+    "migrate": "Rewrite legacy seabed keywords in the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
     "backbone": "Print a published backbone curve as a block for a deck.",
     "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
     "batch": "Evaluate many decks or load cases: a row and a result file each.",
     "index": "Bring decks into an archive.",
-    "study": "Measure what accuracy costs on a deck, and what is stable.",
+    "study": "Measure accuracy, cost and stability of a touchdown zone.",
     "report": "Write a page about a deck for a checker to sign.",
     "rules": "List the rules, or explain one.",
     "export": "Export the model of a deck for another program.",
@@ -54,7 +54,7 @@ COMMANDS = {
 
 
 class _Commands(click.Group):
-    """Lists names and one-line helps of the commands without importing them."""
+    """Group that lists names and one-line helps of the commands without importing them."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
         return list(COMMANDS)
@@ -103,13 +103,13 @@ def _complete(_context: click.Context, _parameter: click.Parameter, incomplete: 
 def _help(context: click.Context, /, *, name: str | None) -> int:
     """Show the help of COMMAND, as `mudline COMMAND --help` does, or the list of all commands."""
     root = context.find_root()
-    found = mudline.resolve_command(root, [name])[1] if name else None
-    click.echo(root.get_help() if found is None else found.get_help(click.Context(found, root, name)))
+    shown = mudline.resolve_command(root, [name])[1] if name else None
+    click.echo(root.get_help() if shown is None else shown.get_help(click.Context(shown, root, name)))
     return DONE
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run a command line; returns its exit code. A closed pipe ends quietly."""
+    """Run a command line and return its exit code. A closed pipe ends the program quietly."""
     streams.prepare()
     if sys.flags.optimize > 1:  # helps are docstrings too
         from mudline.checks.registry import STRIPPED  # noqa: PLC0415 - most runs have them
@@ -130,7 +130,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _invoke(arguments: Sequence[str]) -> int:
-    """Not through `main` of click, which ends the process with its own exit codes."""
+    """Invoke a command without click's `main`, which ends the process with its own exit codes."""
     try:
         with refusing_overwriting(), mudline.make_context("mudline", list(arguments)) as context:
             if not arguments:
@@ -162,7 +162,7 @@ def _refuses_outside(folder: Path) -> bool:
 
 
 def _unwritable(error: OSError) -> int:
-    """Standard output is closed (EINVAL on Windows), or full."""
+    """Report that standard output is full, or end quietly if it is closed (EINVAL on Windows)."""
     closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
     if not closed:
         with suppress(OSError):  # standard error may be full too

@@ -1,6 +1,6 @@
-"""Many files with one work, in the order given: a bar, and a report of each that cannot be read or done.
+"""One function applied to many files, in the order given, with a progress bar.
 
-No file loses what is found of the others.
+Files that cannot be read, or for which the program fails, are reported, and the others are still processed.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ def many_files(
     jobs: int,
     scheduler: str | None = None,
 ) -> Generator[tuple[_Item, _Made | None], None, None]:
-    """An item for each file, with what the work makes of it, here, in other processes or by a scheduler's workers.
+    """Yield an item for each file with the result of `work`, run here, in other processes or by a scheduler's workers.
 
-    `prepared` gives the item of a file and what the work is given, None where there is nothing to do; it is called
-    when the file is due, and raises OSError where that cannot be read. Files that cannot be read, or for which the
-    program itself fails, are reported and left out; `inputs` has them and the exit code. To be closed, so that
-    processes end at once where the command does. Raises RunError.
+    `prepared` returns the item of a file and the arguments of `work`, or None if there is no work. It is called when
+    the file is due, and raises OSError if the file cannot be read. Files that cannot be read, or for which the program
+    itself fails, are reported and left out; `inputs` records them and the exit code. Close the generator to end the
+    processes as soon as the command ends. Raises RunError.
     """
 
     def items() -> Iterator[tuple[tuple[Input, list[_Item]], tuple[*_Given] | None]]:
@@ -48,13 +48,13 @@ def many_files(
                 yield (file, [item]), given
 
     with progress, closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results:
-        for (file, found), made in results:
-            if isinstance(made, Crash):
+        for (file, items_found), result in results:
+            if isinstance(result, Crash):
                 progress.hide()
-                inputs.undone[file] = f"internal error: {made.summary}"
-                inputs.fail(f"{file.name}: internal error, please report it: {made.summary}")
+                inputs.undone[file] = f"internal error: {result.summary}"
+                inputs.fail(f"{file.name}: internal error, please report it: {result.summary}")
                 if progress.view.verbose:
-                    notify(made.traceback)
+                    notify(result.traceback)
             else:
-                yield from ((item, made) for item in found)
+                yield from ((item, result) for item in items_found)
             progress.advance()

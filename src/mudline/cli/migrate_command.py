@@ -1,4 +1,4 @@
-"""`mudline migrate`."""
+"""Command `mudline migrate`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, r
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.commands import migrated
-from mudline.editing.migration.migrating import Verdict, legacy_blocks
+from mudline.editing.migration.migrating import Verification, legacy_blocks
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError
@@ -33,7 +33,7 @@ from mudline.language.diagnostics import DeckError
 @options.flag(
     "--verify",
     "proved",
-    help="Evaluate the old and the new deck first, and write only when all their laws agree bitwise.",
+    help="First evaluate the old and the new deck, and write only if all their laws agree bitwise.",
 )
 @takes_decks()
 def command(
@@ -44,7 +44,7 @@ def command(
     proved: bool,
     view: View,
 ) -> int:
-    """Rewrite *EMBEDMENT, *ELASTIC SURFACE and *RIGID SURFACE as the new family of seabed keywords.
+    """Rewrite *EMBEDMENT, *ELASTIC SURFACE and *RIGID SURFACE in the new family of seabed keywords.
 
     PATHS are decks, directories, or - for standard input, whose new text is printed. Comments stay, as does every byte
     outside the legacy blocks. A deck that the new family cannot express is left unchanged, with the reason.
@@ -56,7 +56,7 @@ def command(
     continuations = Continuations(Path(file.path) for file in inputs.files if file.path is not None)
     for file, data in inputs.contents():
         try:
-            run = _Run(inputs, file, data, output, view)
+            run = _DeckMigration(inputs, file, data, output, view)
             code = max(code, run.migrate(decks.units, continuations, diff=diff, proved=proved))
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
@@ -64,8 +64,8 @@ def command(
     return max(inputs.code, code)
 
 
-class _Run:
-    """One deck of a run and where it is written; `target` None is standard output."""
+class _DeckMigration:
+    """One deck of a run, and the file to which it is written; `target` None is standard output."""
 
     def __init__(self, inputs: Inputs, file: Input, data: bytes, output: str | None, view: View) -> None:
         self.inputs, self.file, self.data, self.view = inputs, file, data, view
@@ -73,32 +73,32 @@ class _Run:
         self.target = None if given is None else Path(given)
 
     def migrate(self, units: str | None, continuations: Continuations, *, diff: bool, proved: bool) -> int:
-        """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
+        """Migrate the deck and return the exit code. Raises DeckError for a deck that is left unchanged."""
         read = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
         reading_named_files(read)
         deck = Deck(**vars(require_text(read)))
         path = Path(self.file.path) if self.file.path and legacy_blocks(deck) else None
         beside = (continuations.of(path), continuations.extend(path)) if path else ([], False)
-        made = migrated(deck, beside, verify=proved)
-        if not made.replaced:
+        result = migrated(deck, beside, verify=proved)
+        if not result.replaced:
             self._note("no legacy seabed keyword")
             return DONE if diff or self._in_place else self._write(self.data, {})
-        if made.verified and not self._proved(made.verified):
+        if result.verified and not self._proved(result.verified):
             return FOUND
-        content = made.content_as(self.file.name if self.target is None else self.target.name)
+        content = result.content_as(self.file.name if self.target is None else self.target.name)
         if diff:
             print_changes(self.data, content, self.file.name, self.view)
-            for name, data in made.files.items():
+            for name, data in result.files.items():
                 print_changes(b"", data, Path(self.file.name).with_name(name).as_posix(), self.view, created=True)
             return DONE
-        replaced = ", ".join(f"{count} *{keyword}" for keyword, count in made.replaced.items())
-        return self._write(content, made.files, replaced)
+        replaced = ", ".join(f"{count} *{keyword}" for keyword, count in result.replaced.items())
+        return self._write(content, result.files, replaced)
 
     @property
     def _in_place(self) -> bool:
         return self.target is not None and self.target == Path(self.file.path or "")
 
-    def _proved(self, verdict: Verdict) -> bool:
+    def _proved(self, verdict: Verification) -> bool:
         for difference in verdict.differences[:SHOWN_ROWS]:
             notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:

@@ -1,4 +1,4 @@
-"""Options that many commands share."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ Command = Callable[..., int]
 # ----------------------------------------------------------------------------------------------------------------- help
 
 OWN, INPUT, OUTPUT, RUN, COMMON = "Options", "Input", "Output", "Run", "Common options"
-"""Headings in help: options of one command, and those that several share."""
+"""Headings in help: options of one command, and options that several commands share."""
 
 
 class Option(click.Option):
-    """An option that help shows under a heading."""
+    """Option that help shows under a heading."""
 
     def __init__(self, declarations: Sequence[str] | None = None, *, group: str = OWN, **attributes: Any) -> None:  # noqa: ANN401 - as click.Option
         super().__init__(declarations, **attributes)
@@ -31,10 +31,10 @@ class Option(click.Option):
 
 
 class GroupedCommand(click.Command):
-    """A command whose help shows its options under their headings."""
+    """Command whose help shows its options under headings."""
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the options by heading: those of the command first, those of all commands and --help last."""
+        """Write the options by heading: own options first, common options and --help last."""
         groups: dict[str, list[tuple[str, str]]] = {OWN: []}
         for parameter in self.get_params(ctx):
             record = parameter.get_help_record(ctx) if isinstance(parameter, click.Option) else None
@@ -51,18 +51,18 @@ command = partial(click.command, cls=GroupedCommand)
 option = partial(click.option, cls=Option)
 flag = partial(option, is_flag=True)
 input_option, output_option, run_option = (partial(option, group=group) for group in (INPUT, OUTPUT, RUN))
-"""Options under the headings that several commands have."""
+"""Decorators of options under the headings that several commands have."""
 
 # -------------------------------------------------------------------------------------------------------------- options
 
 
 def common(command: Command) -> Command:
-    """`--color`, `-q`, `-v`; they reach the command as `view`, if it asks for that."""
-    wanted = "view" in inspect.signature(command).parameters
+    """Add `--color`, `-q` and `-v`; they reach the command as `view` if it has this parameter."""
+    takes_view = "view" in inspect.signature(command).parameters
 
     @wraps(command)
     def viewed(*, color: str, quiet: bool, verbose: bool, **given: object) -> int:
-        view = {"view": View(color, quiet, verbose)} if wanted else {}
+        view = {"view": View(color, quiet, verbose)} if takes_view else {}
         return command(**given, **view)
 
     for add in (
@@ -86,18 +86,18 @@ jobs = run_option(
     type=click.IntRange(min=0),
     default=0,
     metavar="N",
-    help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+    help="Use at most N processes, if that saves time; 0 (default): one for each processor.",
 )
 
 units = input_option(
     "--units",
     type=click.Choice(["metric", "imperial", "user"]),
-    help="Read the deck in this unit system, not in that of its suffix, *UNITS or gravity.",
+    help="Read the deck in this unit system, in place of that of its suffix, *UNITS or gravity.",
 )
 
 
 def _encoding(_context: click.Context, _parameter: click.Parameter, value: str) -> str:
-    """Return the encoding; raises click.BadParameter for a name that Python does not know."""
+    """Return the encoding; raises click.BadParameter for an encoding unknown to Python."""
     from mudline.checks.configuration import is_encoding  # noqa: PLC0415 - few decks need it
 
     if value and not is_encoding(value):
@@ -112,22 +112,22 @@ encoding = input_option(
     default="",
     metavar="NAME",
     callback=_encoding,
-    help="Read keyword decks in this encoding, such as cp437, and write them in it.",
+    help="Read and write keyword decks in this encoding, such as cp437.",
 )
 
 complete_files = click.Path().shell_complete
-"""What a shell completes; paths are not checked here, so that every fault of one is worded the same way."""
+"""Completion of paths by a shell; paths are not checked here, so that messages are the same everywhere."""
 
 deck = click.argument("deck", metavar="DECK", shell_complete=complete_files)
 
 
 def decks(metavar: str) -> Callable[[Command], Command]:
-    """The argument of several files and directories, which reaches the command as `paths`."""
+    """Return the argument of several files and directories, which reaches the command as `paths`."""
     return click.argument("paths", nargs=-1, required=True, metavar=metavar, shell_complete=complete_files)
 
 
 def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
-    """What a shell completes where rules are named: codes and slugs, also behind others and a comma."""
+    """Return the completions for rules: codes and slugs, also after other rules and a comma."""
     from mudline.checks.registry import rules  # noqa: PLC0415 - as above
     from mudline.language.diagnostics import PluginError  # noqa: PLC0415 - only completion needs it
 
@@ -140,7 +140,7 @@ def complete_rules(_context: click.Context, _parameter: click.Parameter, incompl
 
 
 every_file = input_option(
-    "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that a .gitignore hides."
+    "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that are hidden by a .gitignore."
 )
 
 stdin_name = input_option(
@@ -148,28 +148,28 @@ stdin_name = input_option(
     "stdin_name",
     default="<stdin>",
     metavar="NAME",
-    help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
+    help="Name of standard input (-) in messages; its suffix gives format and units.",
 )
 
 no_outside = input_option(
     "--no-outside",
     is_flag=True,
-    help="Refuse decks that name files outside of their project, the nearest folder with a configuration or .git.",
+    help="Refuse decks that name files outside their project: the nearest folder with a configuration or .git.",
 )
 
 config = input_option(
-    "--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each."
+    "--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each deck."
 )
 
 isolated = input_option("--isolated", is_flag=True, help="Use no configuration file.")
 
 force_exclude = input_option(
-    "--force-exclude", is_flag=True, help="Leave out what the configuration excludes, also files given by name."
+    "--force-exclude", is_flag=True, help="Leave out files that the configuration excludes, even if given by name."
 )
 
 
 def output_format(*formats: str) -> Callable[[Command], Command]:
-    """`--output-format` with the formats that a command has."""
+    """Return `--output-format` with the formats of a command."""
     return output_option(
         "--output-format",
         "output_format",
@@ -180,13 +180,13 @@ def output_format(*formats: str) -> Callable[[Command], Command]:
     )
 
 
-check = flag("--check", help="Write nothing; name the files that would change, and exit with 1 if any.")
+check = flag("--check", help="Write nothing; name the files that would change; exit with 1 if there are any.")
 
-diff = flag("--diff", help="Write nothing; print what would change, and exit with 1 if anything.")
+diff = flag("--diff", help="Write nothing; print the changes; exit with 1 if there are any.")
 
 
 def form_of_file(path: str, forms: Collection[str]) -> str:
-    """The form of a file to write, by its suffix; raises click.UsageError for one that is not among the forms."""
+    """Return the form of a file to write, by its suffix; raises click.UsageError unless it is among `forms`."""
     try:
         return files.form_of_file(path, forms)
     except ValueError as error:
@@ -194,7 +194,7 @@ def form_of_file(path: str, forms: Collection[str]) -> str:
 
 
 class _OutputFile(click.types.StringParamType):
-    """A file that an option has written; - is standard output."""
+    """File that an option writes; - is standard output."""
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Claim the file; raises OverwriteError."""
@@ -207,7 +207,7 @@ OUTPUT_FILE = _OutputFile()
 
 
 class _AboveZero(click.types.FloatParamType):
-    """A number that is finite and above 0."""
+    """Number that is finite and above 0."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:  # noqa: ANN401 - as click has it
         """Return the number; raises click.UsageError."""

@@ -1,4 +1,4 @@
-"""`--plot`: the option of every command that draws, and the file it writes."""
+"""Option `--plot` of every command that draws, and the file that it writes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mudline.cli.view import View
 
 
 def plot_option(what: str, group: str = OWN) -> Callable[[Command], Command]:
-    """`--plot`, which reaches the command as `plot`; `what` is drawn."""
+    """Return `--plot`, which reaches the command as `plot`; `what` is drawn."""
     metavar = f"FILE.{'|'.join(PLOT_FORMS)}"
     return option(
         "--plot",
@@ -33,12 +33,12 @@ def plot_option(what: str, group: str = OWN) -> Callable[[Command], Command]:
 
 @dataclass(frozen=True)
 class Plot:
-    """The file of a plot, None where none is asked for."""
+    """File of a plot; None without a plot."""
 
     path: Path | None
 
     def write(self, draw: Callable[[Any], Any], view: View | None = None) -> None:
-        """Write the figure that `draw` makes with the module of plots, if a plot is asked for; report it to a view."""
+        """Write the figure that `draw` makes with the module of plots, if a plot is asked for, and report its file."""
         if self.path is not None:
             plots = import_module("mudline.model.results.plots")
             figure = draw(plots)
@@ -49,7 +49,7 @@ class Plot:
 
 
 def _plot(_context: click.Context, _option: click.Parameter, path: str | None) -> Plot:
-    """Return the file; raises click.UsageError for another form, ends the command without matplotlib."""
+    """Return the file; raises click.UsageError for an unknown form, ends the command without matplotlib."""
     if path is None:
         return Plot(None)
     form_of_file(path, PLOT_FORMS)
@@ -60,12 +60,12 @@ def _plot(_context: click.Context, _option: click.Parameter, path: str | None) -
 
 
 def numbers_of_elements(_context: click.Context, _option: click.Parameter, text: str | None) -> tuple[int, ...]:
-    """Return the numbers of elements of `--plot-elements`, separated by commas; raises click.UsageError."""
-    found = []
+    """Return the element numbers of `--plot-elements`, separated by commas; raises click.UsageError."""
+    numbers = []
     for part in () if text is None else text.split(","):
         try:
-            found.append(int(part))
+            numbers.append(int(part))
         except ValueError as error:
-            message = f"--plot-elements: {part.strip()!r} is not a number of an element; give numbers as 12,13"
+            message = f"--plot-elements: {part.strip()!r} is not an element number; give numbers as 12,13"
             raise click.UsageError(message) from error
-    return tuple(found)
+    return tuple(numbers)

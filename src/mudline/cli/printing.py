@@ -1,4 +1,4 @@
-"""Texts for people, in colours: lines, tables, the bar of a long run; with rich."""
+"""Texts for people with rich: coloured lines, tables, and the progress bar of a long run."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ from mudline.basics.quantities import shown
 from mudline.checks.output import visible
 
 WIDTH = 100
-"""Columns of a table where no terminal sets a limit."""
+"""Columns of a table without a terminal."""
 
 _WIDE = 10_000
 _GAPS = (2, 1)
-"""Blanks between columns, the second where a table is too wide for the first."""
+"""Blanks between columns, and between the columns of a table that is too wide otherwise."""
 _NARROWEST = 12
-"""Columns of text are not folded below this width."""
+"""Width below which columns of text are not wrapped."""
 
 Part = str | tuple[str, str]
-"""A piece of a line: a text, or a text and its style."""
+"""Piece of a line: a text, or a text and its style."""
 Line = Sequence[Part]
-"""The pieces of a line; a text by itself is none."""
+"""Pieces of a line; a single text is not a line."""
 
 
 class _Console(Console):
     def on_broken_pipe(self) -> None:
-        """Leave to the command what it means that nobody reads any more."""
+        """Raise BrokenPipeError, which the command handles."""
         raise BrokenPipeError
 
 
 class Printer:
-    """Prints on standard output. Text of a deck stays plain text, and only tables are folded where no terminal is."""
+    """Printer on standard output. Text of a deck stays plain text; without a terminal only tables are wrapped."""
 
     def __init__(self, color: str) -> None:
-        """`color` is "auto", "always" or "never"."""
+        """Take the colours of `color`: "auto", "always" or "never"."""
         terminal = sys.stdout.isatty()
         plain = color == "never" or (color == "auto" and (not terminal or bool(os.environ.get("NO_COLOR"))))
         self._console = _Console(
@@ -61,36 +61,36 @@ class Printer:
         self._rule = "\u2500" if self.encoding.startswith("utf") else "-"
 
     def visible(self, text: str) -> str:
-        """Text of a deck as this terminal can show it."""
+        """Return text of a deck in a form that the terminal can show."""
         return visible(text, self.encoding)
 
     def line(self, *parts: Part, fold: bool = True) -> None:
-        """Print a line; on a terminal a long one is folded between words."""
+        """Print a line; on a terminal a long line is wrapped between words."""
         self._console.print(Text.assemble(*parts), soft_wrap=not fold)
 
     def lines(self, lines: Iterable[Line]) -> None:
-        """Print lines; on a terminal long ones are folded between words."""
+        """Print lines; on a terminal long lines are wrapped between words."""
         for line in lines:
             self._console.print(Text.assemble(*line), soft_wrap=False)
 
     def table(self, table: DisplayTable) -> None:
-        """Print cells under their headings, with a blank line behind.
+        """Print cells under their headings, with a blank line after the table.
 
-        Long texts are folded, so the longest belongs into the last column. Rather than cut a number or what is to stay
-        whole, a table is wider than the screen.
+        Long texts are wrapped, so the column of the longest should be last. A table becomes wider than the screen
+        rather than cut a number or a column that stays whole.
         """
         table = table.filled()
         cells, columns = [[self._cell(cell) for cell in row] for row in table.cells()], table.columns
-        depth = max(one.head.count("\n") for one in columns)
-        padded = (("\n" * (depth - one.head.count("\n")) + one.head).split("\n") for one in columns)
+        depth = max(column.head.count("\n") for column in columns)
+        padded = (("\n" * (depth - column.head.count("\n")) + column.head).split("\n") for column in columns)
         heads = list(zip(*([self.visible(line) for line in lines] for lines in padded), strict=True))
         texts = ([text for text, _ in row] for row in cells)
         widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
-        to_left = [one.left for one in columns]
-        foldable = [one.left and not one.whole for one in columns]
-        # Columns are closer together where they would not fit otherwise.
-        layouts = [_Layout(_fitted(widths, foldable, self.width, gap), to_left, gap) for gap in _GAPS]
-        layout = next((one for one in layouts if one.width <= self.width), layouts[0])
+        to_left = [column.left for column in columns]
+        foldable = [column.left and not column.whole for column in columns]
+        # Columns are moved closer together if they do not fit otherwise.
+        layouts = [_TableLayout(_fitted(widths, foldable, self.width, gap), to_left, gap) for gap in _GAPS]
+        layout = next((layout for layout in layouts if layout.width <= self.width), layouts[0])
         if table.title:
             self.line((self.visible(table.title), "bold"))
         lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
@@ -108,7 +108,7 @@ class Printer:
         self._console.print()
 
     def _cell(self, cell: Cell) -> _Styled:
-        """What a cell shows, and its style."""
+        """Return the text of a cell, and its style."""
         value, style = cell if isinstance(cell, tuple) else (cell, "")
         text = value if isinstance(value, str) else str(value) if isinstance(value, int) else shown(value)
         return self.visible(text), style
@@ -117,8 +117,8 @@ class Printer:
 _Styled = tuple[str, str]
 
 
-class _Layout(NamedTuple):
-    """Widths of the columns, which of them are aligned left, and the blanks between them."""
+class _TableLayout(NamedTuple):
+    """Layout of a table: widths of the columns, which of them are aligned left, and the blanks between them."""
 
     widths: list[int]
     to_left: list[bool]
@@ -126,11 +126,11 @@ class _Layout(NamedTuple):
 
     @property
     def width(self) -> int:
-        """Of the whole table."""
+        """Width of the whole table."""
         return sum(self.widths) + self.gap * (len(self.widths) - 1)
 
     def folded(self, row: Sequence[_Styled], console: Console) -> Iterable[Sequence[_Styled]]:
-        """A row as one line of cells, or several where a text is folded."""
+        """Return a row as one line of cells, or several if a text is wrapped."""
         if all(cell_len(text) <= width for (text, _), width in zip(row, self.widths, strict=True)):
             return [row]
         folded = [
@@ -140,7 +140,7 @@ class _Layout(NamedTuple):
         return zip_longest(*folded, fillvalue=("", ""))
 
     def line(self, cells: Iterable[_Styled]) -> Iterator[_Styled]:
-        """Cells side by side."""
+        """Yield the cells of a line, aligned, with blanks between them."""
         gap = ""
         for (text, style), width, left in zip(cells, self.widths, self.to_left, strict=True):
             blanks = " " * (width - cell_len(text))
@@ -151,7 +151,7 @@ class _Layout(NamedTuple):
 
 
 def _fitted(widths: list[int], foldable: list[bool], available: int, gap: int) -> list[int]:
-    """Take from the widest column of text until the table fits or all of them are narrow."""
+    """Return the widths, less what the widest columns of text must give up until the table fits or all are narrow."""
     fitted = list(widths)
     while sum(fitted) + gap * (len(fitted) - 1) > available:
         widest = max((width for width, text in zip(fitted, foldable, strict=True) if text), default=0)
@@ -163,7 +163,7 @@ def _fitted(widths: list[int], foldable: list[bool], available: int, gap: int) -
 
 
 class Bar:
-    """A bar on one line of standard error, drawn without a thread; it leaves nothing behind."""
+    """Progress bar on one line of standard error, drawn without a thread and erased at the end."""
 
     def __init__(self, total: int, color: str) -> None:
         from rich.progress import (  # noqa: PLC0415 - large, and a bar is rare
@@ -188,11 +188,11 @@ class Bar:
         self._task = self._progress.add_task("", total=total)
 
     def draw(self, done: int) -> None:
-        """Show so many steps as done."""
+        """Draw the bar with `done` steps."""
         self._progress.update(self._task, completed=done)
         self._progress.start()
         self._progress.refresh()
 
     def erase(self) -> None:
-        """Leave an empty line where the bar was."""
+        """Erase the bar; its line remains empty."""
         self._progress.stop()

@@ -1,4 +1,4 @@
-"""`mudline report`: a page about a deck to be signed, or an index with a page a deck."""
+"""Command `mudline report`: a page about a deck to be signed, or an index with a page for each deck."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
-from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, Document, Given, Look, LookError
+from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
 from mudline.tools.reporting.pages import Pages, Wanted, make_page
 
 
@@ -30,7 +30,7 @@ from mudline.tools.reporting.pages import Pages, Wanted, make_page
     "--output",
     type=options.OUTPUT_FILE,
     metavar="OUT.html",
-    help="Write the page into this file; of several decks or a folder the index, with the pages in a folder beside it.",
+    help="Write the page; for several decks or a folder the index, with the pages in a folder next to it.",
 )
 @options.output_format("html", "json")
 @options.option(
@@ -38,18 +38,18 @@ from mudline.tools.reporting.pages import Pages, Wanted, make_page
     metavar="NAME[,NAME...]",
     default=",".join(BY_DEFAULT),
     show_default=True,
-    help="Write these sections only; study measures run times, which differ from run to run.",
+    help="Write only these sections; study measures run times, which vary from run to run.",
 )
-@click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape, not at the deck's own places.")
-@options.option("--title", metavar="TEXT", help="Call the page so; else by the *TITLE of the deck.")
-@options.option("--document", "number", metavar="TEXT", help="Write this number of the document on the page.")
-@options.option("--revision", metavar="TEXT", help="Write this revision on the page.")
+@click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape of the deck.")
+@options.option("--title", metavar="TEXT", help="Title of the page (default: the *TITLE of the deck).")
+@options.option("--document", "number", metavar="TEXT", help="Number of the document.")
+@options.option("--revision", metavar="TEXT", help="Revision of the document.")
 @options.option(
-    "--field", "fields", multiple=True, metavar="NAME=VALUE", help="Write this beside them; may be repeated."
+    "--field", "fields", multiple=True, metavar="NAME=VALUE", help="Further entry of the head of the page. Repeatable."
 )
-@options.option("--date", metavar="TEXT", help="Write this date on the page.")
+@options.option("--date", metavar="TEXT", help="Date of the document.")
 @options.option("--template", metavar="FILE", help='Use this jinja2 template, which may extend "page.html".')
-@options.option("--logo", metavar="FILE.svg|png", help="Put this logo at the head of the page.")
+@options.option("--logo", metavar="FILE.svg|png", help="Logo at the head of the page.")
 @options.config
 @options.isolated
 @options.jobs
@@ -72,37 +72,37 @@ def command(
 ) -> int:
     """Write a page about a deck for a checker to sign: verdict, findings, inputs, model, curves, contact, plan.
 
-    The page stands alone: no script, no address of the network. A deck with errors gets one too, without what could
-    not be computed. DECKS are files, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML
-    files that begin as decks do), or - for standard input.
+    The page stands alone: it has no script and no link to the network. A deck with errors also gets a page, without the
+    parts that could not be computed. DECKS are files, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and
+    for JSON and YAML files that begin as decks do), or - for standard input.
     """
     names = _sections(sections)
-    document = Document(**head, fields=tuple(map(_field, fields)))
+    document = PageHead(**head, fields=tuple(map(_field, fields)))
     html = output_format == "html"
     if html and output is None:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
-    if html and (missing := next((one for one in ("jinja2", "matplotlib") if find_spec(one) is None), None)):
+    if html and (missing := next((name for name in ("jinja2", "matplotlib") if find_spec(name) is None), None)):
         notify_missing("report", missing, "report")
         return WRONG_USAGE
     settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
     inputs = decks.collect(is_in_any_form)
     for path in filter(None, (template, logo)) if html else ():
         reading(path)
-    look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
+    look = Look(*(None if file is None else Path(file) for file in (template, logo))) if html else None
     many = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
     pages = Pages(Path(output) if html and output else None, lambda path, text: write_text(path, [text]), several=many)
     contents = []
 
-    def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
+    def prepared(file: Input) -> tuple[Input, tuple[DeckFile, LintSettings, Wanted]]:
         own = settings.of(file.path or file.name)
-        return file, (Given(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
+        return file, (DeckFile(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
     try:
         with closing(many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)) as results:
-            for file, made in results:
-                if made is not None:
-                    pages.add(made, file.name)
-                    contents += [] if html else [made.content]
+            for file, page in results:
+                if page is not None:
+                    pages.add(page, file.name)
+                    contents += [] if html else [page.content]
         if look is not None and pages.rows:
             pages.finish(look)
     except LookError as error:
@@ -123,7 +123,7 @@ def _sections(text: str) -> tuple[str, ...]:
 
 
 def _field(text: str) -> tuple[str, str]:
-    """Name and value of --field."""
+    """Return name and value of --field."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
         raise click.UsageError(f"--field {text!r}: give NAME=VALUE")

@@ -1,4 +1,4 @@
-"""Files of results: their forms, the libraries that these need, and the tables beside that of the elements."""
+"""Files of results: their forms, the libraries that these need, and the tables next to that of the elements."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from mudline.model.results.forms import (
 
 
 def is_installed(form: str) -> bool:
-    """Whether the library for a form of files is installed."""
+    """Return True if the library for a form of files is installed."""
     try:
         form_module(form)
     except ImportError:
@@ -39,7 +39,7 @@ def is_installed(form: str) -> bool:
 
 
 def has_library(form: str) -> bool:
-    """Whether the library for a form of files is installed; reports it if not."""
+    """Return True if the library for a form of files is installed, or none is needed; a missing library is reported."""
     if not FORMS[form].library or is_installed(form):
         return True
     notify_missing(f".{form}", FORMS[form].library, FORMS[form].extra)
@@ -50,10 +50,10 @@ def has_library(form: str) -> bool:
 def result_files(
     evaluation: Evaluation, elements: ElementResults, path: Path, view: View, *, synced: bool = True
 ) -> Iterator[Sink]:
-    """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all.
+    """Open the result file of an evaluation by its suffix, or several files; they appear only when all is written.
 
-    Files with a digest of their content, by which a lost one is found, need not be `synced`.
-    Raises click.ClickException where the form has no place for all rows.
+    Files whose digest is recorded need not be `synced`, as a lost file is recognised by it. Raises click.ClickException
+    if the form has no place for all rows.
     """
     tables = tables_of(evaluation, suffix_of(path), elements)
     with _opened(path, [*beside(path).values()], contents_of(evaluation, tables), view, synced=synced) as writer:
@@ -61,27 +61,27 @@ def result_files(
 
 
 def beside(path: Path) -> dict[str, Path]:
-    """The files of the other tables beside that of the elements, by the names of the tables."""
+    """Return the files of the further tables next to that of the elements, by the names of the tables."""
     return {table: table_path(path, table) for table in FORMS[suffix_of(path)].beside}
 
 
 def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
-    """Write tables into a file, or several; returns those beside it by the names of the tables.
+    """Write tables into a file, or several. Return the further files by the names of their tables.
 
     Raises click.ClickException as `result_files` does.
     """
     _, *others = tables.columns
-    found = {table: table_path(path, table) for table in others} if beside(path) else {}
-    with _opened(path, [*found.values()], tables.contents, View(quiet=True), synced=True) as writer:
+    further = {table: table_path(path, table) for table in others} if beside(path) else {}
+    with _opened(path, [*further.values()], tables.contents, View(quiet=True), synced=True) as writer:
         tables.write(writer)
-    return found
+    return further
 
 
 @contextmanager
 def _opened(path: Path, others: Sequence[Path], contents: FileContent, view: View, *, synced: bool) -> Iterator[Writer]:
-    """What writes a file, and others beside it."""
+    """Open a file and further files next to it, and yield their writer."""
     with ExitStack() as stack:
-        streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *others)]
+        streams = [stack.enter_context(writing(file, synced=synced)) for file in (path, *others)]
         output = ResultOutput(suffix_of(path), contents, streams, path.parent, partial(tracked, view=view))
         try:
             writer = stack.enter_context(output.opened())

@@ -1,4 +1,4 @@
-"""`mudline rules`."""
+"""Command `mudline rules`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from mudline.cli.view import View
 from mudline.language.rules import Rule
 
 _PAGE = 100
-"""Columns of the page of a rule."""
+"""Width of the page of a rule, in columns."""
 
 
 @options.command("rules")
@@ -29,7 +29,7 @@ _PAGE = 100
 @options.output_format("text", "json")
 @options.common
 def command(*, code: str | None, output_format: str, view: View) -> int:
-    """List the rules, or explain those that CODE (a code, a prefix or a slug) names."""
+    """List the rules, or explain the rules that CODE (a code, a prefix or a slug) names."""
     try:
         chosen = select([code]) if code else rules()
     except UnknownRule as error:
@@ -57,7 +57,7 @@ def _object(rule: Rule) -> dict[str, Any]:
 
 
 def _print_rules(rules: Sequence[Rule], view: View) -> None:
-    """Print a row for each rule: code, severity, name, what it finds."""
+    """Print a row for each rule: code, severity, name, title."""
     columns = (
         text_column("code", lambda rule: rule.code.code),
         text_column("severity", _severity),
@@ -68,19 +68,19 @@ def _print_rules(rules: Sequence[Rule], view: View) -> None:
 
 
 def _severity(rule: Rule) -> tuple[str, str]:
-    """The severity of a rule, and its style."""
+    """Return the severity of a rule, and its style."""
     severity = rule.code.severity
     return severity.value, STYLES[severity]
 
 
 def _package(rule: Rule, words: str) -> str:
-    """The package that a rule comes from, in words; "" for mudline."""
+    """Return the package of a rule in words; "" for mudline."""
     package = origin(rule.code.code)
     return "" if package == "mudline" else words.format(package)
 
 
 def _print_rule(rule: Rule, view: View) -> None:
-    """Print what a rule finds and why, with a bad and a good deck."""
+    """Print title and reason of a rule, with a bad and a good deck."""
     printer = view.printer()
     width = min(printer.width, _PAGE)
     printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule), ")", fold=False)

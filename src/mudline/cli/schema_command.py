@@ -1,4 +1,4 @@
-"""`mudline schema`, and the schema of a mudline.toml, from the keys of the configuration and the codes of the rules."""
+"""Command `mudline schema`, and the schema of a mudline.toml from configuration keys and rule codes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from mudline.language.deck.document import json_schema
 def command(*, what: str, output: str | None) -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it, or of the configuration.
 
-    Editors complete and check a mudline.toml by the schema of the configuration.
+    With the schema of the configuration, editors complete and check a mudline.toml.
     """
     emit_json(configuration_schema() if what == "config" else json_schema(), None if output == STDIN else output)
     return DONE
@@ -30,26 +30,26 @@ def command(*, what: str, output: str | None) -> int:
 # ---------------------------------------------------------------------------------------------------- the configuration
 
 MEANINGS = {
-    "extend": "A file with the same keys, from the folder of this one, whose values hold where this one sets none.",
-    "select": "Only these rules run: codes, beginnings of codes, or slugs.",
+    "extend": "A file with the same keys, relative to this file's folder; its values apply where this file sets none.",
+    "select": "The only rules that run: codes, prefixes of codes, or slugs.",
     "ignore": "Rules that are left out.",
-    "extend-select": "Rules that run too.",
+    "extend-select": "Further rules that run.",
     "include": "Patterns of files taken from a searched directory besides those with a deck's suffix.",
     "exclude": "Patterns of files left out of a searched directory.",
     "fixable": "Rules whose fixes are made.",
     "unfixable": "Rules whose fixes are never made.",
-    "fail-on": "The least severity that fails a run; warning unless set.",
-    "dialect": "The program that the decks are for.",
-    "no-outside": "Whether a deck that names a file outside of its project is refused.",
+    "fail-on": "The lowest severity that fails a run; the default is warning.",
+    "dialect": "The program for which the decks are written.",
+    "no-outside": "If true, decks that name files outside their project are refused.",
     "encoding": "The encoding of keyword decks that are not in UTF-8, as Python names it.",
-    "per-file-ignores": "Rules that are left out in the files that fit a pattern.",
-    "severity": "Severities that hold instead of the rules' own; off leaves a rule out.",
+    "per-file-ignores": "Rules that are left out in files that match a pattern.",
+    "severity": "Severities in place of the rules' own; off leaves a rule out.",
 }
-"""What each key means."""
+"""Descriptions of the keys."""
 
 
 def configuration_schema() -> dict[str, Any]:
-    """The schema, in draft 7, which editors know best; codes of plugins are taken, but not listed."""
+    """Return the schema in draft 7, which editors support best; codes of plugins are accepted, but not listed."""
     properties = {key: {"description": MEANINGS[key], **_values(key)} for key in KEYS}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -90,7 +90,7 @@ def _code() -> dict[str, Any]:
 
 
 def _rule() -> dict[str, Any]:
-    """What names rules: an editor offers the families, codes and slugs of mudline, and takes those of plugins too."""
+    """Return the schema of rule names: families, codes and slugs are listed, and those of plugins accepted."""
     from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
 
     own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]

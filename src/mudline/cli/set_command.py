@@ -1,4 +1,4 @@
-"""`mudline set`."""
+"""Command `mudline set`."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, require_text,
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.editing.assignment.fields import ConditionError, DeckCondition, Target, target_of
-from mudline.editing.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
+from mudline.editing.assignment.fields import ConditionError, DeckCondition, FieldTarget, target_of
+from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment, parse_condition
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic, Severity
@@ -39,7 +39,7 @@ _UNWRITTEN = "not written"
     metavar="CONDITION",
     help="Change only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
 )
-@options.flag("--force", help="Also set a value that is far outside of what is usual, in the units of the deck.")
+@options.flag("--force", help="Also set a value that is far outside the usual range in the units of the deck.")
 @options.check
 @options.diff
 @takes_decks()
@@ -53,72 +53,72 @@ def command(
     diff: bool,
     view: View,
 ) -> int:
-    """Change one value in many decks, in place; comments, columns and all other values stay as they are written.
+    """Change one value in many decks, in place; comments, columns and all other values stay as written.
 
-    The field is given as in TIME.step=0.05, that of one record as in SEABED PROPERTIES[set=TDZ].stiffness=50000. PATHS
-    are decks, directories, or - for standard input, whose deck is printed. Where the value of a deck is given by an
-    equation, is not the only one, is refused by the checks, or the new one is far outside of what is usual in the units
-    of the deck, no deck is changed, and the exit code is 1. New warnings are shown.
+    The field is given as in TIME.step=0.05, and that of one record as in SEABED PROPERTIES[set=TDZ].stiffness=50000.
+    PATHS are decks, directories, or - for standard input, whose deck is printed. No deck is changed, and the exit code
+    is 1, if in any deck the value is an equation, is not unique, is refused by the checks, or would be far outside the
+    usual range. New warnings are shown.
     """
     try:
         change = parse_assignment(assignment)
-        target = target_of(change.path, Operand.of(change.value))
+        target = target_of(change.path, WrittenOperand.of(change.value))
         where = None if condition is None else DeckCondition.of(parse_condition(condition))
     except PathError as error:
         raise click.UsageError(str(error)) from error
-    run = _Run(change, target, where, decks.units, force, view, decks.collect())
+    run = _SetRun(change, target, where, decks.units, force, view, decks.collect())
     run.plan(check=check, diff=diff)
     if not (check or diff):
         run.write()
     changed = "would be changed" if check or diff else "changed"
-    words = {_CHANGED: changed} | {one: one for one in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
-    texts = [f"{run.counts[one]} {word}" for one, word in words.items() if run.counts[one]]
+    words = {_CHANGED: changed} | {outcome: outcome for outcome in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
+    texts = [f"{run.counts[outcome]} {word}" for outcome, word in words.items() if run.counts[outcome]]
     if texts and not view.quiet:
         click.echo(f"{counted(run.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
-    nowhere = run.counts[_WITHOUT] and not any(run.counts[one] for one in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
+    nowhere = run.counts[_WITHOUT] and not any(run.counts[name] for name in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
     if nowhere:
         notify(f"no deck has {change.path}")
-    found = run.counts[_CHANGED] and (check or diff)
-    return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or found else DONE)
+    would_change = run.counts[_CHANGED] and (check or diff)
+    return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or would_change else DONE)
 
 
 @dataclass(slots=True)
-class _Run:
-    """A run: first each deck is looked at, then, if none was refused, the files are written."""
+class _SetRun:
+    """A run: first all decks are checked; the files are written if none was refused."""
 
     assignment: Assignment
-    target: Target
+    target: FieldTarget
     condition: DeckCondition | None
     units: str | None
     force: bool
     view: View
     inputs: Inputs
     planned: list[tuple[Input, int, tuple[TextEdit, ...]]] = field(default_factory=list)
-    """The files that are to change, a hash of what each held, and the edits."""
+    """Files to change, with a hash of their content and the edits."""
     printed: list[bytes] = field(default_factory=list)
     counts: Counter[str] = field(default_factory=Counter)
 
     def plan(self, *, check: bool, diff: bool) -> None:
-        """Find out what changes in each deck, and print it where that is asked for."""
+        """Determine the change of each deck, and print it if asked for."""
         for file, data in self.inputs.contents():
-            outcome, found = self._outcome(file, data)
+            outcome, change = self._outcome(file, data)
             self.counts[outcome] += 1
             if file.path is None and not (check or diff):
-                self.printed.append(_edited(file, data, found.edits if found else ()))
-            if found is None:
+                self.printed.append(_edited(file, data, change.edits if change else ()))
+            if change is None:
                 continue
             if check:
-                emit([f"would change: {file.name}:{found.line}: {found.before} -> {found.after}\n"])
+                emit([f"would change: {file.name}:{change.line}: {change.before} -> {change.after}\n"])
             if diff:
-                print_changes(data, _edited(file, data, found.edits), file.name, self.view)
+                print_changes(data, _edited(file, data, change.edits), file.name, self.view)
             if file.path is not None:
-                self.planned.append((file, hash(data), found.edits))
+                self.planned.append((file, hash(data), change.edits))
 
     def _outcome(self, file: Input, data: bytes) -> tuple[str, Assigned | None]:
         try:
-            found = self._assigned(file, data)
-            if isinstance(found, Assigned) and found.edits:
-                self._judge(file, data, found)
+            change = self._assigned(file, data)
+            if isinstance(change, Assigned) and change.edits:
+                self._judge(file, data, change)
         except (AssignmentError, ConditionError) as error:
             line = getattr(error, "line", None)
             notify(f"{file.name}{f':{line}' if line else ''}: {error}")
@@ -127,38 +127,39 @@ class _Run:
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
             return _REFUSED, None
-        if isinstance(found, str):
-            return found, None
-        if not found.edits:
+        if isinstance(change, str):
+            return change, None
+        if not change.edits:
             return _SAME, None
         if self.view.verbose:
-            notify(f"{file.name}:{found.line}: {found.before} -> {found.after}")
-        return _CHANGED, found
+            notify(f"{file.name}:{change.line}: {change.before} -> {change.after}")
+        return _CHANGED, change
 
     def _assigned(self, file: Input, data: bytes) -> Assigned | str:
-        """The changed deck, or which decks without a change it belongs to. Raises what a deck is refused for."""
+        """Return the changed deck, or the outcome of a deck without a change. Raises errors for refused decks."""
         if form_of(file.name) != KEYWORD:
             raise AssignmentError("only decks in keyword text are changed: convert it first")
         deck = require_text(load_bytes(data, file.name, units=self.units, folder=file.folder))
         if self.condition is not None and not self.condition.holds(deck):
             return _UNMET
-        found = assigned(deck, self.assignment, self.target, self.units)
-        return _WITHOUT if found is None else found
+        change = assigned(deck, self.assignment, self.target, self.units)
+        return _WITHOUT if change is None else change
 
-    def _judge(self, file: Input, data: bytes, found: Assigned) -> None:
-        """Show the warnings that a deck has only with its new value; raises AssignmentError for an unusual value."""
-        after = self._findings(file, _edited(file, data, found.edits))
+    def _judge(self, file: Input, data: bytes, change: Assigned) -> None:
+        """Show warnings that a deck has only with its new value; raises AssignmentError for an unusual value."""
+        after = self._findings(file, _edited(file, data, change.edits))
         if not after:
             return
-        before = {(one.code, one.line, one.message) for one in self._findings(file, data)}
-        new = [one for one in after if (one.code, one.line, one.message) not in before]
-        unusual = [one for one in new if one.code in CODES and one.line == found.line]
+        before = {(finding.code, finding.line, finding.message) for finding in self._findings(file, data)}
+        new = [finding for finding in after if (finding.code, finding.line, finding.message) not in before]
+        unusual = [finding for finding in new if finding.code in CODES and finding.line == change.line]
         if unusual and not self.force:
             what = f"{self.target.path} would be unusual in the units of the deck"
-            raise AssignmentError(f"{what}: correct the value, or give --force", found.line, unusual)
+            raise AssignmentError(f"{what}: correct the value, or give --force", change.line, unusual)
         if not self.view.quiet:
-            remarks = [one for one in new if one.code == UNT008.code and one.line == found.line]
-            notify_diagnostics([one for one in new if one.severity is not Severity.INFO] + remarks, refused=False)
+            remarks = [finding for finding in new if finding.code == UNT008.code and finding.line == change.line]
+            warnings = [finding for finding in new if finding.severity is not Severity.INFO]
+            notify_diagnostics(warnings + remarks, refused=False)
 
     def _findings(self, file: Input, data: bytes) -> list[Diagnostic]:
         return covered_findings(data, file.name, rules(), units=self.units, folder=file.folder)[0]

@@ -1,4 +1,4 @@
-"""`mudline show`."""
+"""Command `mudline show`."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 @options.command("show")
-@options.flag("--sheet", help="The sheet only: a row for each run of elements with the same properties.")
+@options.flag("--sheet", help="Show only the sheet: a row for each run of elements with the same properties.")
 @options.output_option(
     "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE", help="Write the sheet: .csv, .json, .xlsx."
 )
@@ -43,44 +43,44 @@ if TYPE_CHECKING:
 def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: str, view: View) -> int:
     """Summarise a deck: sections, keywords, sets, curves, diameters, laws, and the sheet of its elements.
 
-    CSV and workbooks hold the sheet; -o writes it into a file, which a workbook needs. A deck with errors is shown as
-    far as it can be read; the exit code is then 1.
+    CSV and workbooks hold the sheet; a workbook needs -o. A deck with errors is shown as far as it can be read; the
+    exit code is then 1.
     """
     form = _form(output, output_format)
     if form == "xlsx" and not has_library("xlsx"):
         return WRONG_USAGE
-    summary, found, errors = show(require_text(deck.load()))
+    summary, elements, errors = show(require_text(deck.load()))
     units = summary["units"]
     if output is not None:
-        write_tables(sheet_data(found, units), Path(output))
+        write_tables(sheet_data(elements, units), Path(output))
     elif form == "csv" or (form == "json" and sheet):
-        write_text(sheet_data(found, units), form, emit, "sheet")
+        write_text(sheet_data(elements, units), form, emit, "sheet")
     elif form == "json":
         emit_json(summary)
     else:
         if not sheet:
             _print_summary(summary, view)
-        tables = sheet_tables(found, units)
+        tables = sheet_tables(elements, units)
         if sheet and not tables:
-            notify(f"{summary['file']}: the deck shows no elements, which a sheet is of")
+            notify(f"{summary['file']}: the deck has no elements to list in a sheet")
         for table in tables:
             view.printer().table(table.first(None if view.verbose else SHOWN_ROWS, "more rows: -v shows all"))
     if errors:
-        counts = Counter(one.file for one in errors)
+        counts = Counter(error.file for error in errors)
         for file, count in counts.items():
             notify(f"{file} has {counted(count, 'error')}: see mudline lint")
     return FOUND if errors else DONE
 
 
 def _form(output: str | None, output_format: str) -> str:
-    """The form to write or print: that of the file, if there is one."""
+    """Return the form to write or print: that of the file, if there is one."""
     if output is None:
         if output_format == "xlsx":
             raise click.UsageError("--output-format xlsx: give the file of the workbook with -o FILE.xlsx")
         return output_format
     form = options.form_of_file(output, ("csv", "json", "xlsx"))
     if output_format not in ("text", form):
-        raise click.UsageError(f"{output} is no {output_format}: give a file .{output_format}, or leave out the format")
+        raise click.UsageError(f"{output} is not {output_format}: give a .{output_format} file, or no format")
     return form
 
 
@@ -101,8 +101,8 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     }
     for key, table in tables.items():
         if rows := summary[key]:
-            found = table(rows, names)
-            printer.table(found.first(most, "more diameters: -v shows all") if key == "diameters" else found)
+            printed = table(rows, names)
+            printer.table(printed.first(most, "more diameters: -v shows all") if key == "diameters" else printed)
 
 
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
@@ -136,20 +136,20 @@ def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> 
 
 
 _SEVERAL = 2
-"""Subjects of the keywords of a section that are listed one by one."""
+"""Number of subjects from which on the keywords of a section are listed by subject."""
 
 
 def _by_subject(section: str, keywords: list[str]) -> dict[str, list[str]]:
-    """The keywords of a section by what they are about, in the order of the subjects."""
-    found: dict[str, list[str]] = {}
+    """Return the keywords of a section by subject, in the order of the subjects."""
+    by_subject: dict[str, list[str]] = {}
     for keyword in keywords:
         entry = next(each for each in catalogue.entries(keyword) if section in each.sections)
-        found.setdefault(entry.subject, []).append(keyword)
-    return {subject: found[subject] for subject in SUBJECTS if subject in found}
+        by_subject.setdefault(entry.subject, []).append(keyword)
+    return {subject: by_subject[subject] for subject in SUBJECTS if subject in by_subject}
 
 
 def _bed(floor: dict[str, Any]) -> str:
-    """The shape of a seabed that is not flat."""
+    """Return the shape of a seabed that is not flat, in words."""
     turned = f", turned by {shown(floor['direction'])} degrees" if floor["direction"] else ""
     if floor["kind"] == "flat":
         return ""
@@ -163,7 +163,7 @@ def _bed(floor: dict[str, Any]) -> str:
 
 
 def _listed(printer: Printer, keywords: list[str]) -> str:
-    """Names of keywords, each once, with the number of its blocks when there are more."""
+    """Return each keyword once, with the number of its blocks if there are several."""
     counts = Counter(keywords)
     return ", ".join(
         f"*{printer.visible(name)}" + (f" ({count} blocks)" if count > 1 else "") for name, count in counts.items()
@@ -225,5 +225,5 @@ def _extensions(blocks: Rows, _: UnitNames) -> DisplayTable:
 
 def _static(rows: Rows, names: UnitNames, left_out: Sequence[str]) -> DisplayTable:
     alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
-    found = static_table(rows, names, left_out, first=alike)
-    return replace(found, columns=[*found.columns, text("extrapolated", "extrapolated", optional=True)])
+    table = static_table(rows, names, left_out, first=alike)
+    return replace(table, columns=[*table.columns, text("extrapolated", "extrapolated", optional=True)])

@@ -1,4 +1,4 @@
-"""Standard output and error, notes and errors for people, and files that a command writes."""
+"""Standard output and error, messages for people, and files that a command writes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from mudline.language.syntax.source import Source
 
 
 def prepare() -> None:
-    """Escape what the terminal's encoding lacks; a stream that was closed before the start takes everything."""
+    """Make output escape characters that the terminal lacks; replace a closed stream by the null device."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:
@@ -34,10 +34,10 @@ def prepare() -> None:
 
 
 def drop() -> None:
-    """Nobody reads any more: what is still in the buffers must not raise again when the interpreter ends."""
+    """Redirect output to the null device, so that the remaining buffers raise no error when the interpreter ends."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
-        with suppress(io.UnsupportedOperation):  # a stream of a program that runs the command in itself
+        with suppress(io.UnsupportedOperation):  # the stream of a program that calls the command within its process
             os.dup2(nowhere, stream.fileno())
     os.close(nowhere)
 
@@ -46,9 +46,9 @@ def drop() -> None:
 
 
 def emit(pieces: Iterable[str]) -> None:
-    """Write a machine format to standard output: UTF-8 with LF line ends, whatever the terminal is set to.
+    """Write a machine format to standard output: UTF-8 with LF line ends, whatever the settings of the terminal.
 
-    On a terminal, what could act on it is replaced; a pipe or a file gets the text as it is.
+    On a terminal control characters are replaced; a pipe or a file gets the text unchanged.
     """
     terminal = sys.stdout.isatty()
     _write(encoded(visible_lines(piece) if terminal else piece) for piece in pieces)
@@ -64,7 +64,7 @@ def emit_json(value: object, output: str | None = None) -> None:
 
 
 def emit_deck(data: bytes) -> None:
-    """Write a deck to standard output, byte for byte unless that is a terminal."""
+    """Write a deck to standard output, byte for byte except on a terminal."""
     if sys.stdout.isatty():
         emit([Source.from_bytes(data, "").text])
     else:
@@ -75,12 +75,12 @@ def _write(pieces: Iterable[bytes]) -> None:
     sys.stdout.flush()
     for piece in pieces:
         rest = memoryview(piece)
-        while rest:  # an unbuffered stream may take less than it is given
+        while rest:  # an unbuffered stream may accept only a part
             rest = rest[sys.stdout.buffer.write(rest) :]
 
 
 def encoded(text: str) -> bytes:
-    """UTF-8; half a surrogate pair, as a file name may hold, is escaped."""
+    """Return a text as UTF-8; half a surrogate pair, as a file name may hold, is escaped."""
     return text.encode("utf-8", "backslashreplace")
 
 
@@ -88,28 +88,28 @@ def encoded(text: str) -> bytes:
 
 
 def notify(message: str) -> None:
-    """Print a note or an error on standard error."""
+    """Print a note or an error to standard error."""
     click.echo(f"mudline: {visible_lines(message)}", err=True)
 
 
 def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = True) -> None:
-    """Print why a deck cannot be used, as errors whatever they are to lint; else findings with their severity."""
-    for found in diagnostics[:SHOWN_ROWS]:
-        place = visible(f"{found.file}:{found.line}:{found.column}")
-        severity = "error" if refused else found.severity.value
-        click.echo(f"{place}: {severity}: {found.code} {visible(found.message)}", err=True)
+    """Print the errors that make a deck unusable, or, unless `refused`, findings with their severity."""
+    for finding in diagnostics[:SHOWN_ROWS]:
+        place = visible(f"{finding.file}:{finding.line}:{finding.column}")
+        severity = "error" if refused else finding.severity.value
+        click.echo(f"{place}: {severity}: {finding.code} {visible(finding.message)}", err=True)
     if len(diagnostics) > SHOWN_ROWS:
         what = "errors" if refused else "new findings"
         notify(f"{len(diagnostics) - SHOWN_ROWS} more {what}: mudline lint shows all")
 
 
 def notify_missing(what: str, library: str, extra: str) -> None:
-    """Print which extra brings a library that is not installed."""
+    """Print the name of a missing library, and the extra that installs it."""
     notify(f"{what} needs {library}: {install_hint(extra)}")
 
 
 def reason(error: OSError) -> str:
-    """Why a file could not be read or written, in words."""
+    """Return the reason why a file could not be read or written."""
     return (error.strerror or str(error)).lower()
 
 
@@ -117,15 +117,14 @@ def reason(error: OSError) -> str:
 
 
 class UnwrittenError(click.ClickException):
-    """A file cannot be written; what was there before still is."""
+    """Failure to write a file; its previous content remains."""
 
 
 @contextmanager
 def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
-    """A stream whose content becomes the file in one step; ends the command when that is not possible.
+    """Open a file that is written in one step when the block ends; a failure ends the command.
 
-    What is not `synced` is not waited for until it is on the disk, as in `replacement`. Raises OverwriteError for a
-    file that the run reads.
+    `synced` is as in `replacement`. Raises OverwriteError for a file that the run reads.
     """
     from mudline.basics.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
 
@@ -138,7 +137,7 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
 
 
 def make_folder(path: Path) -> None:
-    """Make a folder and those above it; ends the command for one that cannot be made."""
+    """Create a folder and its parents; a failure ends the command."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""`mudline study`."""
+"""Command `mudline study`."""
 
 from __future__ import annotations
 
@@ -29,11 +29,9 @@ _WIDTH = 110
 
 
 @options.command("study")
-@options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
-@options.option(
-    "--heave", type=ABOVE_ZERO, metavar="A", help="Set the amplitude of the hang-off's heave, without surge."
-)
-@options.option("--period", type=ABOVE_ZERO, metavar="T", help="Set the period of its motion.")
+@options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study only this part. Repeatable.")
+@options.option("--heave", type=ABOVE_ZERO, metavar="A", help="Set the heave amplitude of the hang-off, without surge.")
+@options.option("--period", type=ABOVE_ZERO, metavar="T", help="Set the period of the hang-off's motion.")
 @plot_option("error against run time, with the deck's own step")
 @options.option(
     "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE.json", help="Write the study as JSON into this file."
@@ -51,39 +49,39 @@ def command(
     output_format: str,
     view: View,
 ) -> int:
-    """Study the touchdown zone of a deck: is its time step short enough, does its soil let a solver converge.
+    """Study the touchdown zone of a deck: time step, and convergence of a solver on its soil.
 
-    accuracy: error against run time of the deck's own scheme, its touchdown zone laid down and lifted as in its waves.
-    stability: stiffer and softer soils, curves that fall or jump, friction. pruning: what the stages of the evaluation
-    take, and what those would add that the deck does not have.
+    accuracy: error against run time of the deck's own time integration, while the touchdown zone is laid down and
+    lifted as in its waves. stability: stiffer and softer soils, curves that fall or jump, friction. pruning: run time
+    of the stages of the evaluation, and of stages that the deck does not need.
     """
     if output is not None and suffix_of(output) != "json":
         raise click.UsageError(f"-o {output}: unknown file format: give a name ending in .json")
-    found = study(deck.load(), only=only, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
+    result = study(deck.load(), only=only, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
     if plot.path is not None:
-        _plot(found, plot, view)
+        _plot(result, plot, view)
     if output:
-        emit_json(found.json(), output)
+        emit_json(result.json(), output)
         if not view.quiet:
             notify(f"study -> {Path(output).as_posix()}")
     if output_format == "json":
-        emit_json(found.json())
+        emit_json(result.json())
     elif output_format == "csv":
-        emit(_csv(found.json()))
+        emit(_csv(result.json()))
     elif not (output and view.quiet):
-        _print(found, view.printer())
+        _print(result, view.printer())
     return DONE
 
 
-def _plot(found: Study, plot: Plot, view: View) -> None:
-    if not found.drawable:
+def _plot(result: Study, plot: Plot, view: View) -> None:
+    if not result.drawable:
         notify("--plot: there is nothing to draw, as no step of this deck was measured")
         return
-    plot.write(lambda _: found.figure(), view)
+    plot.write(lambda _: result.figure(), view)
 
 
 def _csv(whole: dict[str, Any]) -> Iterator[str]:
-    """The tables of the parts, each under its heading, with an empty line between them."""
+    """Yield the tables of the parts, each with its heading, and an empty line between tables."""
     tables = [rows for rows in (whole["steps"], whole["extremes"], whole["friction"], whole["stages"]) if rows]
     for number, rows in enumerate(tables):
         lines = [_flat(row) for row in rows]
@@ -92,33 +90,33 @@ def _csv(whole: dict[str, Any]) -> Iterator[str]:
 
 
 def _flat(row: dict[str, Any]) -> dict[str, Any]:
-    """A row without rows or pairs inside it."""
-    found: dict[str, Any] = {}
+    """Return a row without rows or pairs inside it."""
+    flat: dict[str, Any] = {}
     for name, value in row.items():
         if name == "touchdown":
-            found |= dict(zip(("touchdown_from", "touchdown_to"), value or (None, None), strict=True))
+            flat |= dict(zip(("touchdown_from", "touchdown_to"), value or (None, None), strict=True))
         elif isinstance(value, dict):
-            found |= {f"{name}_{inner}": each for inner, each in value.items()}
+            flat |= {f"{name}_{inner}": each for inner, each in value.items()}
         else:
-            found[name] = value
-    return found
+            flat[name] = value
+    return flat
 
 
 # ----------------------------------------------------------------------------------------------------------- the screen
 
 
-def _print(found: Study, printer: Printer) -> None:
-    for text, style in ((found.advice.text, "bold"), (description(found), "")):
+def _print(result: Study, printer: Printer) -> None:
+    for text, style in ((result.advice.text, "bold"), (description(result), "")):
         if text:
             _paragraph(printer, text, style)
             printer.line("")
-    for part in found.parts:
-        if table := TABLES[part](found):
+    for part in result.parts:
+        if table := TABLES[part](result):
             printer.table(table)
-        said = sentences(found, part)
-        for text in said:
+        remarks = sentences(result, part)
+        for text in remarks:
             _paragraph(printer, text, "dim")
-        if said:
+        if remarks:
             printer.line("")
 
 

@@ -1,4 +1,4 @@
-"""`mudline validate`: errors and warnings of decks, in a table, JSON or CSV. No text is kept."""
+"""Command `mudline validate`: errors and warnings of decks, in a table, JSON or CSV."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.language.syntax.source import Source
 
 _COLUMNS = (
-    text("verdict", lambda one: (one.short, _style(good=one.ok))),
+    text("verdict", lambda verdict: (verdict.short, _style(good=verdict.ok))),
     number("warn-\nings", "warnings"),
     number("sec-\ntions", "sections"),
-    number("keywords\nread", lambda one: _read(one.keywords)),
+    number("keywords\nread", lambda verdict: _read(verdict.keywords)),
     number("curves", "curves"),
     number("ele-\nments", "elements"),
     text("file", "file", whole=True),
@@ -46,8 +46,8 @@ _FAIL_ON = ("error", "warning", "unread")
     "--fail-on",
     type=click.Choice(_FAIL_ON),
     default="error",
-    help="Exit with 1 for a deck with errors (default), for one with warnings too, or also for one that is not read "
-    "as a whole.",
+    help="Exit with 1 for decks with errors (default), also for decks with warnings, or also for decks that are not "
+    "read completely.",
 )
 @options.no_outside
 @options.jobs
@@ -61,16 +61,17 @@ def command(
     jobs: int,
     view: View,
 ) -> int:
-    """Validate decks: print the errors of each, then a table with a row per deck.
+    """Validate decks: print the errors of each, then a table with a row for each deck.
 
-    A file without any section has an error. Warnings are those of lint, and those about a pipe without a seabed under
-    it; -v and JSON list them too. Of a deck of which not all keywords could be read the verdict says how many were.
+    A file without any section has an error. Warnings are those of lint, and those about a pipe without a seabed below
+    it. With -v and in JSON, warnings are listed too. If not all keywords of a deck could be read, the verdict gives
+    their number.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
-    as decks do), or - for standard input. Of many decks -q shows the table without the errors.
+    as decks do), or - for standard input. With -q, only the table is shown.
     """
     inputs = decks.collect(is_in_any_form)
-    total, listing = Total(), view.verbose or output_format == "json"
+    total, listing = ValidationTotal(), view.verbose or output_format == "json"
     progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
     with closing(_judged(inputs, (decks.units, no_outside, listing), total, progress, jobs)) as judged:
         if output_format == "json":
@@ -87,10 +88,16 @@ def command(
 
 
 @dataclass(slots=True)
-class Total:
-    """Number of decks, of those without errors (`ok`), of their errors and warnings, and of unreadable files.
+class ValidationTotal:
+    """Counts of a run; files that could not be read are not among the decks.
 
-    Files that could not be read are not among the decks.
+    Attributes:
+        decks: number of decks.
+        ok: number of decks without errors.
+        errors: number of errors.
+        warnings: number of warnings.
+        unreadable: number of files that could not be read.
+        keywords: how many keywords were read.
     """
 
     decks: int = 0
@@ -126,62 +133,62 @@ class Total:
 
 
 Judged = tuple[Verdict, list[Diagnostic], bytes]
-"""The verdict on a deck, its errors, the warnings too where they are asked for, and its content, which is not kept."""
+"""Verdict on a deck, its errors (also warnings, if asked for), and its content, which is not kept."""
 
 
 def judge_file(
     file: Input, data: bytes, units: str | None, no_outside: bool, listing: bool
 ) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on a deck and its errors, with its warnings if they are for `listing`; in any process."""
+    """Return the verdict on a deck and its errors, with `listing` also its warnings. Runs in any process."""
     with refusing_outside(lambda folder: no_outside or refuses_outside(folder)):
         verdict, errors, warnings = judge_content(data, file.name, units, file.folder)
-    return verdict, sorted([*errors, *warnings], key=lambda one: one.sort_key) if listing else errors
+    return verdict, sorted([*errors, *warnings], key=lambda finding: finding.sort_key) if listing else errors
 
 
 # ------------------------------------------------------------------------------------------------------- all files
 
 
 def _judged(
-    inputs: Inputs, wanted: tuple[str | None, bool, bool], total: Total, progress: Progress, jobs: int
+    inputs: Inputs, options: tuple[str | None, bool, bool], total: ValidationTotal, progress: Progress, jobs: int
 ) -> Generator[Judged, None, None]:
-    """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
+    """Yield and count each readable deck. The bar is hidden while errors of a deck are printed."""
 
     def prepared(file: Input) -> tuple[bytes, tuple[Input, bytes, str | None, bool, bool]]:
         data = file.read()
-        return data, (file, data, *wanted)
+        return data, (file, data, *options)
 
     with closing(many_files(inputs, prepared, judge_file, progress, jobs=jobs)) as results:
-        for data, made in results:
-            if made is not None:
-                verdict, found = made
+        for data, result in results:
+            if result is not None:
+                verdict, findings = result
                 total.add(verdict)
-                if found:
+                if findings:
                     progress.hide()
-                yield verdict, found, data
+                yield verdict, findings, data
     total.unreadable = len(inputs.undone)
 
 
 # ---------------------------------------------------------------------------------------------------------- output
 
 
-def _print_json(judged: Iterable[Judged], total: Total) -> None:
-    """Print one object; its decks are written when they are judged."""
+def _print_json(judged: Iterable[Judged], total: ValidationTotal) -> None:
+    """Print one JSON object; each deck is written as soon as it is judged."""
     mark = '{\n "decks": ['
-    for verdict, found, _ in judged:
-        row = {**verdict.row(), "findings": [as_object(each) for each in found]}
+    for verdict, findings, _ in judged:
+        row = {**verdict.row(), "findings": [as_object(each) for each in findings]}
         emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
         mark = ","
     end = "\n ]" if mark == "," else f"{mark}]"
     emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1, ensure_ascii=False), " ").lstrip(), "\n}\n"])
 
 
-def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
-    """Print the errors of each deck at once; the table, whose widths all rows decide, at the end."""
+def _print_text(judged: Iterable[Judged], total: ValidationTotal, view: View) -> None:
+    """Print the errors of each deck at once, and the table at the end, as all rows determine its widths."""
     verdicts = []
-    for verdict, found, data in judged:
+    for verdict, findings, data in judged:
         verdicts.append(verdict)
-        if found and not view.quiet:
-            print_findings(view, found, Source.from_bytes(data, verdict.file))
+        if findings and not view.quiet:
+            print_findings(view, findings, Source.from_bytes(data, verdict.file))
     if verdicts:
         printer = view.printer()
         printer.table(DisplayTable("Decks", _COLUMNS, verdicts))
@@ -191,12 +198,12 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
 
 
 def _read(words: Coverage) -> int | str:
-    """How many keywords were read."""
+    """Return the number of keywords read, and of all if they differ."""
     return words.total if words.whole else f"{words.read} of {words.total}"
 
 
 def _csv(verdicts: Iterable[Verdict]) -> Iterator[list[object]]:
-    """Yield the headings of a table without nesting, and its rows; keywords are numbers."""
+    """Yield the headings of a table without nesting, and its rows; keywords are counts."""
     yield [*(name for name in Verdict("", 0).row() if name != "keywords"), "keywords", "read", "partly"]
     for verdict in verdicts:
         words, row = verdict.keywords, verdict.row()

@@ -1,4 +1,4 @@
-"""How a command prints: colours, less or more, and a bar of how far a long run is."""
+"""Settings of printing: colours, less or more output, and a progress bar of a long run."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ if TYPE_CHECKING:
     from mudline.cli.printing import Bar, Line, Printer
 
 DELAY = 0.5
-"""Seconds of a run before a bar is drawn."""
+"""Seconds before a bar is drawn."""
 _PAUSE = 0.1
-"""Seconds between two drawings."""
+"""Minimum seconds between two drawings."""
 
 T = TypeVar("T")
 
 
 class View(NamedTuple):
-    """How to print: colours ("auto", "always", "never"), less, or more. The one place where rich is loaded."""
+    """Settings of printing: colours ("auto", "always", "never"), less, or more. Only this class loads rich."""
 
     color: str = "auto"
     quiet: bool = False
     verbose: bool = False
 
     def printer(self) -> Printer:
-        """What prints for people."""
+        """Return the printer for people."""
         from mudline.cli.printing import Printer  # noqa: PLC0415 - output for programs needs no rich
 
         return Printer(self.color)
 
     def lines(self, lines: Iterable[Line]) -> None:
-        """Print lines for people; rich does it where there is a terminal or colour, as it takes half of a short run."""
+        """Print lines for people; without terminal and colour rich is not loaded, as that takes half of a short run."""
         if self.color == "always" or sys.stdout.isatty():
             self.printer().lines(lines)
         else:
@@ -43,23 +43,23 @@ class View(NamedTuple):
 
     @property
     def width(self) -> int | None:
-        """The columns of the terminal that is printed on; None where it is none."""
+        """Columns of the terminal; None without a terminal."""
         return self.printer().width if sys.stdout.isatty() else None
 
     def bar(self, total: int) -> Bar:
-        """A bar of so many steps."""
+        """Return a bar of `total` steps."""
         from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
 
         return Bar(total, self.color)
 
 
-# ------------------------------------------------------------------------------------------------ how far a long run is
+# ------------------------------------------------------------------------------------------- progress of a long run
 
 
 class Progress(AbstractContextManager["Progress"]):
-    """Steps done out of a total, as a bar on standard error. It is hidden while anything else is printed.
+    """Steps done out of a total, as a bar on standard error, which is hidden while anything else is printed.
 
-    None is drawn in CI, or where standard error is not a terminal that can erase.
+    No bar is drawn in CI, or if standard error is not a terminal that can erase.
     """
 
     def __init__(self, total: int, view: View, *, shown: bool = True) -> None:
@@ -89,7 +89,7 @@ class Progress(AbstractContextManager["Progress"]):
 
 
 def tracked(items: Sequence[T], view: View) -> Iterator[T]:
-    """The items, with a bar of how many are done."""
+    """Yield the items, with a bar of the number done."""
     with Progress(len(items), view) as progress:
         for item in items:
             yield item

@@ -1,1 +1,1 @@
-"""Rewriting and comparing decks: format, migrate, set values, expand load cases, tell differences."""
+"""Rewriting and comparing decks: format, migrate, set values, expand load cases, list differences."""

@@ -1,7 +1,7 @@
-"""A deck without what tells whose it is: what the contact needs, with other names, from another origin.
+"""Anonymous copies of decks: the data that contact needs, with other names and another origin.
 
-Names become `Set1`, `Curve2` and so on, equations their values; comments, titles, lines that are not read and keywords
-that the contact does not need are left out. Numbers of nodes and elements, elevations, soil and sections stay.
+Names become `Set1`, `Curve2` and so on, equations their values. Comments, titles, unread lines and keywords that the
+contact does not need are left out. Numbers of nodes and elements, elevations, soil and sections stay.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from mudline.model.scene.numbering import Floats
 from mudline.model.scene.seabed import SeabedKind
 
 TOLERANCE = 1e-9
-"""Of the largest force: how near the forces of both decks are."""
+"""Share of the largest force by which the forces of both decks may differ."""
 
 _NEEDED = {
     "MODEL": {
@@ -42,7 +42,13 @@ _AnyPart = TypeVar("_AnyPart", bound=Part)
 
 
 class Anonymous(NamedTuple):
-    """The new deck; the keywords left out, in their order; what was taken from Y and Z of the old one."""
+    """An anonymous deck.
+
+    Attributes:
+        deck: the new deck.
+        left_out: the keywords left out, in order.
+        shift: the amounts subtracted from Y and Z.
+    """
 
     deck: Deck
     left_out: tuple[str, ...]
@@ -50,10 +56,10 @@ class Anonymous(NamedTuple):
 
 
 def anonymous(deck: Deck) -> Anonymous:
-    """Return the deck with names replaced and Y and Z from another origin, once its forces are found to be the same.
+    """Return the deck with other names and another origin of Y and Z, after a check that its forces are the same.
 
     Both decks are evaluated at their own coordinates, pressed down and moved sideways. A seabed that slopes through the
-    origin keeps the coordinate up the slope, and both where it slopes neither along Y nor along Z.
+    origin keeps the coordinate along the slope; if it slopes along neither Y nor Z, it keeps both.
 
     Raises DeckError: the deck cannot be evaluated, it needs other files, or the forces differ by more than `TOLERANCE`.
     """
@@ -65,8 +71,8 @@ def anonymous(deck: Deck) -> Anonymous:
     ]
     if hiding.file is not None:
         raise _refused(deck, "it names a file, which would have to be made anonymous too", hiding.file)
-    made = Deck("anonymous", units=deck.units, sections=[section for section in sections if section.blocks])
-    read = load_bytes(dump(made, "keyword").encode(), "anonymous.keyx", units=deck.units)
+    anonymised = Deck("anonymous", units=deck.units, sections=[section for section in sections if section.blocks])
+    read = load_bytes(dump(anonymised, "keyword").encode(), "anonymous.keyx", units=deck.units)
     left_out = tuple(dict.fromkeys(hiding.left_out))
     try:
         same = _same(before, resolve(read).require_evaluable())
@@ -83,7 +89,7 @@ def _refused(deck: Deck, why: str, where: Where | None) -> DeckError:
 
 
 def _shift(scene: Scene) -> tuple[float, float]:
-    """Whole numbers near Y and Z of the first node, 0 where the seabed must not be moved."""
+    """Return whole numbers near Y and Z of the first node, 0 for a coordinate in which the seabed must not be moved."""
     y, z = (float(round(value)) for value in scene.coordinates[0, 1:]) if len(scene.coordinates) else (0.0, 0.0)
     if scene.seabed.kind is not SeabedKind.SLOPING:
         return y, z
@@ -93,7 +99,14 @@ def _shift(scene: Scene) -> tuple[float, float]:
 
 @dataclass
 class _Hiding:
-    """Makes the parts of the new deck: `names` by the folded old one; `file` is the place of the first file."""
+    """Maker of the parts of the new deck.
+
+    Attributes:
+        shift: the amounts subtracted from Y and Z.
+        names: new names by casefolded old name.
+        left_out: the keywords left out.
+        file: place of the first file name in the deck.
+    """
 
     shift: tuple[float, float]
     names: dict[str, str] = field(default_factory=dict)
@@ -101,7 +114,7 @@ class _Hiding:
     file: Where | None = None
 
     def blocks(self, index: int, section: Section) -> Iterator[Block]:
-        """Those that the contact needs."""
+        """Yield the blocks that the contact needs."""
         for number, block in enumerate(section.blocks):
             if isinstance(block, Opaque) or not _is_needed(section.name, block):
                 self.left_out.append(block.keyword)
@@ -122,7 +135,7 @@ class _Hiding:
             return self._part(value, where)
         if isinstance(value, list):
             return [self._value(item, slot, where) for item in value]
-        if isinstance(value, Table):  # a label that *LABEL gives is a number by now
+        if isinstance(value, Table):  # a label of *LABEL is a number by now
             return Table(value.values, value.lengths, dict.fromkeys(value.words))
         return self._name(value, slot) if isinstance(value, str) and value not in slot.choices else value
 
@@ -139,17 +152,17 @@ def _is_needed(section: str, block: Block) -> bool:
 
 
 def _moved(part: _AnyPart, shift: tuple[float, float]) -> _AnyPart:
-    """A part with its horizontal coordinates taken from the new origin."""
+    """Return a part with its horizontal coordinates from the new origin."""
     for name, columns in (("nodes", {2: shift[0], 3: shift[1]}), ("profile", {0: shift[0]})):
         if isinstance(table := getattr(part, name, None), Table):
             return part.model_copy(update={name: _columns_moved(table, columns)})
     axes = {"y": shift[0], "z": shift[1], "y_min": shift[0], "y_max": shift[0], "z_min": shift[1], "z_max": shift[1]}
-    given = {name: getattr(part, name) - by for name, by in axes.items() if getattr(part, name, None) is not None}
-    return part.model_copy(update=given) if given else part
+    moved = {name: getattr(part, name) - by for name, by in axes.items() if getattr(part, name, None) is not None}
+    return part.model_copy(update=moved) if moved else part
 
 
 def _columns_moved(table: Table, by: dict[int, float]) -> Table:
-    """A table with numbers taken from columns; a Z that is left out is 0."""
+    """Return a table with amounts subtracted from columns; an omitted Z is 0."""
     values, words = table.values.copy(), dict(table.words)
     lengths = table.lengths.copy()
     for column, amount in by.items():
@@ -164,23 +177,23 @@ def _columns_moved(table: Table, by: dict[int, float]) -> Table:
 
 
 def _same(before: Scene, after: Scene) -> bool:
-    """Whether both decks have the same elements and, in a few positions, the same forces."""
+    """Return True if both decks have the same elements and, in a few positions, the same forces."""
     if not (np.array_equal(before.node_ids, after.node_ids) and np.array_equal(before.element_ids, after.element_ids)):
         return False
-    one, other = _evaluated(before), _evaluated(after)
-    pairs = [(getattr(one, name), getattr(other, name)) for name in ("force", "stiffness", "reaction", "friction")]
+    first, second = _evaluated(before), _evaluated(after)
+    pairs = [(getattr(first, name), getattr(second, name)) for name in ("force", "stiffness", "reaction", "friction")]
     return all(_near(a, b) for a, b in pairs)
 
 
-def _near(one: Floats | None, other: Floats | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    largest = float(np.nanmax(np.abs(one), initial=0.0))
-    return bool(np.allclose(one, other, rtol=0.0, atol=TOLERANCE * largest, equal_nan=True))
+def _near(first: Floats | None, second: Floats | None) -> bool:
+    if first is None or second is None:
+        return first is second
+    largest = float(np.nanmax(np.abs(first), initial=0.0))
+    return bool(np.allclose(first, second, rtol=0.0, atol=TOLERANCE * largest, equal_nan=True))
 
 
 def _evaluated(scene: Scene) -> ContactResult:
-    """At its own coordinates, then a third of a diameter lower, as far aside, and back."""
+    """Evaluate at the deck's coordinates, then a third of a diameter lower, as far sideways, and back."""
     diameters = scene.diameter[np.isfinite(scene.diameter)]
     step = float(diameters.max(initial=0.0)) / 3.0 or math.ulp(1.0)
     moves = np.array([(0.0, 0.0, 0.0), (-step, 0.0, 0.0), (-step, step, step), (0.0, 0.0, 0.0)])

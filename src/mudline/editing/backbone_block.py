@@ -1,4 +1,4 @@
-"""A backbone curve of a published model as a block of a deck, with its source, error and range in its comments."""
+"""Backbone curve of a published model as a block of a deck, with its source, error and range in comments."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from mudline.model.curves.points import FloatArray
 
 FINEST, COARSEST = 1e-5, 0.1
-"""The smallest and largest tolerance."""
+"""Smallest and largest tolerance."""
 
 
 class BackboneCurve(NamedTuple):
-    """A `curve` of a published model, and the `block` of a deck that holds it."""
+    """A `curve` of a published model, and the `block` of a deck that contains it."""
 
     curve: ForceCurve
     block: SeabedStiffness | Embedment
@@ -48,16 +48,16 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
     Args:
         model: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin.
         diameter: external diameter of the pipe.
-        strength: undrained shear strength at the mudline, or that and its increase per depth.
-        weight: submerged weight of the soil per volume.
-        depth: largest ratio z/D; as far as the model is published if None.
+        strength: undrained shear strength at the mudline, or a pair of it and its increase with depth.
+        weight: submerged unit weight of the soil.
+        depth: largest ratio z/D; the limit of the publication if None.
         tolerance: largest error of the interpolation, as a share of the largest force.
         first: smallest ratio of a point above 0; below it a straight line replaces the model.
-        name: of the curve, or of the set if `legacy`; that of the model if None.
+        name: name of the curve, or of the set if `legacy`; that of the model if None.
         legacy: make a block of `*EMBEDMENT`, not of `*SEABED STIFFNESS`.
-        extend: let `depth` go beyond the ratios for which the model is published.
+        extend: accept a `depth` beyond the ratios for which the model is published.
 
-    Raises ValueError, which begins with the name of an argument, for one that the model cannot have.
+    Raises ValueError for an argument outside the model's range; the message begins with the name of the argument.
     """
     expect_word(model, "model", tuple(MODELS), f"one of {', '.join(MODELS)}")
     for word, flag in (("legacy", legacy), ("extend", extend)):
@@ -79,21 +79,21 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
         raise ValueError(f"tolerance must be from 1e-5 to {COARSEST:g}, not {tolerance!r}")
     title = name if name is not None else model
     expect(title, "name", str, "a str")
-    made = Backbone(chosen, Soil(diameter, su0, gradient, weight))
+    model_curve = Backbone(chosen, Soil(diameter, su0, gradient, weight))
     with np.errstate(all="ignore"):
-        if not 0.0 < made.largest(far) < math.inf:
+        if not 0.0 < model_curve.largest(far) < math.inf:
             raise ValueError("strength: the force is too large or too small for a float64: check the units")
         try:
-            points = made.points(far, tolerance, first)
+            points = model_curve.points(far, tolerance, first)
             curve = ForceCurve(points, title)
         except OverflowError as error:
             raise ValueError(f"tolerance: {error}: check the units, depth and tolerance") from error
         except CurveError as error:
             raise ValueError(f"tolerance {tolerance:g} is too fine for this model: {error}") from error
-        comments = [Comment(text=f" {line}", before=0) for line in _head(made, points, far, tolerance, first)]
-    given = {"curves": [{"set" if legacy else "name": title, "points": points}], "comments": comments}
-    block = (Embedment if legacy else SeabedStiffness).model_validate(given)
-    # What a name may be is known to the reader alone.
+        comments = [Comment(text=f" {line}", before=0) for line in _head(model_curve, points, far, tolerance, first)]
+    fields = {"curves": [{"set" if legacy else "name": title, "points": points}], "comments": comments}
+    block = (Embedment if legacy else SeabedStiffness).model_validate(fields)
+    # Only the reader knows which names are valid.
     text = "\n".join(["$MODEL", *block_lines(block), ""])
     if load_bytes(text.encode(errors="replace"), "").sections[0].blocks != [block]:
         raise ValueError(f"name {title!r} is not what a deck reads as a name: give letters and digits")
@@ -101,7 +101,7 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
 
 
 def _head(backbone: Backbone, points: FloatArray, depth: float, tolerance: float, first: float) -> list[str]:
-    """Source, parameters, error and range."""
+    """Return source, parameters, error and range as lines of comments."""
     model, soil = backbone.model, backbone.soil
     largest, bound = backbone.largest(depth), 100.0 * tolerance
     steep = backbone.deviation(points[:2]) > tolerance * largest

@@ -6,7 +6,7 @@ import pytest
 
 from mudline.editing.assignment.assigning import AssignmentError, assigned
 from mudline.editing.assignment.fields import ConditionError, DeckCondition, target_of
-from mudline.editing.assignment.paths import Operand, parse_assignment, parse_condition
+from mudline.editing.assignment.paths import WrittenOperand, parse_assignment, parse_condition
 from mudline.language.deck.loading import load_bytes
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
@@ -21,7 +21,7 @@ def changed(deck: str, text: str, name: str = "deck.keyxm") -> str | None:
     """The deck with a value set; None where it has none."""
     data = deck.encode()
     assignment = parse_assignment(text)
-    target = target_of(assignment.path, Operand.of(assignment.value))
+    target = target_of(assignment.path, WrittenOperand.of(assignment.value))
     found = assigned(load_bytes(data, name), assignment, target)
     return None if found is None else edited_bytes(Source.from_bytes(data, name), found.edits).decode()
 
@@ -99,7 +99,7 @@ def test_a_value_that_changes_the_units_is_refused() -> None:
 def test_a_character_that_the_encoding_lacks_is_refused() -> None:
     data = CLEAN.replace("SET=Pipe", "SET=Pïpe").encode("cp1252")
     assignment = parse_assignment("SEABED PROPERTIES.stiffness=łay")
-    target = target_of(assignment.path, Operand.of(assignment.value))
+    target = target_of(assignment.path, WrittenOperand.of(assignment.value))
     with pytest.raises(AssignmentError, match="encoding, cp1252, lacks"):
         assigned(load_bytes(data, "deck.keyxm"), assignment, target)
 

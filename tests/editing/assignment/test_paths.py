@@ -6,13 +6,13 @@ import pytest
 
 from mudline.editing.assignment.fields import target_of
 from mudline.editing.assignment.paths import (
-    Comparison,
+    Compound,
+    FieldComparison,
     FieldPath,
-    Joined,
     Negated,
-    Operand,
     PathError,
     Selector,
+    WrittenOperand,
     parse_assignment,
     parse_condition,
 )
@@ -40,12 +40,12 @@ def test_assignment(text: str, keyword: str, names: tuple[str, ...], value: str)
 def test_selectors() -> None:
     found = parse_assignment('SEABED STIFFNESS[name="Soft, wet"][Ratio=0.10].force[2]=3').path
     assert found.selectors == (
-        Selector("name", Operand("Soft, wet")),
-        Selector("ratio", Operand("0.10", 0.1)),
+        Selector("name", WrittenOperand("Soft, wet")),
+        Selector("ratio", WrittenOperand("0.10", 0.1)),
     )
     assert found.count == 2
     assert str(found) == 'SEABED STIFFNESS[name="Soft, wet"][Ratio=0.10].force[2]'
-    assert parse_assignment("TIME[ set = a b ].step=1").path.selectors == (Selector("set", Operand("a b")),)
+    assert parse_assignment("TIME[ set = a b ].step=1").path.selectors == (Selector("set", WrittenOperand("a b")),)
 
 
 @pytest.mark.parametrize(
@@ -72,31 +72,31 @@ def test_what_is_no_assignment(text: str) -> None:
         parse_assignment(text)
 
 
-def _comparison(operator: str, operand: Operand) -> Comparison:
-    return Comparison(FieldPath("OCEAN.depth", "OCEAN", ("depth",)), operator, operand)
+def _comparison(operator: str, operand: WrittenOperand) -> FieldComparison:
+    return FieldComparison(FieldPath("OCEAN.depth", "OCEAN", ("depth",)), operator, operand)
 
 
 @pytest.mark.parametrize(
     ("text", "operator", "operand"),
     [
-        ("OCEAN.depth<1", "<", Operand("1", 1.0)),
-        ("OCEAN.depth >= -1.5D2", ">=", Operand("-1.5D2", -150.0)),
-        ("OCEAN.depth = METRIC", "==", Operand("METRIC")),
-        ("OCEAN.depth <> 10mm", "!=", Operand("10mm")),
-        ('OCEAN.depth == "1 and 2"', "==", Operand("1 and 2")),
-        ('OCEAN.depth == "1"', "==", Operand("1")),
+        ("OCEAN.depth<1", "<", WrittenOperand("1", 1.0)),
+        ("OCEAN.depth >= -1.5D2", ">=", WrittenOperand("-1.5D2", -150.0)),
+        ("OCEAN.depth = METRIC", "==", WrittenOperand("METRIC")),
+        ("OCEAN.depth <> 10mm", "!=", WrittenOperand("10mm")),
+        ('OCEAN.depth == "1 and 2"', "==", WrittenOperand("1 and 2")),
+        ('OCEAN.depth == "1"', "==", WrittenOperand("1")),
     ],
 )
-def test_comparison(text: str, operator: str, operand: Operand) -> None:
+def test_comparison(text: str, operator: str, operand: WrittenOperand) -> None:
     assert parse_condition(text) == _comparison(operator, operand)
     assert parse_condition(f"(({text}))") == _comparison(operator, operand)
 
 
 def test_the_tightest_binding_is_that_of_not() -> None:
-    small, large = (_comparison("==", Operand(text, float(text))) for text in ("1", "2"))
+    small, large = (_comparison("==", WrittenOperand(text, float(text))) for text in ("1", "2"))
     text = "not OCEAN.depth=1 and OCEAN.depth=2 OR (OCEAN.depth=1 or OCEAN.depth=2)"
-    assert parse_condition(text) == Joined(
-        (Joined((Negated(small), large), any_of=False), Joined((small, large), any_of=True)), any_of=True
+    assert parse_condition(text) == Compound(
+        (Compound((Negated(small), large), any_of=False), Compound((small, large), any_of=True)), any_of=True
     )
 
 
@@ -128,7 +128,7 @@ def test_texts_have_no_order() -> None:
 
 def _fields(text: str) -> list[tuple[str, ...]]:
     assignment = parse_assignment(text)
-    return [field.names for field in target_of(assignment.path, Operand.of(assignment.value)).fields]
+    return [field.names for field in target_of(assignment.path, WrittenOperand.of(assignment.value)).fields]
 
 
 def test_the_field_that_may_hold_the_value_is_meant() -> None:

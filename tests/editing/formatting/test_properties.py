@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.editing.formatting.document import FormatError, formatted
-from mudline.editing.formatting.rows import Columns, PlainRows, RowKind, WordRows, word_rows
+from mudline.editing.formatting.rows import Columns, NumberRows, RowKind, WordRows, word_rows
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.meaning import same_meaning
@@ -146,7 +146,7 @@ def kind(row: type[Row]) -> RowKind:
     return RowKind(columns[0], tuple(columns), table=True)
 
 
-def laid_out(rows: WordRows | PlainRows, row: type[Row], *others: WordRows | PlainRows) -> str:
+def laid_out(rows: WordRows | NumberRows, row: type[Row], *others: WordRows | NumberRows) -> str:
     columns = Columns(kind(row))
     for part in (rows, *others):
         part.measure(columns)
@@ -165,7 +165,7 @@ _lines = st.lists(
 @given(_lines.map("".join), st.booleans())
 def test_both_ways_give_the_same(text: str, cut: bool) -> None:
     text = text.rstrip("\r\n") if cut else text
-    plain = PlainRows.read(text, 4)
+    plain = NumberRows.read(text, 4)
     words = word_rows(text, 4)
     if plain is not None:
         assert laid_out(plain, NodeRow) == laid_out(words, NodeRow)

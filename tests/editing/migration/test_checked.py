@@ -7,7 +7,7 @@ import math
 import pytest
 
 from mudline.editing.migration import migrating
-from mudline.editing.migration.migrating import Verdict, migrate, verify
+from mudline.editing.migration.migrating import Verification, migrate, verify
 from mudline.editing.migration.rewriting import Rewriting, rewrite
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Span
@@ -54,9 +54,9 @@ def test_elements_that_would_lie_on_another_seabed_are_refused(monkeypatch: pyte
 
 def test_the_proof_says_how_much_it_compared() -> None:
     """Ten depths of an element with each diameter; of a curve six at and beside points, three within, four beyond."""
-    assert verify(migrate(deck_of(TEXT))) == Verdict(12, 2, 2 * 10, 0, ())
+    assert verify(migrate(deck_of(TEXT))) == Verification(12, 2, 2 * 10, 0, ())
     curved = verify(migrate(deck_of(TEXT.replace("9.81\n", "9.81\n*EMBEDMENT\n 0, 0\n 1, 5\n"))))
-    assert curved == Verdict(12, 2, 2 * (10 + 6 + 3 + 4), 0, ())
+    assert curved == Verification(12, 2, 2 * (10 + 6 + 3 + 4), 0, ())
 
 
 def test_a_curve_is_compared_within_its_segments_and_far_beyond_its_ends() -> None:

@@ -30,7 +30,7 @@ SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
         (f"{SURFACE}\n 2.5\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 4, 1, "*SEABED PROFILE and the slope"),
         (f"{SURFACE}\n 0, 0\n 1, 1\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 5, 1, "*SEABED PROFILE and the slope"),
         ("*ELASTIC SURFACE\n 1e4, 1.0, 0.5, , , , 2.0\n", 2, 23, "the largest longitudinal characteristic length"),
-        (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "is used beside legacy"),
+        (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "is used next to legacy"),
         (f"{SURFACE}\n$LOAD CASE\n*RESTART\n LAST=base\n", 4, 1, "*RESTART continues another deck"),
         (f"{SURFACE}\n*EMBEDMENT\nCURVE=x\n SET=West\n 0, 0\n 1, 1\n", 1, 1, "would be lost or read as data"),
     ],

@@ -209,7 +209,7 @@ def test_several_lines_differ_without_colours() -> None:
 
 def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
     data = PlotData.of_result(lines(70, 1))
-    stretch = Stretch(data)
+    stretch = DrawnStretch(data)
     assert (len(stretch.lines), stretch.left_out) == (6, 64)
     axes = panel(data, "line")
     legend = axes.get_legend()

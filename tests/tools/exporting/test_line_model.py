@@ -14,7 +14,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.model import resolve
 from mudline.tools.exporting import moordyn, orcaflex
 from mudline.tools.exporting.line_model import build
-from mudline.tools.exporting.report import Status
+from mudline.tools.exporting.report import Outcome
 from mudline.tools.exporting.soil import governing
 from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
@@ -68,7 +68,7 @@ def test_drag_and_added_mass_are_those_of_the_deck() -> None:
     assert "Cd: [1.5, ~, 0.1]" in content
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*HYDRODYNAMIC SETS")
     assert (entry.status, entry.effect) == (
-        Status.APPROXIMATED,
+        Outcome.APPROXIMATED,
         "drag along as it is written, on an area that the manual does not show",
     )
 
@@ -190,7 +190,7 @@ def test_springs_below_friction_are_those_of_the_mobilisation_lengths_or_of_the_
         ),
         (
             "$MODEL\n*OCEAN\n 100.0\n*LINES\n LINE=A\n SECTION=B, 5.0\n",
-            "4: the deck shows no elements to export: those of *LINES",
+            "4: the deck has no elements to export: those of *LINES",
         ),
     ],
 )
@@ -258,8 +258,8 @@ def test_settings_beside_stiffness_and_friction_are_listed() -> None:
         target.write(model, "out.txt")
         lost = {entry.keyword: entry.status for entry in model.report.lost}
         for keyword in ("*SEABED PROPERTIES LATERAL=", "*SEABED PROPERTIES SUCTION=", "*SEABED UNLOADING"):
-            assert lost[keyword] is Status.LEFT_OUT
-        assert lost["*BOUNDARY displacement 0.5"] is Status.LEFT_OUT
+            assert lost[keyword] is Outcome.LEFT_OUT
+        assert lost["*BOUNDARY displacement 0.5"] is Outcome.LEFT_OUT
 
 
 def test_all_targets_are_modules_of_the_package() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from mudline.tools.exporting import moordyn
 from mudline.tools.exporting.line_model import LineModel
-from mudline.tools.exporting.report import Status
+from mudline.tools.exporting.report import Outcome
 from tests.tools.exporting.decks import BOTH, ELASTIC, WEIGHT, model_of, sample, text
 
 
@@ -88,7 +88,7 @@ def test_one_stiffness_stands_for_all_and_the_list_says_how_far_the_others_sink(
     model = model_of(text(sets=sets, bed=ELASTIC + " SET=Soft\n STIFFNESS=5000.0\n"))
     assert option(written(model)["OPTIONS"], "kBot") == pytest.approx(2e5)
     entries = [entry for entry in model.report.entries if entry.keyword == "*SEABED PROPERTIES"]
-    assert [entry.status for entry in entries] == [Status.CARRIED, Status.APPROXIMATED]
+    assert [entry.status for entry in entries] == [Outcome.CARRIED, Outcome.APPROXIMATED]
     assert (
         entries[1].effect == f"linear: 5 kN/m2; sinks {1e3 * WEIGHT / 2e4:.1f} mm here, as the target has one stiffness"
     )
@@ -122,7 +122,7 @@ def test_the_grid_is_the_seabed_of_the_deck_below_the_line(bed: str, tmp_path: P
     assert len(points) == len(x) * len(y)
     assert model.mudline(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2])
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROFILE")
-    assert entry.status is (Status.APPROXIMATED if "10.0" in bed else Status.CARRIED)
+    assert entry.status is (Outcome.APPROXIMATED if "10.0" in bed else Outcome.CARRIED)
     assert ["my_deck_v2-seabed.txt", "SeafloorFile"] in tables(files["my deck.v2.txt"])["OPTIONS"]
 
 
@@ -132,5 +132,5 @@ def test_planes_are_a_grid_with_its_error() -> None:
     model = model_of(text(bed=ELASTIC + planes, held=BOTH))
     moordyn.write(model, "a.txt")
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PLANES")
-    assert entry.status is Status.APPROXIMATED
+    assert entry.status is Outcome.APPROXIMATED
     assert float(entry.effect.split()[-2]) < 0.3

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from mudline.tools.exporting import moordyn, orcaflex
-from mudline.tools.exporting.report import Names, Report, Status, one_line
+from mudline.tools.exporting.report import ExportReport, Outcome, TargetNames, one_line
 from tests.tools.exporting.decks import model_of, text
 from tests.tools.exporting.test_moordyn import tables
 
@@ -34,9 +34,9 @@ TARGETS = {moordyn: ("A-Za-z0-9_", 32), orcaflex: (r"A-Za-z0-9_. ()", 50)}
 MODEL = model_of(text())
 
 
-def taken(names: list[str], letters: str, longest: int) -> tuple[list[str], Report]:
-    report = Report(MODEL.scene)
-    given_names = Names(report, letters, longest)
+def taken(names: list[str], letters: str, longest: int) -> tuple[list[str], ExportReport]:
+    report = ExportReport(MODEL.scene)
+    given_names = TargetNames(report, letters, longest)
     where = MODEL.sections[0].where
     return [given_names.take(name, where) for name in names], report
 
@@ -52,7 +52,7 @@ def test_names_are_valid_unique_and_listed(target: ModuleType, names: list[str])
     assert len({name.casefold() for name in found}) == len(names)
     for written, name in zip(names, found, strict=True):
         assert re.fullmatch(f"[A-Za-z][{letters}]{{0,{longest - 1}}}", name)
-        assert written == name or name in {entry.target for entry in report.entries if entry.status is Status.RENAMED}
+        assert written == name or name in {entry.target for entry in report.entries if entry.status is Outcome.RENAMED}
 
 
 @given(st.text())
@@ -77,6 +77,6 @@ def test_a_deck_with_such_a_name_is_written_whole(name: str) -> None:
     assert list(found) == ["LINE TYPES", "POINTS", "LINES", "OPTIONS", "end"]
     assert found["LINES"][0][1] == found["LINE TYPES"][0][0]
     assert len(yaml.safe_load(orcaflex.write(model_of(deck), "a.yml")["a.yml"])["LineTypes"]) == 1
-    (entry,) = (entry for entry in model.report.entries if entry.status is Status.RENAMED)
+    (entry,) = (entry for entry in model.report.entries if entry.status is Outcome.RENAMED)
     assert entry.target == found["LINE TYPES"][0][0]
     assert entry.keyword.startswith("*GEOMETRIC SETS name ")

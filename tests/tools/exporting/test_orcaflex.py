@@ -13,7 +13,7 @@ from mudline.basics.quantities import shown
 from mudline.language.diagnostics import DeckError
 from mudline.tools.exporting import orcaflex
 from mudline.tools.exporting.line_model import LineModel
-from mudline.tools.exporting.report import Status
+from mudline.tools.exporting.report import Outcome
 from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, WEIGHT, model_of, sample, text
 
 SOIL = ELASTIC + "*SEABED SOIL\n SET=ALL\n STRENGTH=2000.0, 1000.0\n BUOYANCY=1.5, 6000.0\n"
@@ -77,7 +77,7 @@ def test_the_nonlinear_soil_has_strength_and_density() -> None:
     assert sea["SeabedModel"] == "Nonlinear soil model"
     assert (sea["SoilShearStrengthAtMudline"], sea["SoilShearStrengthGradient"]) == (2.0, 1.0)
     assert sea["SoilDensity"] == pytest.approx(1.0 + 6000.0 / 10.0 / 1e3)
-    assert [entry.status for entry in model.report.entries if entry.keyword == "*SEABED SOIL"] == [Status.CARRIED]
+    assert [entry.status for entry in model.report.entries if entry.keyword == "*SEABED SOIL"] == [Outcome.CARRIED]
 
 
 def test_parameters_of_a_soil_that_are_not_the_defaults_are_listed() -> None:

@@ -10,15 +10,15 @@ from lsprotocol import types
 from mudline.language.diagnostics import Span
 from mudline.language.syntax.edits import TextEdit, apply_edits
 from mudline.language.syntax.source import Source
-from mudline.tools.lsp.documents import Document, characters_of, file_of, units_of
+from mudline.tools.lsp.documents import OpenDocument, characters_of, file_of, units_of
 
 ENCODINGS = ["utf-8", "utf-16", "utf-32"]
 TEXT = "$MODEL\r\n*NODE\tä\n 1, 0.0 C 😋 x\r 2, ü\n"
 LETTERS = st.text(alphabet="ab\r\n\täß😋,1", max_size=12)
 
 
-def document(text: str, encoding: str = "utf-16") -> Document:
-    return Document("file:///deck.keyxm", text, 1, encoding=encoding)
+def document(text: str, encoding: str = "utf-16") -> OpenDocument:
+    return OpenDocument("file:///deck.keyxm", text, 1, encoding=encoding)
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
@@ -102,6 +102,6 @@ def test_only_files_of_this_machine_are_files() -> None:
 
 
 def test_a_text_in_no_file_has_the_form_of_its_language() -> None:
-    assert Document("untitled:Untitled-1", "", 1, "yaml").name == "Untitled-1.yaml"
-    assert Document("untitled:deck.json", "", 1, "json").name == "deck.json"
-    assert Document("untitled:", "", 1).name == "untitled"
+    assert OpenDocument("untitled:Untitled-1", "", 1, "yaml").name == "Untitled-1.yaml"
+    assert OpenDocument("untitled:deck.json", "", 1, "json").name == "deck.json"
+    assert OpenDocument("untitled:", "", 1).name == "untitled"

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from mudline.tools.touchdown_study.catenary import Line, NoRestShapeError, rest
+from mudline.tools.touchdown_study.catenary import HangingLine, NoRestShapeError, rest
 
 
-def even(length: float = 1000.0, weight: float = 800.0, count: int = 200, slope: float = 0.0) -> Line:
-    return Line(np.full(count, length / count), np.full(count, weight), slope)
+def even(length: float = 1000.0, weight: float = 800.0, count: int = 200, slope: float = 0.0) -> HangingLine:
+    return HangingLine(np.full(count, length / count), np.full(count, weight), slope)
 
 
 def test_a_uniform_line_is_the_catenary_of_the_textbook() -> None:
@@ -47,11 +47,11 @@ def test_along_a_slope_the_line_leaves_the_seabed_at_its_angle() -> None:
     assert found.height[-1] == pytest.approx(400.0)
 
 
-def lazy_wave(buoyancy: float) -> Line:
+def lazy_wave(buoyancy: float) -> HangingLine:
     lengths = np.full(200, 5.0)
     weights = np.full(200, 500.0)
     weights[110:140] = -buoyancy
-    return Line(lengths, weights)
+    return HangingLine(lengths, weights)
 
 
 def test_a_lazy_wave_hangs_over_its_buoys() -> None:
@@ -64,7 +64,7 @@ def test_a_lazy_wave_hangs_over_its_buoys() -> None:
 
 
 def test_a_sag_that_comes_down_lies_too() -> None:
-    line = Line(np.full(200, 5.0), np.where((np.arange(200) >= 60) & (np.arange(200) < 80), -600.0, 500.0))
+    line = HangingLine(np.full(200, 5.0), np.where((np.arange(200) >= 60) & (np.arange(200) < 80), -600.0, 500.0))
     found = rest(line, 800.0, (0.0, 300.0))
     (_, leaves), (lands, lifts) = found.lying
     assert leaves < 300.0
@@ -83,6 +83,6 @@ def test_a_sag_that_comes_down_lies_too() -> None:
         (even(weight=-5.0), 700.0, (0.0, 500.0), "floats: -5 per unit length"),
     ],
 )
-def test_lines_without_a_shape(line: Line, distance: float, heights: tuple[float, float], words: str) -> None:
+def test_lines_without_a_shape(line: HangingLine, distance: float, heights: tuple[float, float], words: str) -> None:
     with pytest.raises(NoRestShapeError, match=words):
         rest(line, distance, heights)

@@ -222,7 +222,7 @@ def test_laws_with_a_history_are_stepped_through(law: str) -> None:
     assert found.zone.periods == 2
     assert all(row.worst < 0.1 for row in found.steps if row.step <= 0.2)
     assert found.advice.verdict != "not studied"
-    assert found.notes["accuracy"][0].startswith("Laws that remember take long: two periods are run")
+    assert found.notes["accuracy"][0].startswith("Laws with memory take long: two periods are run")
     assert found.mesh is None
 
 

@@ -1,6 +1,7 @@
-"""Findings as the XML of test reports: a suite for each file, a failed case for each finding, a passed case if none.
+"""Findings as JUnit XML: a test suite for each file, a failed test case for each finding.
 
-The text of a failure is given twice: some readers show the attribute, others the element.
+A file without findings has one passed test case. The text of a failure is written twice, as attribute and as element
+content, since readers show one of the two.
 """
 
 from __future__ import annotations
@@ -12,13 +13,13 @@ from mudline.checks.output import LintRun, visible
 from mudline.language.diagnostics import Diagnostic
 
 SUMMARY = (
-    "XML of test reports: a suite a file, a failed case a finding, "
-    "one passed case for a clean file; texts as attribute and element"
+    "JUnit XML: a test suite for each file, a failed test case for each finding "
+    "or one passed case for a file without findings"
 )
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-    """Yield the document in pieces, with all files that were linted, in their order."""
+    """Yield the pieces of the document; all linted files are in it, in their order."""
     by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
     for findings in diagnostics:
         by_file.setdefault(findings.file, []).append(findings)
@@ -47,5 +48,5 @@ def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
 
 
 def _value(text: str) -> str:
-    """Return an attribute in quotes; characters that XML forbids do not print either, and are replaced."""
+    """Return an attribute in quotes, with characters that XML forbids replaced."""
     return quoteattr(visible(text))

@@ -1,4 +1,4 @@
-"""One value of a deck set: the edits of its text, aligned as before, or why the deck is left unchanged."""
+"""Assignment of one value of a deck: edits of its text, aligned as before; after an error the deck is unchanged."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.basics.spelling import nearest
-from mudline.editing.assignment.fields import Target, Value, blocks_of, target_of, values_of
-from mudline.editing.assignment.paths import Assignment, Operand, parse_path
+from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
+from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
 from mudline.language.codes.fields import SYN003
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Deck
@@ -32,7 +32,7 @@ from mudline.model.scene.model import resolve
 
 
 class AssignmentError(ValueError):
-    """Why a deck is left unchanged; `line` is where, None for the deck as a whole."""
+    """Reason why a deck is left unchanged; `line` is its place, None for the deck as a whole."""
 
     def __init__(self, message: str, line: int | None = None, diagnostics: Sequence[Diagnostic] = ()) -> None:
         self.line = line
@@ -42,7 +42,14 @@ class AssignmentError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Assigned:
-    """The edits that set a value, none where it has it already; its line, and how it was and is written."""
+    """Edits that set a value.
+
+    Attributes:
+        edits: the edits; none if the deck has the value already.
+        line: line of the value.
+        before: the old value as written.
+        after: the new value as written.
+    """
 
     edits: tuple[TextEdit, ...]
     line: int
@@ -50,14 +57,14 @@ class Assigned:
     after: str
 
 
-def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | None = None) -> Assigned | None:
-    """Set the value of a deck that was read from keyword text; None where the deck has no such value.
+def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str | None = None) -> Assigned | None:
+    """Return the edits that set a value of a deck read from keyword text; None if the deck has no such value.
 
-    `units` are those with which the deck was read. Raises AssignmentError for a value that is given by an equation, is
-    left out in the deck, or is not the only one at the path, and for a deck that would be faulty, or another one but
-    for this value.
+    `units` are those with which the deck was read. Raises AssignmentError for a value that is an equation, is left out
+    in the deck or is not unique at the path. Also raised if the edited deck would be faulty, or would differ in another
+    value.
     """
-    operand = Operand.of(assignment.value)
+    operand = WrittenOperand.of(assignment.value)
     if not any(field.fits(operand) for field in target.fields):
         if next(values_of(deck, target), None) is None:
             return None
@@ -65,22 +72,22 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
         near = nearest(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
         hint = f" (did you mean {near}?)" if near else ""
         raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}{hint}")
-    found = _the_one(deck, target)
-    if found is None:
+    current = _the_one(deck, target)
+    if current is None:
         return None
     origin = cast("TextOrigin", deck.origin)
-    span = origin.span(found.where)
-    line = _line(deck, found)
-    place = found.where._replace(path=found.where.path[:-2]) if isinstance(found.owner, Table) else found.where
+    span = origin.span(current.where)
+    line = _line(deck, current)
+    place = current.where._replace(path=current.where.path[:-2]) if isinstance(current.owner, Table) else current.where
     if span is None or not deck.written(place):
         raise AssignmentError(f"{target.path} is not written in the deck", line)
-    if isinstance(found.value, Equation):
+    if isinstance(current.value, Equation):
         raise AssignmentError(
-            f"{target.path} is given by an equation, {cut(str(found.value), 60)}: change its parameters instead", line
+            f"{target.path} is given by an equation, {cut(str(current.value), 60)}: change its parameters instead", line
         )
-    wanted = _checked(found, operand, assignment, line)
+    new_value = _checked(current, operand, assignment, line)
     written = origin.source.text[slice(*span)]
-    if _same(found.value, wanted):
+    if _same(current.value, new_value):
         return Assigned((), line, written, written)
     edits = tuple(replacement_in_layout(origin.source, span, assignment.value))
     try:
@@ -91,81 +98,81 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
     after = read_source(Source.from_bytes(content, deck.file), units=units)
     after.folder = deck.folder
     _require_no_worse(deck, after, line)
-    _require_only_this(deck, after, found, wanted, assignment, line)
+    _require_only_this(deck, after, current, new_value, assignment, line)
     return Assigned(edits, line, written, assignment.value)
 
 
 def set_value(deck: Deck, path: str, value: object) -> None:
-    """Set the value at a path in the models of a deck, of one that several values make, all of them.
+    """Set the value at a path in the models of a deck; several values set all values of a field.
 
-    Raises PathError for a path without a meaning, AssignmentError where the deck has no such value, several of them or
-    an equation, and ValueError for what the field cannot have.
+    Raises PathError for a path without a meaning. Raises AssignmentError if the deck has no such value, several of them
+    or an equation. Raises ValueError for a value that the field cannot have.
     """
     operand = None
     if isinstance(value, str):
-        operand = Operand(value, Operand.of(value).number)
+        operand = WrittenOperand(value, WrittenOperand.of(value).number)
     elif isinstance(value, int | float | np.number):
-        operand = Operand(str(value), float(value))
+        operand = WrittenOperand(str(value), float(value))
     elif not isinstance(value, list | tuple | np.ndarray | Table):
         raise ArgumentKindError(f"value must be a number, a text or several values, not {type(value).__name__}")
     target = target_of(parse_path(path), operand)
-    found = _the_one(deck, target, left_out=True)
-    if found is None:
+    current = _the_one(deck, target, left_out=True)
+    if current is None:
         raise AssignmentError(f"the deck has no {target.path}")
-    if isinstance(found.value, Equation):
-        equation = cut(str(found.value), 60)
+    if isinstance(current.value, Equation):
+        equation = cut(str(current.value), 60)
         raise AssignmentError(f"{target.path} is given by an equation, {equation}: change its parameters instead")
-    if not isinstance(found.owner, Table):
-        setattr(found.owner, found.field.slot.name, value)
+    if not isinstance(current.owner, Table):
+        setattr(current.owner, current.field.slot.name, value)
         return
-    *holder, name, row, column = found.where.path
-    rows: list[list[object]] = [list(cells) for cells in found.owner]
+    *holder, name, row, column = current.where.path
+    rows: list[list[object]] = [list(cells) for cells in current.owner]
     rows[int(row)][int(column)] = value
-    block = deck.sections[found.where.section].blocks[found.where.block]
+    block = deck.sections[current.where.section].blocks[current.where.block]
     record: Part = block.at(tuple(holder))[1]
     setattr(record, next(slot.name for slot in record_schema(type(record)).slots if slot.json == name), rows)
 
 
-def _the_one(deck: Deck, target: Target, *, left_out: bool = False) -> Value | None:
-    """The value at a path; None where the deck has no such record. Raises AssignmentError for several of them.
+def _the_one(deck: Deck, target: FieldTarget, *, left_out: bool = False) -> FieldValue | None:
+    """Return the value at a path; None if the deck has no such record. Raises AssignmentError for several values.
 
-    One that is left out in the deck is refused, unless there may be none.
+    A value that the deck leaves out is refused unless `left_out`.
     """
-    all_found = list(islice(values_of(deck, target), LISTED * 100))
-    given = [one for one in all_found if one.value is not None]
-    if len(given) > 1:
-        lines = [str(_line(deck, one)) for one in given[: LISTED + 1]]
+    candidates = list(islice(values_of(deck, target), LISTED * 100))
+    written = [value for value in candidates if value.value is not None]
+    if len(written) > 1:
+        lines = [str(_line(deck, value)) for value in written[: LISTED + 1]]
         listed = ", ".join(lines[:LISTED]) + (", ..." if len(lines) > LISTED else "")
         raise AssignmentError(
             f"{target.path} is ambiguous: the deck has several such values, in lines {listed}; choose one by the name "
             "of its set, as in KEYWORD[set=NAME].field, or by its number, as in KEYWORD[2].field"
         )
-    if left_out and len(all_found) == 1:
-        return all_found[0]
-    if not given and all_found:
+    if left_out and len(candidates) == 1:
+        return candidates[0]
+    if not written and candidates:
         raise AssignmentError(
-            f"{target.path} is left out here: only a value that is written can be changed", _line(deck, all_found[0])
+            f"{target.path} is left out here: only a value that is written can be changed", _line(deck, candidates[0])
         )
-    if not given and (faults := _read_faults(deck, target.path.keyword)):
+    if not written and (faults := _read_faults(deck, target.path.keyword)):
         raise AssignmentError(
             f"*{target.path.keyword} cannot be read: correct its errors first", None, deck.diagnose(faults)
         )
-    return given[0] if given else None
+    return written[0] if written else None
 
 
 def _read_faults(deck: Deck, keyword: str) -> list[Problem]:
-    """What could not be read of the blocks of a keyword, among whose lines may be the value that is not found."""
+    """Return the read errors in the blocks of a keyword: the missing value may be in a line that cannot be read."""
     read = deck.origin.read if isinstance(deck.origin, TextOrigin) else {}
-    found = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, keyword))
-    return [problem for block in found if block for problem in block.problems if problem.weight is Severity.ERROR]
+    blocks = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, keyword))
+    return [problem for block in blocks if block for problem in block.problems if problem.weight is Severity.ERROR]
 
 
-def _line(deck: Deck, found: Value) -> int:
-    return deck.place(Problem(SYN003, "", where=found.where)).line
+def _line(deck: Deck, value: FieldValue) -> int:
+    return deck.place(Problem(SYN003, "", where=value.where)).line
 
 
-def _kinds(target: Target) -> Iterator[str]:
-    """What the fields of a target can hold, in words."""
+def _kinds(target: FieldTarget) -> Iterator[str]:
+    """Yield the kinds of values that the fields of a target accept, in words."""
     for field in target.fields:
         if field.slot.choices:
             several = "one of " if len(field.slot.choices) > 1 else ""
@@ -174,9 +181,9 @@ def _kinds(target: Target) -> Iterator[str]:
             yield field.slot.kind.value
 
 
-def _checked(found: Value, operand: Operand, assignment: Assignment, line: int) -> float | str:
-    """The value that is wanted, as a deck holds it; raises AssignmentError for one that the field cannot have."""
-    slot = found.field.slot
+def _checked(current: FieldValue, operand: WrittenOperand, assignment: Assignment, line: int) -> float | str:
+    """Return the new value as a deck holds it; raises AssignmentError for a value that the field cannot have."""
+    slot = current.field.slot
     if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
         return operand.text
     if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
@@ -186,10 +193,10 @@ def _checked(found: Value, operand: Operand, assignment: Assignment, line: int) 
     return operand.number
 
 
-def _same(one: object, other: object) -> bool:
-    if isinstance(one, str) and isinstance(other, str):
-        return one.casefold() == other.casefold()
-    return one == other
+def _same(first: object, second: object) -> bool:
+    if isinstance(first, str) and isinstance(second, str):
+        return first.casefold() == second.casefold()
+    return first == second
 
 
 def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
@@ -197,27 +204,27 @@ def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
     old, new = (
         [problem for problem in resolve(deck).findings if problem.weight is Severity.ERROR] for deck in (before, after)
     )
-    more = Counter(one.code.code for one in new) - Counter(one.code.code for one in old)
+    more = Counter(problem.code.code for problem in new) - Counter(problem.code.code for problem in old)
     if more:
-        known = {one.message for one in old}
-        added = [one for one in new if one.code.code in more and one.message not in known] or new
+        known = {problem.message for problem in old}
+        added = [problem for problem in new if problem.code.code in more and problem.message not in known] or new
         raise AssignmentError("the deck would have a new error", line, after.diagnose(added))
 
 
 def _require_only_this(
-    before: Deck, after: Deck, found: Value, wanted: float | str, assignment: Assignment, line: int
+    before: Deck, after: Deck, current: FieldValue, new_value: float | str, assignment: Assignment, line: int
 ) -> None:
-    """Raise AssignmentError unless the decks differ in the one value, which is the wanted one; `before` is used up."""
+    """Raise AssignmentError unless the decks differ only in the given value, now `new_value`; changes `before`."""
     if before.units != after.units:
         raise AssignmentError(
             f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units", line
         )
-    new = _at(after, found.where)
-    if _same(new, wanted):
-        if isinstance(found.owner, Table):
-            _set_cell(found.owner, after, found.where)
+    new = _at(after, current.where)
+    if _same(new, new_value):
+        if isinstance(current.owner, Table):
+            _set_cell(current.owner, after, current.where)
         else:
-            setattr(found.owner, found.field.slot.name, new)
+            setattr(current.owner, current.field.slot.name, new)
         if same_meaning(before, after):
             return
     raise AssignmentError(f"{assignment.value!r} would change more than {assignment.path}", line)
@@ -225,16 +232,16 @@ def _require_only_this(
 
 def _set_cell(table: Table, after: Deck, where: Where) -> None:
     row, column = cast("tuple[int, int]", where.path[-2:])
-    other = _at(after, where._replace(path=where.path[:-2]))
-    if isinstance(other, Table) and other.values.shape == table.values.shape:
-        table.values[row, column] = other.values[row, column]
+    changed = _at(after, where._replace(path=where.path[:-2]))
+    if isinstance(changed, Table) and changed.values.shape == table.values.shape:
+        table.values[row, column] = changed.values[row, column]
         table.words.pop((row, column), None)
-        if (row, column) in other.words:
-            table.words[row, column] = other.words[row, column]
+        if (row, column) in changed.words:
+            table.words[row, column] = changed.words[row, column]
 
 
 def _at(deck: Deck, where: Where) -> object:
-    """What stands at a place of a deck; None where it has none."""
+    """Return the object at a place of a deck; None if there is none."""
     try:
         return deck.sections[where.section].blocks[where.block].at(where.path)[1]
     except IndexError:

@@ -1,4 +1,4 @@
-"""Which declared fields a path means, the values that a deck has of them, and whether a condition on them holds."""
+"""Fields that a path names, their values in a deck, and conditions on these values."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from mudline.basics.limits import LISTED
 from mudline.basics.spelling import edits, nearest
 from mudline.editing.assignment.paths import (
-    Comparison,
+    Compound,
     Condition,
+    FieldComparison,
     FieldPath,
-    Joined,
     Negated,
-    Operand,
     PathError,
     Selector,
+    WrittenOperand,
     folded_name,
 )
 from mudline.language.deck.model import Deck, Opaque
@@ -36,9 +36,13 @@ from mudline.language.keywords.values import Equation, Kind, Label
 
 
 class DeclaredField(NamedTuple):
-    """A field of a keyword: the names that lead to it, its declaration, and its column where it is one of a table.
+    """A field of a keyword.
 
-    One that is `whole` holds several values: a row, a table, a list.
+    Attributes:
+        names: the names that lead to the field.
+        slot: its declaration.
+        column: its column, if the field is a column of a table.
+        whole: True if the field holds several values: a row, a table, a list.
     """
 
     names: tuple[str, ...]
@@ -46,8 +50,8 @@ class DeclaredField(NamedTuple):
     column: int | None = None
     whole: bool = False
 
-    def fits(self, operand: Operand) -> bool:
-        """Whether a text may be a value of the field, or be compared with one."""
+    def fits(self, operand: WrittenOperand) -> bool:
+        """Return True if a text may be a value of the field, or be compared with a value."""
         if operand.text.casefold() in (choice.casefold() for choice in self.slot.choices):
             return True
         if Equation.match(operand.text) or operand.number is not None:
@@ -58,20 +62,20 @@ class DeclaredField(NamedTuple):
 
     @property
     def dotted(self) -> str:
-        """The names as a path has them, without the list of records at its beginning."""
+        """The names as in a path, without the list of records at the beginning."""
         return ".".join(self.names[1:] if len(self.names) > 1 else self.names)
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
-    """What a path means: a keyword, and its fields of that name that may hold what is to be set or compared."""
+class FieldTarget:
+    """A keyword and its fields that a path names, as far as they accept the value to be set or compared."""
 
     path: FieldPath
     fields: tuple[DeclaredField, ...]
 
 
-class Value(NamedTuple):
-    """A value of a deck, with its place, its declaration and the record, or the table and row, that holds it."""
+class FieldValue(NamedTuple):
+    """A value of a deck, with its place, its declaration and its record (or the table that contains it)."""
 
     where: Where
     value: float | str | None
@@ -79,11 +83,11 @@ class Value(NamedTuple):
     owner: Part | Table
 
 
-def target_of(path: FieldPath, operand: Operand | None) -> Target:
-    """Find the fields that a path means; raises PathError for a keyword or a field that is not declared.
+def target_of(path: FieldPath, operand: WrittenOperand | None) -> FieldTarget:
+    """Return the fields that a path names; raises PathError for a keyword or a field that is not declared.
 
-    Of several fields of a name those are meant that may hold the operand, and of these the outermost. Without an
-    operand those are meant that hold several values.
+    Of several fields with the same name, those that accept the operand are chosen, and of these the outermost. Without
+    an operand, fields of several values are chosen.
     """
     blocks = catalogue.declarations(path.keyword)
     if not blocks:
@@ -99,14 +103,14 @@ def target_of(path: FieldPath, operand: Operand | None) -> Target:
     for selector in path.selectors:
         if selector.name and selector.name not in selectable:
             raise PathError(f"{path}: *{path.keyword} has no field {selector.name!r}{_hint(selector.name, selectable)}")
-    return Target(path, fields)
+    return FieldTarget(path, fields)
 
 
-def values_of(deck: Deck, target: Target) -> Iterator[Value]:
-    """The values at a path in the blocks of a deck itself, in the order of the file."""
-    found = _all_values(deck, target)
+def values_of(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
+    """Return the values at a path in the blocks of a deck, in the order of the file."""
+    values = _all_values(deck, target)
     count = target.path.count
-    return found if count is None else islice(found, count - 1, count)
+    return values if count is None else islice(values, count - 1, count)
 
 
 # --------------------------------------------------------------------------------------------------- declared fields
@@ -114,7 +118,7 @@ def values_of(deck: Deck, target: Target) -> Iterator[Value]:
 
 @cache
 def declared_fields(block: type[Block]) -> tuple[DeclaredField, ...]:
-    """Every field of a keyword, the parts of one that holds several values too."""
+    """Return every field of a keyword, including the parts of fields of several values."""
     return tuple(_fields_of(block, ()))
 
 
@@ -134,17 +138,17 @@ def _fields_of(part: type[Part], before: tuple[str, ...]) -> Iterator[DeclaredFi
 
 
 def _names_of(slot: FieldSpec) -> set[str]:
-    """What a field may be called: its name in JSON, its KEY, and what else its declaration says."""
+    """Return the names of a field: its name in JSON, its KEY, and further names in its declaration."""
     return {folded_name(name) for name in (slot.json, slot.key, slot.about.also) if name}
 
 
 def _ends_with(field: DeclaredField, names: Sequence[str]) -> bool:
-    """Whether the path to a field ends with some names."""
+    """Return True if the path to a field ends with the given names."""
     *before, last = names
     if last not in _names_of(field.slot) or len(names) > len(field.names):
         return False
     between = field.names[len(field.names) - len(names) : -1]
-    return all(folded_name(one) == other for one, other in zip(between, before, strict=True))
+    return all(folded_name(own) == name for own, name in zip(between, before, strict=True))
 
 
 def _unknown_keyword(keyword: str) -> str:
@@ -174,14 +178,14 @@ def _hint(word: str, known: set[str]) -> str:
 
 
 def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
-    """The blocks of a keyword in a deck itself, in any section, whose lines were read."""
+    """Yield the blocks of a keyword in the deck's own sections whose lines were read, with their places."""
     for index, section in enumerate(deck.own_sections):
         for number, block in enumerate(section.blocks):
             if block.keyword == keyword and not isinstance(block, Opaque):
                 yield Where(index, number), block
 
 
-def _all_values(deck: Deck, target: Target) -> Iterator[Value]:
+def _all_values(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
     for where, block in blocks_of(deck, target.path.keyword):
         own = list(map(id, declared_fields(type(block))))
         for field in (field for field in target.fields if id(field) in own):
@@ -189,24 +193,24 @@ def _all_values(deck: Deck, target: Target) -> Iterator[Value]:
 
 
 class _Holders:
-    """The records around a value, the outermost first, and the selectors that they have to fit."""
+    """Records around a value, the outermost first, and the selectors that they must match."""
 
     def __init__(self, parts: list[Part], selectors: tuple[Selector, ...]) -> None:
         self.parts = parts
         self.selectors = selectors
 
     def with_part(self, part: Part) -> _Holders:
-        """Those around a value of one more part."""
+        """Return the holders of a value inside one more record."""
         return _Holders([*self.parts, part], self.selectors)
 
     def selected(self, of_table: Sequence[Selector] = ()) -> bool:
-        """Whether all selectors fit but those that choose rows of a table."""
+        """Return True if all selectors match, except those that choose rows of a table."""
         return all(self._fits(selector) for selector in self.selectors if selector not in of_table)
 
     def _fits(self, selector: Selector) -> bool:
         for part in reversed(self.parts):
             slots = record_schema(type(part)).slots
-            for slot in slots if selector.name else [one for one in slots if one.kind is Kind.NAME][:1]:
+            for slot in slots if selector.name else [slot for slot in slots if slot.kind is Kind.NAME][:1]:
                 if not selector.name or selector.name in _names_of(slot):
                     value = getattr(part, slot.name, None)
                     if value is None and slot.kind is Kind.NAME:
@@ -216,15 +220,15 @@ class _Holders:
         return False
 
 
-def equals(value: float | str, operand: Operand) -> bool:
-    """Whether a value of a deck is what is written; texts compare without case."""
+def equals(value: float | str, operand: WrittenOperand) -> bool:
+    """Return True if a value of a deck equals the operand; texts compare without case."""
     if isinstance(value, int | float):
         return operand.number is not None and float(value) == operand.number
     return value.strip().casefold() == operand.text.strip().casefold()
 
 
-def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders: _Holders) -> Iterator[Value]:
-    """The values of a field in a part that stands `depth` names deep."""
+def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders: _Holders) -> Iterator[FieldValue]:
+    """Yield the values of a field in a part that is `depth` names deep."""
     name = field.names[depth]
     slots = [slot for slot in record_schema(type(part)).slots if slot.json == name]
     for slot in slots:
@@ -233,7 +237,7 @@ def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders:
         if depth + 1 == len(field.names):
             if (field.whole or not isinstance(inner, Part | list | Table)) and holders.selected():
                 index = record_schema(type(part)).slots.index(slot)
-                yield Value(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
+                yield FieldValue(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
         elif isinstance(inner, Table):
             yield from _cells(inner, place, field, slot, holders)
         elif isinstance(inner, Part):
@@ -244,8 +248,10 @@ def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders:
                     yield from _values(item, place.inside(index), field, depth + 1, holders.with_part(item))
 
 
-def _cells(table: Table, where: Where, field: DeclaredField, slot: FieldSpec, holders: _Holders) -> Iterator[Value]:
-    """The values of a column in the rows that the selectors choose."""
+def _cells(
+    table: Table, where: Where, field: DeclaredField, slot: FieldSpec, holders: _Holders
+) -> Iterator[FieldValue]:
+    """Yield the values of a column in the rows that the selectors choose."""
     columns = record_schema(slot.row).columns if slot.row else []
     choosing: list[Selector] = []
     chosen = np.ones(len(table), dtype=np.bool_)
@@ -257,19 +263,19 @@ def _cells(table: Table, where: Where, field: DeclaredField, slot: FieldSpec, ho
     if not holders.selected(choosing) or field.column is None:
         return
     for row in np.flatnonzero(chosen):
-        yield Value(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
+        yield FieldValue(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
 
 
-def _rows_with(table: Table, column: int, wanted: Operand) -> NDArray[np.bool_]:
-    found: NDArray[np.bool_] = table.column(column) == (np.nan if wanted.number is None else wanted.number)
+def _rows_with(table: Table, column: int, operand: WrittenOperand) -> NDArray[np.bool_]:
+    matches: NDArray[np.bool_] = table.column(column) == (np.nan if operand.number is None else operand.number)
     for (row, at), word in table.words.items():
         if at == column and word is not None:
-            found[row] = equals(str(word), wanted)
-    return found
+            matches[row] = equals(str(word), operand)
+    return matches
 
 
 def cell(table: Table, row: int, column: int) -> float | str | None:
-    """What stands in a row and column of a table; None where the row ends before it, or its field is empty."""
+    """Return the value of a table cell; None if the row ends before it, or the field is empty."""
     value = table.cell(row, column) if column < table.lengths[row] else None
     return None if isinstance(value, float) and np.isnan(value) else value
 
@@ -282,48 +288,48 @@ _ORDER: Mapping[str, Callable[[float, float], bool]] = MappingProxyType(
 
 
 class ConditionError(Exception):
-    """Why it cannot be said whether a condition holds for a deck."""
+    """Reason why a condition cannot be decided for a deck."""
 
 
 @dataclass(frozen=True, slots=True)
 class DeckCondition:
-    """A condition with what its paths mean; made by `of`, which finds faults of the paths before a deck is read."""
+    """A condition with the fields of its paths; `of` reports faults of the paths before a deck is read."""
 
     condition: Condition
-    targets: Mapping[Comparison, Target]
+    targets: Mapping[FieldComparison, FieldTarget]
 
     @classmethod
     def of(cls, condition: Condition) -> DeckCondition:
-        """The condition, its paths looked up; raises PathError."""
-        return cls(condition, {one: target_of(one.path, one.operand) for one in _comparisons(condition)})
+        """Return the condition with its paths resolved; raises PathError."""
+        return cls(condition, {part: target_of(part.path, part.operand) for part in _comparisons(condition)})
 
     def holds(self, deck: Deck) -> bool:
-        """Whether the condition holds for a deck. Raises ConditionError for an equation without a value.
+        """Return True if the condition holds for a deck. Raises ConditionError for an equation without a value.
 
-        A comparison holds where one of the values at its path fits; none does where the deck has no such value.
+        A comparison holds if any value at its path satisfies it, and never if the deck has no such value.
         """
         return self._holds(self.condition, deck, Parameters(deck))
 
     def _holds(self, condition: Condition, deck: Deck, parameters: Parameters) -> bool:
         if isinstance(condition, Negated):
             return not self._holds(condition.condition, deck, parameters)
-        if isinstance(condition, Joined):
-            found = (self._holds(one, deck, parameters) for one in condition.conditions)
-            return any(found) if condition.any_of else all(found)
+        if isinstance(condition, Compound):
+            parts = (self._holds(part, deck, parameters) for part in condition.conditions)
+            return any(parts) if condition.any_of else all(parts)
         values = values_of(deck, self.targets[condition])
         return any(_fits(value, condition, parameters) for value in values)
 
 
-def _comparisons(condition: Condition) -> list[Comparison]:
+def _comparisons(condition: Condition) -> list[FieldComparison]:
     if isinstance(condition, Negated):
         return _comparisons(condition.condition)
-    if isinstance(condition, Joined):
-        return [found for one in condition.conditions for found in _comparisons(one)]
+    if isinstance(condition, Compound):
+        return [comparison for part in condition.conditions for comparison in _comparisons(part)]
     return [condition]
 
 
-def _fits(found: Value, comparison: Comparison, parameters: Parameters) -> bool:
-    value = _evaluated(found, comparison.path, parameters)
+def _fits(candidate: FieldValue, comparison: FieldComparison, parameters: Parameters) -> bool:
+    value = _evaluated(candidate, comparison.path, parameters)
     if value is None:
         return False
     if compare := _ORDER.get(comparison.operator):
@@ -332,12 +338,12 @@ def _fits(found: Value, comparison: Comparison, parameters: Parameters) -> bool:
     return equals(value, comparison.operand) is (comparison.operator == "==")
 
 
-def _evaluated(found: Value, path: FieldPath, parameters: Parameters) -> float | str | None:
-    value = found.value
+def _evaluated(field_value: FieldValue, path: FieldPath, parameters: Parameters) -> float | str | None:
+    value = field_value.value
     if not isinstance(value, Equation):
         return value
     try:
-        return parameters.evaluate(value, found.where)
+        return parameters.evaluate(value, field_value.where)
     except NoValueError as error:
         why = f": {error}" if str(error) else ""
         raise ConditionError(f"{path} is given by an equation without a value, {value}{why}") from error

@@ -1,4 +1,4 @@
-"""What `mudline set` is asked for, read by the grammar: a path to a field, its new value, a condition."""
+"""Arguments of `mudline set`, read by a grammar: a path to a field, its new value, a condition."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ _SAME = {"=": "==", "<>": "!="}
 
 
 class PathError(ValueError):
-    """A path, a value or a condition that cannot be read, or that no deck has; the message says what to write."""
+    """Invalid path, value or condition; the message says what to write."""
 
 
 @dataclass(frozen=True, slots=True)
-class Operand:
-    """A text of the command line, and the number that it spells, if it spells one."""
+class WrittenOperand:
+    """A text of the command line, and its number if it is a number."""
 
     text: str
     number: float | None = None
 
     @classmethod
-    def of(cls, written: str) -> Operand:
-        """What is written; in quotes it is a text, whatever it spells."""
+    def of(cls, written: str) -> WrittenOperand:
+        """Return the operand of a text; a quoted text is never a number."""
         if written.startswith('"'):
             return cls(written[1:-1])
         text = written.strip()
@@ -41,15 +41,15 @@ class Operand:
 
 @dataclass(frozen=True, slots=True)
 class Selector:
-    """`[set=TDZ]`: the records whose field has a value; `[TDZ]`, without a field: those of a name or a set."""
+    """Selection of records: `[set=TDZ]` by the value of a field, `[TDZ]` by their set or name."""
 
     name: str
-    value: Operand
+    value: WrittenOperand
 
 
 @dataclass(frozen=True, slots=True)
 class FieldPath:
-    """`KEYWORD[set=NAME].field`; `count` is the N of `[N]`: of all that are found, the one with that number, from 1."""
+    """A path `KEYWORD[set=NAME].field`; `count` is the N of `[N]`, the number of the chosen value, from 1."""
 
     written: str
     keyword: str
@@ -63,59 +63,59 @@ class FieldPath:
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A field and the value that it is to have, as it is written into the deck."""
+    """A field and its new value, as written into the deck."""
 
     path: FieldPath
     value: str
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class FieldComparison:
     """A field compared with a number or a text."""
 
     path: FieldPath
     operator: str
-    operand: Operand
+    operand: WrittenOperand
 
 
 @dataclass(frozen=True, slots=True)
 class Negated:
-    """What holds where the other condition does not."""
+    """Condition that holds if the inner condition does not."""
 
     condition: Condition
 
 
 @dataclass(frozen=True, slots=True)
-class Joined:
-    """Conditions of which all have to hold, or one (`any_of`)."""
+class Compound:
+    """Conditions of which all must hold, or with `any_of` at least one."""
 
     conditions: tuple[Condition, ...]
     any_of: bool
 
 
-Condition = Comparison | Negated | Joined
+Condition = FieldComparison | Negated | Compound
 
 
 def folded_name(name: str) -> str:
-    """A field's name as names of fields compare: without case; blanks and hyphens are underscores."""
+    """Return a field name in the form in which names are compared: without case, blanks and hyphens as underscores."""
     return "_".join(name.replace("-", " ").replace("_", " ").split()).casefold()
 
 
 def parse_assignment(text: str) -> Assignment:
-    """`KEYWORD.field=value`, `KEYWORD[set=NAME].field=value`; raises PathError."""
-    found = cast("Assignment", _parsed(text, "assignment"))
-    if not found.value or not found.value.isprintable():
-        raise PathError(f"{found.path}: expected a value of printable characters after =")
-    return found
+    """Return the assignment `KEYWORD.field=value` or `KEYWORD[set=NAME].field=value`; raises PathError."""
+    assignment = cast("Assignment", _parsed(text, "assignment"))
+    if not assignment.value or not assignment.value.isprintable():
+        raise PathError(f"{assignment.path}: expected a value of printable characters after =")
+    return assignment
 
 
 def parse_path(text: str) -> FieldPath:
-    """`KEYWORD.field`, `KEYWORD[set=NAME].field`; raises PathError."""
+    """Return the path `KEYWORD.field` or `KEYWORD[set=NAME].field`; raises PathError."""
     return cast("FieldPath", _parsed(text, "path"))
 
 
 def parse_condition(text: str) -> Condition:
-    """Comparisons of fields with numbers or texts, joined by and, or, not and brackets; raises PathError."""
+    """Return the condition: comparisons of fields with numbers or texts, joined by and, or, not; raises PathError."""
     return cast("Condition", _parsed(text, "condition"))
 
 
@@ -131,14 +131,14 @@ def _parsed(text: str, start: str) -> object:
         raise PathError(f"more than {LONGEST_ASSIGNMENT} characters: expected {_FORMS[start]}")
     try:
         tree = _grammar(start).parse(text)
-        return _Builder(text).transform(tree)
+        return _PathBuilder(text).transform(tree)
     except UnexpectedInput as error:
         at = cast("int | None", error.pos_in_stream)
         rest = text[at:] if at is not None and at >= 0 else ""
         place = f"at {rest[:20]!r}" if rest else "at its end"
         quoted = "; quote what has a space" if start == "assignment" and "=" not in text else ""
         raise PathError(f"{text!r} cannot be read {place}: expected {_FORMS[start]}{quoted}") from error
-    except (RecursionError, VisitError) as error:  # whatever a method below raises, and what is nested too deep
+    except (RecursionError, VisitError) as error:  # a method of the builder raises, or the nesting is too deep
         if isinstance(error, VisitError) and isinstance(error.orig_exc, PathError):
             raise error.orig_exc from error
         raise PathError(f"nested too deeply: expected {_FORMS[start]}") from error
@@ -146,27 +146,27 @@ def _parsed(text: str, start: str) -> object:
 
 @cache
 def _grammar(start: str) -> Lark:
-    """The parser of one of the two: in one for both, the lexer would not know which terminals may follow a path."""
+    """Return the parser of one start rule; with several, the lexer could not know which terminals may follow a path."""
     text = grammar_file("assignment.lark").read_text(encoding="utf-8")
     return Lark(text, parser="lalr", lexer="contextual", start=start, propagate_positions=True)
 
 
-class _Builder(Transformer[Token, Any]):
-    """Makes paths and conditions of what the rules matched."""
+class _PathBuilder(Transformer[Token, Any]):
+    """Builder of paths and conditions from the parsed rules."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
         self._text = text
 
     def selector(self, parts: list[Token]) -> Selector | int:
-        """A selector, or the number of the place that is meant."""
+        """Return a selector, or the number of the chosen value."""
         if len(parts) > 1:
-            return Selector(folded_name(parts[0]), Operand.of(parts[1]))
-        return int(parts[0]) if parts[0].type == "COUNT" else Selector("", Operand.of(parts[0]))
+            return Selector(folded_name(parts[0]), WrittenOperand.of(parts[1]))
+        return int(parts[0]) if parts[0].type == "COUNT" else Selector("", WrittenOperand.of(parts[0]))
 
     @v_args(meta=True)
     def path(self, meta: Meta, parts: list[Any]) -> FieldPath:
-        """A path; of several numbers in brackets the last one holds."""
+        """Return a path; of several numbers in brackets the last applies."""
         keyword, *others = parts
         names = tuple(folded_name(part) for part in others if isinstance(part, Token))
         selectors = tuple(part for part in others if isinstance(part, Selector))
@@ -175,26 +175,26 @@ class _Builder(Transformer[Token, Any]):
         return FieldPath(written, canonical_name(f"*{keyword}"), names, selectors, counts[-1] if counts else None)
 
     def assignment(self, parts: list[Any]) -> Assignment:
-        """An assignment."""
+        """Return an assignment."""
         return Assignment(parts[0], parts[1][1:].strip())
 
-    def comparison(self, parts: list[Any]) -> Comparison:
-        """A comparison; texts have no order."""
+    def comparison(self, parts: list[Any]) -> FieldComparison:
+        """Return a comparison; texts have no order."""
         path, written, value = parts
-        operand = Operand.of(value)
+        operand = WrittenOperand.of(value)
         operator = _SAME.get(written, str(written))
         if operator in ORDERING and operand.number is None:
             raise PathError(f"{path} {operator} {value}: a text is compared by == or !=, an order needs a number")
-        return Comparison(path, operator, operand)
+        return FieldComparison(path, operator, operand)
 
     def negated(self, parts: list[Any]) -> Negated:
-        """A negation."""
+        """Return a negation."""
         return Negated(parts[0])
 
-    def conjunction(self, parts: list[Any]) -> Joined:
-        """Conditions joined by and."""
-        return Joined(tuple(parts), any_of=False)
+    def conjunction(self, parts: list[Any]) -> Compound:
+        """Return conditions joined by and."""
+        return Compound(tuple(parts), any_of=False)
 
-    def disjunction(self, parts: list[Any]) -> Joined:
-        """Conditions joined by or."""
-        return Joined(tuple(parts), any_of=True)
+    def disjunction(self, parts: list[Any]) -> Compound:
+        """Return conditions joined by or."""
+        return Compound(tuple(parts), any_of=True)

@@ -1,4 +1,4 @@
-"""Blocks that the scene does not resolve as a whole: values by path, record by record, other blocks line by line."""
+"""Comparison of blocks that the scene does not resolve completely: by path and record, opaque blocks line by line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from mudline.language.keywords.writer import field_text, joined
 _KEYS = ("set", "name", "curve")
 
 
-class Entry(NamedTuple):
+class ComparedValue(NamedTuple):
     """A value, the form in which it is compared, and its place."""
 
     shown: Value
@@ -28,32 +28,32 @@ class Entry(NamedTuple):
     where: Where
 
 
-Flat: TypeAlias = dict[str, Entry]
+Flat: TypeAlias = dict[str, ComparedValue]
 
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
-    """All values of the blocks of a keyword; records with a name are found by it in any block."""
+    """Return all values of the blocks of a keyword by path; a named record is found by its name in any block."""
     return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
 def record_values(side: Side, record: Record, where: Where) -> Flat:
-    """The values of one record of an element, without the name of the record."""
+    """Return the values of one record of an element, without the name of the record."""
     flattening = _Flattening(side, later_wins=True)
     key = key_slot(type(record))
-    found: Flat = {}
-    flattening.part(record, where, "", found, leave_out=key.name if key else "")
-    return found
+    values: Flat = {}
+    flattening.part(record, where, "", values, leave_out=key.name if key else "")
+    return values
 
 
 def key_slot(record: type[Record]) -> FieldSpec | None:
-    """The field that a record of a list is found by: its set, or its own name."""
+    """Return the field that identifies a record of a list: its set, or its own name."""
     own = (None, Names.SET)
     slots = (slot for slot in record_schema(record).slots if not slot.row and not slot.many and slot.about.names in own)
     return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & set(_KEYS)), None)
 
 
 def _identity(record: Record) -> str | None:
-    """The key of a record without a name: its required values. None without any."""
+    """Return the identity of a record without a name: its required values; None without required values."""
     slots = [slot for slot in record_schema(type(record)).slots if slot.required and not slot.record]
     values = [getattr(record, slot.name, None) for slot in slots]
     words = [field_text(value) for value in values if isinstance(value, float | int | str)]
@@ -70,91 +70,91 @@ class _Flattening:
         self.counts: dict[str, int] = {}
 
     def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
-        found: Flat = {}
-        carried: dict[str, Entry] = {}
+        flat: Flat = {}
+        carried: dict[str, ComparedValue] = {}
         for where, block in blocks:
             lists = [slot for slot in record_schema(type(block)).slots if self._keyed(slot)]
             own: Flat = {}
             self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
             if not lists:
-                found |= self._apart(own)
+                flat |= self._apart(own)
                 continue
             for name in block.facts.carried:
                 path = name.rstrip("_")
                 carried |= {path: own[path]} if path in own else {}
                 own = {**carried, **own}
             slot = lists[0]
-            self._records(getattr(block, slot.name) or [], where, slot, "", found, own)
-        return found
+            self._records(getattr(block, slot.name) or [], where, slot, "", flat, own)
+        return flat
 
-    def part(self, part: Part, where: Where, prefix: str, found: Flat, leave_out: str = "") -> None:
-        """The declared fields of a part, below a prefix."""
+    def part(self, part: Part, where: Where, prefix: str, flat: Flat, leave_out: str = "") -> None:
+        """Add the declared fields of a part, below a prefix."""
         kind: type[Part] = type(part)
         for slot in record_schema(kind).slots:
             value = getattr(part, slot.name, None)
             if slot.name == leave_out or value is None:
                 continue
             place = where.inside(slot.json)
-            self._value(value, slot, place, prefix + slot.json, found)
+            self._value(value, slot, place, prefix + slot.json, flat)
 
-    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, found: Flat) -> None:
+    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, flat: Flat) -> None:
         if isinstance(value, Table):
-            found.update(_table(value, slot, where, path))
+            flat.update(_table(value, slot, where, path))
         elif isinstance(value, Part):
-            self.part(value, where, path + "/", found)
+            self.part(value, where, path + "/", flat)
         elif isinstance(value, list) and value and isinstance(value[0], Record):
-            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, found, {})
+            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, flat, {})
         elif isinstance(value, list):
-            self._items(value, where, path, found)
+            self._items(value, where, path, flat)
         else:
-            found[path] = self._scalar(value, where)
+            flat[path] = self._scalar(value, where)
 
-    def _items(self, values: list[object], where: Where, path: str, found: Flat) -> None:
+    def _items(self, values: list[object], where: Where, path: str, flat: Flat) -> None:
         for index, item in enumerate(values):
             place = where.inside(index)
             if isinstance(item, Part):
-                self.part(item, place, f"{path}/{index + 1}/", found)
+                self.part(item, place, f"{path}/{index + 1}/", flat)
             else:
-                found[f"{path}/{index + 1}"] = self._scalar(item, place)
+                flat[f"{path}/{index + 1}"] = self._scalar(item, place)
 
-    def _scalar(self, value: object, where: Where) -> Entry:
+    def _scalar(self, value: object, where: Where) -> ComparedValue:
         if isinstance(value, float | int):
-            return Entry(plain(value), value, where)
-        return Entry(str(value), folded(str(value)), where)
+            return ComparedValue(plain(value), value, where)
+        return ComparedValue(str(value), folded(str(value)), where)
 
     def _records(
-        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, found: Flat, shared: Flat
+        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, flat: Flat, shared: Flat
     ) -> None:
-        """The records of a list: by name where they have one, else by position."""
+        """Add the records of a list, by name if they have names, else by position."""
         sticky: object = None
         start = f"{prefix}/" if prefix else ""
         for index, record in enumerate(records):
             place = where.inside(slot.json, index)
             key = key_slot(type(record))
-            path = start + self._title(record, key, index, found, start)
+            path = start + self._title(record, key, index, flat, start)
             values: Flat = {}
             if record.sticky:
                 sticky = getattr(record, record.sticky, None) or sticky
                 declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
                 values[f"{path}/{declared.json}"] = self._scalar(sticky or declared.about.default, place)
             self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
-            found[path] = Entry(None, None, place)
-            found |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
+            flat[path] = ComparedValue(None, None, place)
+            flat |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
 
-    def _title(self, record: Record, key: FieldSpec | None, index: int, found: Flat, start: str) -> str:
+    def _title(self, record: Record, key: FieldSpec | None, index: int, flat: Flat, start: str) -> str:
         name = _identity(record) if key is None else getattr(record, key.name, None)
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
         if self.later_wins:
-            if start + title in found:
-                for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
-                    del found[path]
+            if start + title in flat:
+                for path in [path for path in flat if path == start + title or path.startswith(f"{start}{title}/")]:
+                    del flat[path]
             return title
         count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
         return title if count == 1 else f"{title}#{count}"
 
     def _apart(self, own: Flat) -> Flat:
-        """The values of a block without named records; those of a second block have a number."""
+        """Return the values of a block without named records; those of a second block get a number."""
         count = self.counts[""] = self.counts.get("", 0) + 1
         return own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
 
@@ -163,8 +163,8 @@ class _Flattening:
         return slot.many and bool(slot.record) and all(key_slot(record) for record in slot.record.values())
 
 
-def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
-    """The rows of a table; points in ascending order."""
+def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, ComparedValue]]:
+    """Yield the rows of a table; points in ascending order."""
     rows = [(cells, index) for index, cells in enumerate(table.rows(slot.columns))]
     if isinstance(slot.about, Rows) and slot.about.unordered:
         rows.sort(
@@ -175,7 +175,7 @@ def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[t
     for number, (cells, index) in enumerate(rows, 1):
         while cells and cells[-1] is None:
             cells.pop()
-        yield f"{path}/{number}", Entry([plain(cell) for cell in cells], list(cells), where.inside(index))
+        yield f"{path}/{number}", ComparedValue([plain(cell) for cell in cells], list(cells), where.inside(index))
 
 
 def _number(cell: float | str | None) -> float:
@@ -183,40 +183,40 @@ def _number(cell: float | str | None) -> float:
 
 
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
-"""Sections of which several make one."""
+"""Sections that count as one section, however often they occur."""
 _COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
 
 _Name = tuple[str, str]
 
 
 def blocks(pair: Pair) -> Iterator[Difference]:
-    """Modelled blocks by their values, the others by their data lines."""
-    first, second = _modelled(pair.one), _modelled(pair.other)
+    """Yield the differences of modelled blocks by value, and of opaque blocks by data line."""
+    first, second = _modelled(pair.before), _modelled(pair.after)
     for name in dict.fromkeys([*first, *second]):
         group = _group(name)
         before, after = first.get(name, []), second.get(name, [])
-        if not before or not after:  # reported before its values, as it may have none
-            yield pair.difference(group, group, *((None, found[0][0]) if found else None for found in (before, after)))
-        yield from flat_differences(group, flatten(pair.one, before), flatten(pair.other, after), pair)
-    lines, others = _lines(pair.one), _lines(pair.other)
+        if not before or not after:  # reported separately, as the block may have no values
+            yield pair.difference(group, group, *((None, side[0][0]) if side else None for side in (before, after)))
+        yield from flat_differences(group, flatten(pair.before, before), flatten(pair.after, after), pair)
+    lines, others = _lines(pair.before), _lines(pair.after)
     for name in dict.fromkeys([*lines, *others]):
         yield from _opaque(name, lines.get(name, []), others.get(name, []), pair)
 
 
 def flat_differences(group: str, before: Flat, after: Flat, pair: Pair) -> Iterator[Difference]:
-    """Values by path that differ, or that only one of two decks has."""
+    """Yield values by path that differ, or that only one of two decks has."""
     for path in dict.fromkeys([*before, *after]):
         old, new = before.get(path), after.get(path)
         if old and new and pair.tolerance.values(old.compared, new.compared):
             continue
-        where = f"{group}/{(pair.one if old else pair.other).path(path)}"
-        pair.said.update(_around(path, before, after))
-        held, found = ((entry.shown, entry.where) if entry else None for entry in (old, new))
-        yield pair.difference(group, where, held, found)
+        where = f"{group}/{(pair.before if old else pair.after).path(path)}"
+        pair.reported.update(_around(path, before, after))
+        held = ((entry.shown, entry.where) if entry else None for entry in (old, new))
+        yield pair.difference(group, where, *held)
 
 
 def _around(path: str, before: Flat, after: Flat) -> Iterator[tuple[Where | None, Where | None]]:
-    """The places of a value in both decks, and those of its record and block."""
+    """Yield the places of a value in both decks, and those of its record and block."""
     record = path.partition("/")[0]
     yield before[record].where if record in before else None, after[record].where if record in after else None
     old, new = (flat[path].where if path in flat else None for flat in (before, after))
@@ -230,18 +230,18 @@ def _group(name: _Name) -> str:
 
 
 def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
-    found: dict[_Name, list[tuple[Where, Block]]] = {}
+    modelled: dict[_Name, list[tuple[Where, Block]]] = {}
     titles = _titles(side)
     for i, section in enumerate(side.scene.deck.sections):
         for j, block in enumerate(section.blocks):
             name = (titles[i], block.keyword)
             if isinstance(block, Block) and not block.facts.defines:
-                found.setdefault(name, []).append((Where(i, j), side.comparable(block, Where(i, j))))
-    return found
+                modelled.setdefault(name, []).append((Where(i, j), side.comparable(block, Where(i, j))))
+    return modelled
 
 
 def _titles(side: Side) -> list[str]:
-    """The sections by name; a second load case, which differs from the first, with its number."""
+    """Return the sections by name; a second load case, which differs from the first, has its number."""
     counts: dict[str, int] = {}
     titles: list[str] = []
     for section in side.scene.deck.sections:
@@ -254,21 +254,21 @@ _Lines = list[tuple[str, Where]]
 
 
 def _lines(side: Side) -> dict[_Name, _Lines]:
-    """Data lines without the blanks at their ends; those of blocks of one keyword follow one another."""
-    found: dict[_Name, _Lines] = {}
+    """Return the data lines without blanks at their ends; those of blocks of the same keyword follow each other."""
+    lines_by_name: dict[_Name, _Lines] = {}
     deck = side.scene.deck
     titles = _titles(side)
     if data := [(line, Where()) for line in _data(deck.preamble)]:
-        found["", ""] = data
+        lines_by_name["", ""] = data
     for i, section in enumerate(deck.sections):
         if section.lines:
-            found.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in _data(section.lines))
+            lines_by_name.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in _data(section.lines))
         for j, block in enumerate(section.blocks):
             if isinstance(block, Opaque):
-                lines = found.setdefault((titles[i], block.keyword), [])
+                lines = lines_by_name.setdefault((titles[i], block.keyword), [])
                 lines.append((f"*{block.keyword}", Where(i, j)))
                 lines += [(line, Where(i, j)) for line in _data(block.lines)]
-    return found
+    return lines_by_name
 
 
 def _data(lines: list[str]) -> Iterator[str]:
@@ -285,16 +285,17 @@ def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[
             yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])
 
 
-def _changes(one: list[str], other: list[str]) -> list[tuple[str, int, int, int, int]]:
-    """Edits of ranges of lines; long texts are compared only between their equal beginnings and ends."""
-    if one == other:
+def _changes(before: list[str], after: list[str]) -> list[tuple[str, int, int, int, int]]:
+    """Return the edits of ranges of lines; long texts are compared only between their equal beginnings and ends."""
+    if before == after:
         return []
-    start = next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
-    end, most = 0, min(len(one), len(other)) - start
-    while end < most and one[-1 - end] == other[-1 - end]:
+    shorter = min(len(before), len(after))
+    start = next((i for i, (a, b) in enumerate(zip(before, after, strict=False)) if a != b), shorter)
+    end, most = 0, shorter - start
+    while end < most and before[-1 - end] == after[-1 - end]:
         end += 1
-    first, second = one[start : len(one) - end], other[start : len(other) - end]
+    first, second = before[start : len(before) - end], after[start : len(after) - end]
     if len(first) + len(second) > MOST_MATCHED:
-        return [("replace", start, len(one) - end, start, len(other) - end)]
-    found = SequenceMatcher(None, first, second, autojunk=False).get_opcodes()
-    return [(tag, i + start, i2 + start, j + start, j2 + start) for tag, i, i2, j, j2 in found]
+        return [("replace", start, len(before) - end, start, len(after) - end)]
+    edits = SequenceMatcher(None, first, second, autojunk=False).get_opcodes()
+    return [(tag, i + start, i2 + start, j + start, j2 + start) for tag, i, i2, j, j2 in edits]

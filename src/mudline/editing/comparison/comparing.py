@@ -1,4 +1,4 @@
-"""The differences of two decks: values by name or number, and laws and sections element by element."""
+"""Differences of two decks: values by name or number, and laws and sections element by element."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.limits import MOST_GENERATED
 from mudline.editing.comparison.blocks import blocks, record_values
-from mudline.editing.comparison.model import Difference, Members, Pair, Side, Tolerance, Value, plain, spans_of, text_of
+from mudline.editing.comparison.model import Allowance, Difference, Members, Pair, Side, Value, plain, spans_of, text_of
 from mudline.language.deck.parameters import Definition, folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import Record
@@ -27,34 +27,34 @@ from mudline.model.scene.seabed import SeabedShape
 
 
 def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Difference]:
-    """The semantic differences of two decks; an empty list where they mean the same.
+    """Return the semantic differences of two decks; an empty list if both mean the same.
 
-    `tolerance` is the allowed difference of two numbers over the larger one. Raises DeckError for a deck of which
-    something could not be read, or in which an equation has no value.
+    `tolerance` is the allowed difference of two numbers relative to the larger number. Raises DeckError for a deck with
+    parts that could not be read, or with an equation without a value.
     """
-    pair = Pair(Side(before), Side(after), Tolerance(tolerance))
-    pair.one.require()
-    pair.other.require()
+    pair = Pair(Side(before), Side(after), Allowance(tolerance))
+    pair.before.require()
+    pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
     groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor)
-    return [*(found for differences in groups for found in differences(pair)), *of_keywords]
+    return [*(difference for differences in groups for difference in differences(pair)), *of_keywords]
 
 
 def _units(pair: Pair) -> Iterator[Difference]:
-    old, new = pair.one.scene.units, pair.other.scene.units
+    old, new = pair.before.scene.units, pair.after.scene.units
     if old != new:
         yield Difference("changed", "units", "units", old, new)
 
 
 def _floor(pair: Pair) -> Iterator[Difference]:
-    """The points of the seabed from files; those in the deck are compared with its blocks."""
-    if pair.one.scene.seabed.file or pair.other.scene.seabed.file:
+    """Yield the differences of seabed points from files; points in the deck are compared with its blocks."""
+    if pair.before.scene.seabed.file or pair.after.scene.seabed.file:
         yield from seabed_points(pair)
 
 
 def seabed_points(pair: Pair) -> Iterator[Difference]:
-    """The points of a profile or a surface, in whatever order, if they differ."""
-    old, new = pair.one.scene.seabed, pair.other.scene.seabed
+    """Yield the difference of the points of a profile or a surface; their order does not count."""
+    old, new = pair.before.scene.seabed, pair.after.scene.seabed
     same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
     if not same:
         held = ((f"{len(floor.points)} points", floor.where) for floor in (old, new))
@@ -65,28 +65,28 @@ def _sorted(floor: SeabedShape) -> np.ndarray[tuple[int, ...], np.dtype[np.float
     return floor.points[np.lexsort(floor.points.T[::-1])] if len(floor.points) else floor.points
 
 
-# ------------------------------------------------------------------------------------------ what has a name or a number
+# ------------------------------------------------------------------------------------------ by name or by number
 
 
 def _nodes(pair: Pair) -> Iterator[Difference]:
-    """Coordinates of the nodes."""
-    yield from _numbered("nodes", pair.one.scene.nodes, pair.other.scene.nodes, pair)
+    """Yield the differences of node coordinates."""
+    yield from _numbered("nodes", pair.before.scene.nodes, pair.after.scene.nodes, pair)
     yield from _labelled("NODE", "nodes", pair)
 
 
 def _elements(pair: Pair) -> Iterator[Difference]:
-    """Nodes of the elements; numbers are names here, so the tolerance does not apply."""
-    tables = pair.one.scene.table.numbered, pair.other.scene.table.numbered
-    yield from _numbered("elements", *tables, replace(pair, tolerance=Tolerance()))
+    """Yield the differences of element nodes; numbers are names here, so the tolerance does not apply."""
+    tables = pair.before.scene.table.numbered, pair.after.scene.table.numbered
+    yield from _numbered("elements", *tables, replace(pair, tolerance=Allowance()))
     yield from _labelled("ELEMENT", "elements", pair)
 
 
-def _common(one: Numbered, other: Numbered) -> tuple[Indices, Indices]:
-    """Indices in each of the numbers that both have."""
-    if np.array_equal(one.ids, other.ids):
-        same = np.arange(len(one.ids), dtype=np.intp)
+def _common(first: Numbered, second: Numbered) -> tuple[Indices, Indices]:
+    """Return the indices in each table of the numbers that both have."""
+    if np.array_equal(first.ids, second.ids):
+        same = np.arange(len(first.ids), dtype=np.intp)
         return same, same
-    at = other.indices(one.ids)
+    at = second.indices(first.ids)
     here = np.flatnonzero(at >= 0)
     return here, at[here]
 
@@ -103,7 +103,7 @@ def _numbered(group: str, first: Numbered, second: Numbered, pair: Pair) -> Iter
 
 
 def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
-    """Coordinates of a node, or the whole numbers of an element's nodes; their place."""
+    """Return the coordinates of a node, or the nodes of an element, with their place."""
     values = [plain(value) for value in table.values[index].tolist()]
     if group == "elements":
         values = [int(value) if isinstance(value, float) else value for value in values]
@@ -111,8 +111,8 @@ def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
 
 
 def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
-    """Rows with a {label} instead of a number."""
-    first, second = _label_rows(pair.one, keyword, group), _label_rows(pair.other, keyword, group)
+    """Yield the differences of rows with a {label} in place of a number."""
+    first, second = _label_rows(pair.before, keyword, group), _label_rows(pair.after, keyword, group)
     for key in sorted(first.keys() - second.keys()):
         yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
     for key in sorted(second.keys() - first.keys()):
@@ -120,7 +120,7 @@ def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
 
 
 def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tuple[list[Value], Where]]:
-    found: dict[tuple[str, ...], tuple[list[Value], Where]] = {}
+    rows_by_key: dict[tuple[str, ...], tuple[list[Value], Where]] = {}
     for where, block in side.scene.deck.blocks(keyword):
         for index, entry in enumerate(block.entries):
             table = getattr(entry, name, None)
@@ -131,16 +131,16 @@ def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tu
                 numbers = enumerate(table.values[row, : table.lengths[row]].tolist())
                 cells: list[Value] = [table.words.get((row, column)) or plain(number) for column, number in numbers]
                 key = tuple(str(cell).casefold() for cell in cells)
-                found[key] = (cells, where.inside("entries", index, name, row))
-    return found
+                rows_by_key[key] = (cells, where.inside("entries", index, name, row))
+    return rows_by_key
 
 
 _KINDS = {False: "curves", True: "curves of sets"}
 
 
 def _parameters(pair: Pair) -> Iterator[Difference]:
-    """Values of the parameters."""
-    first, second = pair.one.parameters, pair.other.parameters
+    """Yield the differences of parameter values."""
+    first, second = pair.before.parameters, pair.after.parameters
     for name in dict.fromkeys([*first.values, *second.values]):
         old, new = first.values.get(name), second.values.get(name)
         if old is None or new is None or not pair.tolerance.values(old, new):
@@ -156,21 +156,21 @@ _NO_MEMBERS = Members()
 
 
 def _sets(pair: Pair) -> Iterator[Difference]:
-    """Members of the element sets; ALL has all elements."""
-    first, second = pair.one.scene.set_table.named, pair.other.scene.set_table.named
-    written, others = _written(pair.one), _written(pair.other)
+    """Yield the differences of the members of element sets; ALL has all elements."""
+    first, second = pair.before.scene.set_table.named, pair.after.scene.set_table.named
+    written, others = _written(pair.before), _written(pair.after)
     for name in dict.fromkeys([*first, *second]):
         if name == "all":
             continue
         old, new = first.get(name), second.get(name)
-        before = Members([pair.one.scene.element_ids[old.elements]]) if old else None
-        after = Members([pair.other.scene.element_ids[new.elements]]) if new else None
+        before = Members([pair.before.scene.element_ids[old.elements]]) if old else None
+        after = Members([pair.after.scene.element_ids[new.elements]]) if new else None
         if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
             before, after = written.get(name, _NO_MEMBERS), others.get(name, _NO_MEMBERS)
         if before is None or after is None or not before.same(after):
             title = old.name if old else new.name if new else name
             sides = (before, old), (after, new)
-            held = ((_text(members), found.where) if members and found else None for members, found in sides)
+            held = ((_text(members), group.where) if members and group else None for members, group in sides)
             yield pair.difference("element sets", f"element sets/{title}", *held)
 
 
@@ -179,11 +179,11 @@ def _text(members: Members) -> str:
 
 
 def _written(side: Side) -> dict[str, Members]:
-    """Members of sets as their lines give them, for sets with elements that the deck does not define."""
-    found: dict[str, Members] = {}
+    """Return members of sets as written, for sets with elements that the deck does not define."""
+    members_by_name: dict[str, Members] = {}
     for _, block in side.scene.deck.blocks("ELEMENT SETS"):
         for entry in block.sets:
-            members = found.setdefault(folded(str(entry.name)), Members())
+            members = members_by_name.setdefault(folded(str(entry.name)), Members())
             for member in entry.members:
                 if subset := getattr(member, "subset", None):
                     members.words.add(f"SUBSET={folded(str(subset))}")
@@ -191,13 +191,13 @@ def _written(side: Side) -> dict[str, Members]:
                     members.words |= {folded(item) for item in listed if isinstance(item, Label)}
                     whole = [item for item in listed if isinstance(item, int)]
                     members.arrays.append(np.array(whole, dtype=np.int64))
-                if given := getattr(member, "generate", None):
-                    members.ranges += _generated(given.start, given.end, given.increment)
-    return found
+                if generated := getattr(member, "generate", None):
+                    members.ranges += _generated(generated.start, generated.end, generated.increment)
+    return members_by_name
 
 
 def _generated(start: object, end: object, step: object) -> list[tuple[int, int, int]]:
-    """The range of a GEN=; none where it is not one."""
+    """Return the range of a GEN=; an empty list if it is invalid."""
     step = 1 if step is None else step
     if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
         return []
@@ -205,8 +205,8 @@ def _generated(start: object, end: object, step: object) -> list[tuple[int, int,
 
 
 def _curves(pair: Pair) -> Iterator[Difference]:
-    """Points of the force-embedment curves; of several of one name the last one counts."""
-    first, second = _by_name(pair.one), _by_name(pair.other)
+    """Yield the differences of points of the force-embedment curves; the last curve of a name applies."""
+    first, second = _by_name(pair.before), _by_name(pair.after)
     for name in dict.fromkeys([*first, *second]):
         old, new = first.get(name), second.get(name)
         if old and new:
@@ -245,29 +245,29 @@ def _by_name(side: Side) -> dict[str, SceneCurve]:
 
 
 def _points(curve: SceneCurve) -> Floats:
-    """The points in ascending order, each once."""
+    """Return the points in ascending order, each once."""
     return np.unique(curve.points, axis=0) if len(curve.points) else curve.points
 
 
 def shown_points(curve: SceneCurve) -> Value:
-    """The points of a curve in ascending order, as a difference shows them."""
+    """Return the points of a curve in ascending order, as a difference shows them."""
     return [[plain(value) for value in row] for row in _points(curve).tolist()]
 
 
 def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
-    """The force of a point, and its place."""
+    """Return the force of a point, and its place."""
     at = np.flatnonzero((curve.points == point).all(axis=1))
     return point[1].item(), curve.point(int(at[0])) if len(at) else curve.where
 
 
-# ------------------------------------------------------------------------------------------------- what elements follow
+# ---------------------------------------------------------------------------------------- laws and sections of elements
 
 Values = dict[str, object]
 
 
 @dataclass(frozen=True, slots=True)
-class Followed:
-    """The entries of one kind, the entry of each element (-1 for none), and their places."""
+class EntryMap:
+    """Entries of one kind, the entry of each element (-1 for none), and their places."""
 
     entries: Sequence[Values]
     places: Sequence[Where]
@@ -275,39 +275,40 @@ class Followed:
 
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
-    """Elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
+    """Yield elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
 
-    For elements with one record in both decks, or a record of one deck only, the difference of the record is reported.
+    If the elements have the same record in both decks, or a record in one deck only, the difference of the record is
+    reported instead.
     """
     yield from follow_differently("laws", _laws, pair)
     yield from follow_differently("sections", _sections, pair)
     yield from follow_differently("bed", _bed, pair)
-    for keyword in dict.fromkeys([*pair.one.scene.extensions, *pair.other.scene.extensions]):
+    for keyword in dict.fromkeys([*pair.before.scene.extensions, *pair.after.scene.extensions]):
         yield from follow_differently(keyword.lower(), partial(_extension, keyword=keyword), pair)
 
 
 def follow_differently(
-    group: str, read: Callable[[Side], Followed], pair: Pair, descriptions: Mapping[int, str] | None = None
+    group: str, read: Callable[[Side], EntryMap], pair: Pair, descriptions: Mapping[int, str] | None = None
 ) -> Iterator[Difference]:
-    """Differences of the entries of elements that both decks have.
+    """Yield the differences between the entries of elements that both decks have.
 
-    `descriptions` are of the elements to compare, by their number, where they are not those of the decks.
+    `descriptions` describes the elements to compare by their number, if they are not those of the decks.
     """
-    one, other = pair.one, pair.other
-    here, there = _common(one.scene.table.numbered, other.scene.table.numbered)
+    before, after = pair.before, pair.after
+    here, there = _common(before.scene.table.numbered, after.scene.table.numbered)
     if descriptions is not None:
-        chosen = np.isin(one.scene.element_ids[here], list(descriptions))
+        chosen = np.isin(before.scene.element_ids[here], list(descriptions))
         here, there = here[chosen], there[chosen]
     if not len(here):
         return
-    first, second = read(one), read(other)
+    first, second = read(before), read(after)
     width = len(second.entries) + 1
     followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
-    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly follow the same
+    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly have the same
     for both in sorted(set(followed[starts].tolist())):
         i, j = both // width - 1, both % width - 1
         places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
-        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.said:  # the records
+        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.reported:  # the records
             continue
         old, new = _entry(first, i), _entry(second, j)
         names = [
@@ -315,8 +316,8 @@ def follow_differently(
         ]
         if not names:
             continue
-        elements = _called(one.scene.element_ids[here[followed == both]], descriptions)
-        lines = one.line(places[0]), other.line(places[1])
+        elements = _called(before.scene.element_ids[here[followed == both]], descriptions)
+        lines = before.line(places[0]), after.line(places[1])
         for name in names:
             where = f"{elements}/{group}" + (f"/{name}" if name else "")
             values = cast("Value", old.get(name)), cast("Value", new.get(name))
@@ -329,13 +330,13 @@ def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> s
     return "; ".join(dict.fromkeys(descriptions[number] for number in ids.tolist()))
 
 
-def _entry(found: Followed, index: int) -> Values:
-    return found.entries[index] if index >= 0 else {}
+def _entry(followed: EntryMap, index: int) -> Values:
+    return followed.entries[index] if index >= 0 else {}
 
 
-def _laws(side: Side) -> Followed:
+def _laws(side: Side) -> EntryMap:
     laws = side.scene.laws
-    return Followed(
+    return EntryMap(
         [_law(side.scene, grant) for grant in laws.set_laws], [g.where for g in laws.set_laws], laws.of_element
     )
 
@@ -350,7 +351,7 @@ def _record(side: Side, record: Record, where: Where) -> Values:
     return {path: entry.shown for path, entry in record_values(side, record, where).items()}
 
 
-def _sections(side: Side) -> Followed:
+def _sections(side: Side) -> EntryMap:
     table = side.scene.section_table
     places = [section.where for section in table.sections]
     entries = []
@@ -359,26 +360,26 @@ def _sections(side: Side) -> Followed:
         values = _record(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
         entries.append(values)
-    return Followed(entries, places, table.of_element)
+    return EntryMap(entries, places, table.of_element)
 
 
-def _bed(side: Side) -> Followed:
+def _bed(side: Side) -> EntryMap:
     bed = side.scene.resistance
-    return Followed([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
+    return EntryMap([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
 
 
 def numbers_given(given: Mapping[str, Any]) -> Values:
-    """Given values, without NaN; pairs are split into longitudinal and transverse."""
-    found: Values = {}
+    """Return the given values without NaN; pairs are split into longitudinal and transverse."""
+    numbers: Values = {}
     for name, value in given.items():
         pair = zip(("longitudinal ", "transverse "), value, strict=True) if isinstance(value, tuple) else [("", value)]
-        found |= {axis + name: plain(number) for axis, number in pair if not np.isnan(number)}
-    return found
+        numbers |= {axis + name: plain(number) for axis, number in pair if not np.isnan(number)}
+    return numbers
 
 
-def _extension(side: Side, keyword: str) -> Followed:
-    found = side.scene.extensions.get(keyword)
-    if found is None:
-        return Followed([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
-    pairs = zip(found.entries, found.places, strict=True)
-    return Followed([_record(side, entry, place) for entry, place in pairs], found.places, found.of_element)
+def _extension(side: Side, keyword: str) -> EntryMap:
+    extension = side.scene.extensions.get(keyword)
+    if extension is None:
+        return EntryMap([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
+    pairs = zip(extension.entries, extension.places, strict=True)
+    return EntryMap([_record(side, entry, place) for entry, place in pairs], extension.places, extension.of_element)

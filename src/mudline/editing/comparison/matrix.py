@@ -1,4 +1,4 @@
-"""What differs in a family of decks: a row a value, a column a deck."""
+"""Differences within a family of decks: a row for each value, a column for each deck."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _Key = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class DiffRow:
-    """A value that is not the same in all decks: its group, its path, and what each deck has, the base first."""
+    """A value that differs between decks: its group, its path, and its value in each deck, the base first."""
 
     group: str
     where: str
@@ -31,69 +31,71 @@ class DiffRow:
 
 
 def matrix(differences: Sequence[Sequence[Difference]]) -> list[DiffRow]:
-    """Return the values that differ between a base and each of some decks, from the differences of each to the base.
+    """Return the values that differ between a base and other decks, from the differences of each deck to the base.
 
-    Groups stand together, in the order in which they are first met. Elements that differ otherwise in one deck than in
-    another have rows of their own. What is there without a value, as a block, is "given".
+    Groups are kept together, in the order of their first value. Elements that differ in different ways in several decks
+    have separate rows. Something that exists without a value, such as a block, is "given".
     """
     base: dict[_Key, Value] = {}
     others: dict[_Key, dict[int, Value]] = {}
-    for deck, found in enumerate(_apart(differences)):
-        for key, one in found:
-            base.setdefault(key, _there(one, "added", one.before))
-            others.setdefault(key, {})[deck] = _there(one, "removed", one.after)
+    for deck, of_deck in enumerate(_apart(differences)):
+        for key, difference in of_deck:
+            base.setdefault(key, _there(difference, "added", difference.before))
+            others.setdefault(key, {})[deck] = _there(difference, "removed", difference.after)
     rows = [
         DiffRow(*key, [before, *(others[key].get(deck, before) for deck in range(len(differences)))])
         for key, before in base.items()
     ]
     with_more = {prefix for _, where in base for prefix in accumulate(where.split("/")[:-1], "{}/{}".format)}
     order = {group: place for place, group in enumerate(dict.fromkeys(row.group for row in rows))}
-    listed = [row for row in rows if row.where not in with_more or any(one not in (GIVEN, None) for one in row.values)]
+    listed = [
+        row for row in rows if row.where not in with_more or any(each not in (GIVEN, None) for each in row.values)
+    ]
     return sorted(listed, key=lambda row: order[row.group])
 
 
 def _apart(differences: Sequence[Sequence[Difference]]) -> list[list[tuple[_Key, Difference]]]:
-    """The differences of each deck by group and path; those of elements for parts that no deck divides further."""
-    parts: dict[_Key, dict[int, list[int]]] = {}  # of a quantity: for each element its differences, by deck
-    found: list[list[tuple[_Key, Difference]]] = []
-    for deck, those in enumerate(differences):
-        found.append([])
-        for place, one in enumerate(those):
-            if (match := _ELEMENTS.fullmatch(one.where)) is None:
-                found[deck].append(((one.group, one.where), one))
+    """Return the differences of each deck by group and path; ranges of elements are divided so that all decks agree."""
+    parts: dict[_Key, dict[int, list[int]]] = {}  # by quantity and element: the index of its difference in each deck
+    keyed: list[list[tuple[_Key, Difference]]] = []
+    for deck, deck_differences in enumerate(differences):
+        keyed.append([])
+        for place, difference in enumerate(deck_differences):
+            if (match := _ELEMENTS.fullmatch(difference.where)) is None:
+                keyed[deck].append(((difference.group, difference.where), difference))
                 continue
-            of_element = parts.setdefault((one.group, match[2]), {})
+            of_element = parts.setdefault((difference.group, match[2]), {})
             for number in _numbers(match[1]):
                 of_element.setdefault(number, [-1] * len(differences))[deck] = place
     for (group, path), of_element in parts.items():
         alike: dict[tuple[int, ...], list[int]] = {}
         for number, places in of_element.items():
             alike.setdefault(tuple(places), []).append(number)
-        for those_places, numbers in alike.items():
+        for common_places, numbers in alike.items():
             key = group, f"elements {text_of(spans_of(np.sort(np.array(numbers, np.int64))))}{path}"
-            for deck, place in enumerate(those_places):
+            for deck, place in enumerate(common_places):
                 if place >= 0:
-                    found[deck].append((key, differences[deck][place]))
-    return found
+                    keyed[deck].append((key, differences[deck][place]))
+    return keyed
 
 
 def _numbers(text: str) -> Iterator[int]:
-    """The numbers of a text like `1-20, 25, 31-99 step 2`."""
+    """Yield the numbers in a text such as `1-20, 25, 31-99 step 2`."""
     for first, last, step in _SPAN.findall(text):
         yield from range(int(first), int(last or first) + 1, int(step or 1))
 
 
-def _there(one: Difference, absent: str, value: Value) -> Value:
-    """A value; what is there without having one is "given"."""
-    return GIVEN if value is None and one.kind not in (absent, "changed") else value
+def _there(difference: Difference, absent: str, value: Value) -> Value:
+    """Return a value; "given" for something that exists without a value."""
+    return GIVEN if value is None and difference.kind not in (absent, "changed") else value
 
 
 def matrix_table(rows: Sequence[DiffRow], names: Sequence[str]) -> DisplayTable:
     """Return the matrix for people."""
 
     def cell(at: int, row: DiffRow) -> Cell:
-        found = "-" if row.values[at] is None else value_text(row.values[at])
-        return found if at == 0 or row.values[at] == row.values[0] else (found, "yellow")
+        shown = "-" if row.values[at] is None else value_text(row.values[at])
+        return shown if at == 0 or row.values[at] == row.values[0] else (shown, "yellow")
 
     columns = [text("value", "where")]
     columns += [text(name, partial(cell, at), whole=True) for at, name in enumerate(names)]
@@ -101,7 +103,7 @@ def matrix_table(rows: Sequence[DiffRow], names: Sequence[str]) -> DisplayTable:
 
 
 def value_text(value: Value) -> str:
-    """A value as people read it."""
+    """Return a value as people read it."""
     if isinstance(value, list):
         return "(" + ", ".join(map(value_text, value)) + ")"
     if value is None:

@@ -1,4 +1,4 @@
-"""Differences between two decks, tolerances, the two decks that are compared, and spans of whole numbers."""
+"""Differences between two decks, tolerances, the two compared decks, and spans of whole numbers."""
 
 from __future__ import annotations
 
@@ -21,17 +21,23 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Ids
 
 Value: TypeAlias = float | int | str | list["Value"] | None
-"""A value as it is reported; None where there is none."""
+"""A value as reported; None for a missing value."""
 
 Kind = Literal["added", "removed", "changed"]
 
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """One difference: its group, and its path with `/` between the steps.
+    """One difference of two decks.
 
-    `before` and `after` are the values in the first and the second deck, None where there is none; lines are counted
-    from 1, None for what is not in a line of that file.
+    Attributes:
+        kind: "added", "removed" or "changed".
+        group: group in a report.
+        where: path with `/` between the steps.
+        before: value in the first deck; None if missing.
+        after: value in the second deck; None if missing.
+        before_line: line in the first file, from 1; None for a value that is in no line of the file.
+        after_line: line in the second file, likewise.
     """
 
     kind: Kind
@@ -44,31 +50,31 @@ class Difference:
 
 
 @dataclass(frozen=True, slots=True)
-class Tolerance:
-    """Allowed difference of two numbers over the larger one; NaN is equal to NaN."""
+class Allowance:
+    """Allowed difference of two numbers relative to the larger number; NaN is equal to NaN."""
 
     relative: float = 0.0
 
-    def arrays(self, one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Where two arrays of one shape are equal."""
-        same: NDArray[np.bool_] = (one == other) | (np.isnan(one) & np.isnan(other))
+    def arrays(self, first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return a mask of equal values of two arrays of one shape."""
+        same: NDArray[np.bool_] = (first == second) | (np.isnan(first) & np.isnan(second))
         if self.relative:
-            # Halves, because the difference of two large numbers may overflow; inf differs from everything else.
+            # Halves, because the difference of two large numbers may overflow; inf equals only itself.
             with np.errstate(invalid="ignore"):
-                apart = np.abs(one / 2 - other / 2)
-                near = apart <= self.relative * np.maximum(np.abs(one / 2), np.abs(other / 2))
-            same |= near & np.isfinite(one) & np.isfinite(other)
+                apart = np.abs(first / 2 - second / 2)
+                near = apart <= self.relative * np.maximum(np.abs(first / 2), np.abs(second / 2))
+            same |= near & np.isfinite(first) & np.isfinite(second)
         return same
 
-    def values(self, one: object, other: object) -> bool:
-        """Whether two values are equal; texts compare without case."""
-        if _is_number(one) and _is_number(other):
-            return bool(self.arrays(np.array([one], dtype=np.float64), np.array([other], dtype=np.float64))[0])
-        if isinstance(one, list | tuple) and isinstance(other, list | tuple):
-            return len(one) == len(other) and all(map(self.values, one, other))
-        if isinstance(one, str) and isinstance(other, str):
-            return one.casefold() == other.casefold()
-        return one == other
+    def values(self, first: object, second: object) -> bool:
+        """Return True if two values are equal; texts compare without case."""
+        if _is_number(first) and _is_number(second):
+            return bool(self.arrays(np.array([first], dtype=np.float64), np.array([second], dtype=np.float64))[0])
+        if isinstance(first, list | tuple) and isinstance(second, list | tuple):
+            return len(first) == len(second) and all(map(self.values, first, second))
+        if isinstance(first, str) and isinstance(second, str):
+            return first.casefold() == second.casefold()
+        return first == second
 
 
 def _is_number(value: object) -> bool:
@@ -76,28 +82,28 @@ def _is_number(value: object) -> bool:
 
 
 def plain(value: float | str | None) -> Value:
-    """A value as in JSON: None for NaN, a text for an infinite number."""
+    """Return a value as in JSON: None for NaN, a text for an infinite number."""
     if value is None or isinstance(value, str) or math.isfinite(value):
         return value
     return None if math.isnan(value) else str(value)
 
 
 Spans = NDArray[np.int64]
-"""First and last numbers (k, 2) in ascending order, with a gap between one span and the next."""
+"""First and last numbers (k, 2) in ascending order, with gaps between the spans."""
 
 NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
 _WORTH_A_RANGE = 5
-"""Single numbers with one step between them from which on they are written as a range with that step."""
+"""Least number of equally spaced single numbers that are written as a range with a step."""
 _AT_ONCE = 100_000
 
 
 def spans_of(numbers: NDArray[np.int64]) -> Spans:
-    """The spans of numbers in any order."""
+    """Return the spans of numbers in any order."""
     return _joined(numbers, numbers)
 
 
 def spans_of_run(start: int, end: int, step: int) -> Spans:
-    """The spans of start, start + step, ... up to end; the step is at least 1."""
+    """Return the spans of start, start + step, ... up to end; the step is at least 1."""
     if step == 1:
         return np.array([(start, end)] * (start <= end), dtype=np.int64).reshape(-1, 2)
     numbers = np.arange(start, end + 1, step, dtype=np.int64)
@@ -105,7 +111,7 @@ def spans_of_run(start: int, end: int, step: int) -> Spans:
 
 
 def union(parts: Sequence[Spans]) -> Spans:
-    """The spans of all numbers in any of several."""
+    """Return the spans of all numbers in any of several spans."""
     parts = [part for part in parts if len(part)]
     if len(parts) == 1:
         return parts[0]
@@ -113,12 +119,12 @@ def union(parts: Sequence[Spans]) -> Spans:
 
 
 def text_of(spans: Spans) -> str:
-    """Spans as a text: `1-20, 25, 31-99 step 2`."""
+    """Return spans as a text: `1-20, 25, 31-99 step 2`."""
     return ", ".join(_pieces(spans))
 
 
 def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
-    """Spans that may overlap or touch as ones with gaps between them."""
+    """Return spans with gaps between them, from spans that may overlap or touch."""
     if not len(firsts):
         return NO_SPANS
     if not (firsts[1:] >= firsts[:-1]).all():
@@ -126,7 +132,7 @@ def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
         order = np.argsort(firsts, kind="stable")
         firsts = firsts[order]
         lasts = firsts if alone else lasts[order]
-    if firsts is lasts and (firsts[1:] - firsts[:-1] > 1).all():  # none is next to another: the numbers are the spans
+    if firsts is lasts and (firsts[1:] - firsts[:-1] > 1).all():  # no neighbours: the numbers are the spans
         return np.broadcast_to(firsts[:, np.newaxis], (len(firsts), 2))
     reached = np.maximum.accumulate(lasts)
     begins = np.flatnonzero(firsts[1:] - reached[:-1] > 1) + 1
@@ -135,7 +141,7 @@ def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
 
 
 def _pieces(spans: Spans) -> Iterator[str]:
-    """Pieces of the text; listed spans are joined in large pieces, which takes less memory than a text for each."""
+    """Yield pieces of the text; spans are joined in large pieces, which takes less memory than a text for each."""
     written = 0
     for begin, end in _stepped(spans):
         first = max(begin, written)
@@ -148,7 +154,7 @@ def _pieces(spans: Spans) -> Iterator[str]:
 
 
 def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
-    """First and last index of single numbers with one step between them; neighbours may share a number."""
+    """Yield first and last index of equally spaced single numbers; neighbouring runs may share a number."""
     count = len(spans) - 1
     begins = [np.zeros(1, dtype=np.intp)]
     for start in range(0, count, _AT_ONCE):
@@ -162,7 +168,7 @@ def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
 
 
 def _steps(spans: Spans) -> NDArray[np.int64]:
-    """From each span to the next, 0 beside one of several numbers."""
+    """Return the step from each span to the next; 0 next to a span of several numbers."""
     single = spans[:, 0] == spans[:, 1]
     return np.where(single[1:] & single[:-1], spans[1:, 0] - spans[:-1, 0], 0)
 
@@ -175,10 +181,10 @@ def _listed(spans: Spans) -> Iterator[str]:
 
 @dataclass(slots=True)
 class Members:
-    """Members of a set: numbers, and names for members without one.
+    """Members of a set: numbers, and names for members without a number.
 
-    The numbers are those of several arrays and of ranges (first, last, step). They become spans only where two sets do
-    not have the same arrays and ranges: most sets of two versions of a deck do.
+    The numbers come from arrays and from ranges (first, last, step). They become spans only when two sets have
+    different arrays or ranges: most sets of two versions of a deck have the same.
     """
 
     arrays: list[Ids] = field(default_factory=list)
@@ -188,20 +194,20 @@ class Members:
 
     @property
     def spans(self) -> Spans:
-        """The numbers."""
+        """Spans of the numbers."""
         if self._spans is None:
-            self._spans = union([*map(spans_of, self.arrays), *(spans_of_run(*given) for given in self.ranges)])
+            self._spans = union([*map(spans_of, self.arrays), *(spans_of_run(*ends) for ends in self.ranges)])
         return self._spans
 
     def same(self, other: Members) -> bool:
-        """Whether another set has the same members."""
+        """Return True if another set has the same members."""
         return self.words == other.words and (self._given_alike(other) or np.array_equal(self.spans, other.spans))
 
     def _given_alike(self, other: Members) -> bool:
-        """Whether the same arrays and ranges are given."""
+        """Return True if both sets have the same arrays and ranges."""
         if self.ranges != other.ranges or len(self.arrays) != len(other.arrays):
             return False
-        return all(np.array_equal(one, two) for one, two in zip(self.arrays, other.arrays, strict=True))
+        return all(np.array_equal(own, others) for own, others in zip(self.arrays, other.arrays, strict=True))
 
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
@@ -213,31 +219,31 @@ class Side:
 
     scene: Scene
     names: dict[str, str] = field(default_factory=dict)
-    """Names as in the deck, by their folded form."""
+    """Names as in the deck, by their casefolded form."""
 
     def path(self, path: str) -> str:
-        """A path of folded names with the names as in the deck."""
+        """Return a path of casefolded names with the names as in the deck."""
         return "/".join(self.names.get(step, step) for step in path.split("/"))
 
     @cached_property
     def parameters(self) -> Parameters:
-        """The parameters, evaluated."""
+        """Evaluated parameters."""
         return Parameters(self.scene.deck)
 
     def comparable(self, block: Block, where: Where) -> Block:
-        """A block, or that block as written where one of its equations has no value: then their texts are compared."""
+        """Return a block; as written if one of its equations has no value, so that their texts are compared."""
         if (where.section, where.block) not in self._valueless:
             return block
         return cast("Block", self.scene.context.as_written(where))
 
     @cached_property
     def _valueless(self) -> set[tuple[int, int]]:
-        """Section and block of the problems of equations."""
+        """Section and block of equations with problems."""
         places = (problem.where for problem in self.scene.noticed if problem.code in _NO_VALUE)
         return {(where.section, where.block) for where in places if where is not None}
 
     def line(self, where: Where | None) -> int | None:
-        """The line of a place; None for what is not in a line of this file."""
+        """Return the line of a place; None for a place that is in no line of this file."""
         deck = self.scene.deck
         if type(deck.origin) is Origin or where is None or not 0 <= where.section < len(deck.own_sections):
             return None
@@ -256,21 +262,21 @@ class Side:
 
 
 _Held: TypeAlias = tuple[Value, Where | None] | None
-"""A value in one of the decks and its place; None where that deck has none."""
+"""A value in one of the decks and its place; None if the deck has no such value."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
     """The two decks that are compared."""
 
-    one: Side
-    other: Side
-    tolerance: Tolerance
-    said: set[tuple[Where | None, Where | None]] = field(default_factory=set)
-    """Places of the records and blocks whose differences are reported by keyword; None where a deck has none."""
+    before: Side
+    after: Side
+    tolerance: Allowance
+    reported: set[tuple[Where | None, Where | None]] = field(default_factory=set)
+    """Places of the records and blocks whose differences are reported by keyword; None for a deck without them."""
 
     def difference(self, group: str, where: str, before: _Held, after: _Held) -> Difference:
-        """The difference of a value that only one of the decks has, or that is another one in the second."""
+        """Return the difference of a value that only one of the decks has, or that differs between them."""
         kind: Kind = "added" if before is None else "removed" if after is None else "changed"
         (old, place), (new, other_place) = before or (None, None), after or (None, None)
-        return Difference(kind, group, where, old, new, self.one.line(place), self.other.line(other_place))
+        return Difference(kind, group, where, old, new, self.before.line(place), self.after.line(other_place))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.editing.comparison.comparing import (
-    Followed,
+    EntryMap,
     Values,
     compare,
     follow_differently,
@@ -19,7 +19,7 @@ from mudline.editing.comparison.comparing import (
     seabed_points,
     shown_points,
 )
-from mudline.editing.comparison.model import Difference, Pair, Side, Tolerance, plain
+from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, plain
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Diagnostic
@@ -31,8 +31,8 @@ from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.representatives import representatives, shows_elements
 
 
-class Status(StrEnum):
-    """What became of a deck between two folders; the order is that of a summary."""
+class DeckStatus(StrEnum):
+    """Result of the comparison of a deck in two folders, in the order of a summary."""
 
     CHANGED = "changed"
     ADDED = "added"
@@ -44,7 +44,7 @@ class Status(StrEnum):
 class Comparison(NamedTuple):
     """The semantic differences of two decks, and the differences of spelling in superseded keywords.
 
-    Of two folders these are those of all decks, and `decks` has each of them.
+    For two folders these are the differences of all decks, and `decks` has the result of each deck.
     """
 
     differences: list[Difference]
@@ -53,18 +53,25 @@ class Comparison(NamedTuple):
 
     @property
     def equivalent(self) -> bool:
-        """Whether both mean the same."""
-        return not self.differences and all(one.status is Status.EQUAL for one in self.decks)
+        """True if both mean the same."""
+        return not self.differences and all(deck.status is DeckStatus.EQUAL for deck in self.decks)
 
 
 class ComparedDeck(NamedTuple):
-    """A deck by its path below two folders, and what became of it; `before` and `after` are its files where it has two.
+    """Result of the comparison of a deck in two folders.
 
-    `errors` say why it could not be compared, or `unread` why a file could not be read.
+    Attributes:
+        name: path of the deck below both folders.
+        status: result of the comparison.
+        before: file of the first deck; "" if missing.
+        after: file of the second deck; "" if missing.
+        comparison: the differences.
+        errors: reasons why the decks could not be compared.
+        unread: reason why a file could not be read.
     """
 
     name: str
-    status: Status
+    status: DeckStatus
     before: str = ""
     after: str = ""
     comparison: Comparison = Comparison([], [])
@@ -73,90 +80,90 @@ class ComparedDeck(NamedTuple):
 
     @property
     def why(self) -> str:
-        """The first of the errors, in a line; "" without any."""
+        """The first error in one line; "" without errors."""
         if self.unread is not None:
             return f"{Path(self.unread.filename).as_posix()}: {(self.unread.strerror or str(self.unread)).lower()}"
-        return next((f"{one.file}:{one.line}:{one.column}: {one.code} {one.message}" for one in self.errors), "")
+        return next((f"{each.file}:{each.line}:{each.column}: {each.code} {each.message}" for each in self.errors), "")
 
 
 def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:
-    """The differences of two decks; if `strict`, those of spelling count like the others.
+    """Return the differences of two decks; if `strict`, differences of spelling count as differences.
 
     Raises DeckError for a deck that cannot be compared.
     """
     before, after = resolve(first), resolve(second)
-    found = compare(before, after, tolerance)
-    return Comparison(found, []) if strict else without_spelling(before, after, found, tolerance)
+    differences = compare(before, after, tolerance)
+    return Comparison(differences, []) if strict else without_spelling(before, after, differences, tolerance)
 
 
 def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], tolerance: float = 0.0) -> Comparison:
     """Replace differences of superseded and newer seabed keywords by semantic differences, element by element.
 
-    `found` is what `compare` finds with the same tolerance. Decks that do not differ in the family of their keywords
-    have no differences of spelling. Elements that a deck does not show are represented by some in every set.
+    `found` are the differences of `compare` with the same tolerance. Decks with the same family of keywords have no
+    differences of spelling. Elements that a deck does not list are represented by elements in every set.
     """
     if not (_rewritten(before, after) or _rewritten(after, before)):
         return Comparison(list(found), [])
-    pair = Pair(Side(before), Side(after), Tolerance(tolerance))
+    pair = Pair(Side(before), Side(after), Allowance(tolerance))
     groups = _groups(pair)
     others: list[Difference] = []
     replaced: list[Difference] = []
-    for one in found:
-        (replaced if one.group in groups or _is_whole_curve(one, pair) else others).append(one)
-    meant = list(_meaning(pair, groups))
-    places = {one.where for one in meant}
-    return Comparison([*others, *meant], [one for one in replaced if one.where not in places])
+    for difference in found:
+        (replaced if difference.group in groups or _is_whole_curve(difference, pair) else others).append(difference)
+    semantic = list(_meaning(pair, groups))
+    places = {difference.where for difference in semantic}
+    return Comparison([*others, *semantic], [difference for difference in replaced if difference.where not in places])
 
 
 def _rewritten(old: Scene, new: Scene) -> bool:
-    """Whether a deck has newer keywords where another has superseded ones."""
+    """Return True if the new deck lacks superseded keywords of the old deck and has newer seabed keywords."""
     before, after = ({keyword for keyword in scene.deck.keywords() if is_superseded(keyword)} for scene in (old, new))
     return after < before and any(law.family == "new" for law in new.laws.set_laws)
 
 
 def _groups(pair: Pair) -> set[str]:
-    """The groups of differences that the meaning of the elements and of the seabed replaces."""
-    keywords = [side.scene.deck.keywords() for side in (pair.one, pair.other)]
-    groups = {f"*{name}" for found in keywords for name in found if is_superseded(name) or supersedes(name)}
+    """Return the groups of differences that are replaced by semantic differences of elements and seabed."""
+    keywords = [side.scene.deck.keywords() for side in (pair.before, pair.after)]
+    groups = {f"*{name}" for names in keywords for name in names if is_superseded(name) or supersedes(name)}
     groups |= {"laws of elements", "bed of elements", "seabed"}
-    return groups - {"*SEABED PROFILE", "seabed"} if all("SEABED PROFILE" in found for found in keywords) else groups
+    return groups - {"*SEABED PROFILE", "seabed"} if all("SEABED PROFILE" in names for names in keywords) else groups
 
 
-def _is_whole_curve(one: Difference, pair: Pair) -> bool:
-    """Whether a curve that only one deck has is for a set, or a set names it: then the elements are compared."""
-    if one.kind == "changed" or not isinstance(one.before or one.after, list):
+def _is_whole_curve(difference: Difference, pair: Pair) -> bool:
+    """Return True for a curve in one deck only that is for a set or named by a set: its elements are compared."""
+    if difference.kind == "changed" or not isinstance(difference.before or difference.after, list):
         return False
-    side = pair.one if one.kind == "removed" else pair.other
-    kind, _, name = one.where.partition("/")
+    side = pair.before if difference.kind == "removed" else pair.after
+    kind, _, name = difference.where.partition("/")
     return kind == "curves of sets" or (kind == "curves" and folded(name) in side.scene.laws.referenced)
 
 
 def _meaning(pair: Pair, groups: set[str]) -> Iterator[Difference]:
-    """Differences of the laws of elements and of the seabed."""
+    """Yield the differences of the laws of elements and of the seabed."""
     yield from _of_elements(pair)
-    scenes = pair.one.scene, pair.other.scene
+    scenes = pair.before.scene, pair.after.scene
     if not all(map(shows_elements, scenes)):
         external, names = representatives(*scenes)
-        one, other = (Side(resolve(scene.deck, external)) for scene in scenes)
-        yield from _of_elements(replace(pair, one=one, other=other), names)
+        first, second = (Side(resolve(scene.deck, external)) for scene in scenes)
+        yield from _of_elements(replace(pair, before=first, after=second), names)
     if "seabed" in groups:
         yield from _seabed(pair)
 
 
 def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator[Difference]:
-    fresh = replace(pair, said=set())
+    fresh = replace(pair, reported=set())
     yield from follow_differently("laws", _laws, fresh, names)
     yield from follow_differently("bed", _resistance, fresh, names)
 
 
-def _laws(side: Side) -> Followed:
+def _laws(side: Side) -> EntryMap:
     laws = side.scene.laws
     entries = [_law(side.scene, law) for law in laws.set_laws]
-    return Followed(entries, [law.where for law in laws.set_laws], laws.of_element)
+    return EntryMap(entries, [law.where for law in laws.set_laws], laws.of_element)
 
 
 def _law(scene: Scene, law: SetLaw) -> Values:
-    """A law by its effect: the name of a curve does not count, nor the keyword that gives it."""
+    """Return a law by its effect: neither the name of a curve nor the keyword counts."""
     match law.kind:
         case LawKind.CURVE if law.curve >= 0:
             return {"": "curve", "points": shown_points(scene.laws.curves[law.curve])}
@@ -167,14 +174,14 @@ def _law(scene: Scene, law: SetLaw) -> Values:
     return {"": scene.law_name(law)}
 
 
-def _resistance(side: Side) -> Followed:
-    found = side.scene.resistance
-    entries = [_values(values, side.scene.units) for values in found.values]
-    return Followed(entries, found.places, found.of_element)
+def _resistance(side: Side) -> EntryMap:
+    resistance = side.scene.resistance
+    entries = [_values(values, side.scene.units) for values in resistance.values]
+    return EntryMap(entries, resistance.places, resistance.of_element)
 
 
 def _values(given: ResistanceValues, units: str) -> Values:
-    """Values that have an effect: no coefficient, resistance or suction of 0, no default length."""
+    """Return the values that have an effect: no coefficient, resistance or suction of 0, no default length."""
     default = LARGEST_MOBILISATION.get(units, np.nan)
     slips = np.array(given.friction) > 0.0
     bounded = slips & np.isnan(given.mobilisation) & (np.array(given.characteristic) != default)
@@ -185,13 +192,13 @@ def _values(given: ResistanceValues, units: str) -> Values:
 
 
 def _seabed(pair: Pair) -> Iterator[Difference]:
-    """The shape of the seabed, whichever keyword gives it."""
-    old, new = pair.one.scene.seabed, pair.other.scene.seabed
+    """Yield the differences of the shape of the seabed, from any keyword."""
+    old, new = pair.before.scene.seabed, pair.after.scene.seabed
     given = [("kind", old.kind.value, new.kind.value), ("slope", old.slope, new.slope)]
     given += [("direction", old.direction, new.direction), ("interpolation", old.interpolation, new.interpolation)]
     if old.missing or new.missing:
         given.append(("file", old.file, new.file))
-    for name, one, other in given:
-        if not pair.tolerance.values(one, other):
-            yield pair.difference("seabed", f"seabed/{name}", (one, old.where), (other, new.where))
+    for name, before, after in given:
+        if not pair.tolerance.values(before, after):
+            yield pair.difference("seabed", f"seabed/{name}", (before, old.where), (after, new.where))
     yield from seabed_points(pair)

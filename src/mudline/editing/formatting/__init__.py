@@ -1,1 +1,1 @@
-"""The canonical layout of a deck's text, as edits that change nothing of its meaning."""
+"""Canonical layout of a deck's text, as edits that do not change its meaning."""

@@ -1,4 +1,4 @@
-"""A whole file in canonical form; nothing is returned that would mean something else."""
+"""Canonical form of a whole file, returned only if it has the same meaning."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import cast
 
-from mudline.editing.formatting.rows import RowKind, Rows, Run, Single, cut
+from mudline.editing.formatting.rows import AlignedRows, RowKind, Single, TableRun, cut
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.forms import form_of
@@ -27,21 +27,21 @@ from mudline.language.syntax.rows import blank_separated, line_spans
 from mudline.language.syntax.source import CONTROLS, END_MARK, Source
 from mudline.language.syntax.tree import Kind, Leaf, RawBlock
 
-_CUT_OFF = "the file ends right behind a keyword and seems to be cut off: add what is missing, or a line end"
-_COMMAS = "a number seems to have a decimal comma, which a blank behind it would hide: correct it first (SYN015)"
+_CUT_OFF = "the file ends right after a keyword and seems to be cut off: add what is missing, or a line end"
+_COMMAS = "a number seems to have a decimal comma, which a blank after it would hide: correct it first (SYN015)"
 _ALTERED = "formatting would change its meaning, so it is left unchanged: please report this fault of mudline"
 _REMARKS = "its YAML comments (#) would be lost, so it is left unchanged: remove them to format it"
 
 
 class FormatError(ValueError):
-    """A file without an error that formatting leaves unchanged; the message says why."""
+    """Reason why a file without an error is left unchanged by formatting."""
 
 
 def formatted(data: bytes, name: str) -> bytes:
-    """The content of a deck file in canonical form; the suffix of `name` selects keyword text, JSON or YAML.
+    """Return the content of a deck file in canonical form, as keyword text, JSON or YAML by the suffix of `name`.
 
-    A keyword text keeps its encoding and its most frequent line end; a deck in JSON or YAML becomes what `dump` writes.
-    Raises DeckError for a deck that has an error, and FormatError where something would be lost or changed.
+    A keyword text keeps its encoding and its most frequent line end; a deck in JSON or YAML becomes the text of `dump`.
+    Raises DeckError for a deck with an error, and FormatError if something would be lost or changed.
     """
     form = form_of(name)
     if form != "keyword":
@@ -52,7 +52,7 @@ def formatted(data: bytes, name: str) -> bytes:
         raise FormatError(_CUT_OFF)
     if any(problem.code is SYN015 for problem in deck.problems):
         raise FormatError(_COMMAS)
-    edits = _Layout(cast("TextOrigin", deck.origin)).edits()
+    edits = _DocumentLayout(cast("TextOrigin", deck.origin)).edits()
     if not edits:
         return data
     after = source.to_bytes(apply_edits(source.text, edits))
@@ -63,13 +63,13 @@ def formatted(data: bytes, name: str) -> bytes:
 def _document(data: bytes, name: str, form: str) -> bytes:
     deck = load_bytes(data, name).require()
     after = dump(deck, form).encode()
-    if data.count(b"#") != after.count(b"#") and form == "yaml":  # those of the deck's texts are written again
+    if data.count(b"#") != after.count(b"#") and form == "yaml":  # "#" in texts of the deck is written again
         raise FormatError(_REMARKS)
     return _checked(deck, after, load_bytes(after, name))
 
 
 def _checked(deck: Deck, after: bytes, again: Deck) -> bytes:
-    """The new content, if it gives the same deck with the same findings."""
+    """Return the new content if it gives the same deck with the same findings; raises FormatError otherwise."""
     findings = [[problem.code for problem in read.problems] for read in (deck, again)]
     if findings[0] != findings[1] or not same_meaning(deck, again):
         raise FormatError(_ALTERED)
@@ -89,8 +89,8 @@ def line_ends(text: str) -> dict[str, int]:
     return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
 
 
-class _Layout:
-    """The edits that give a text that was read without an error the canonical layout.
+class _DocumentLayout:
+    """Edits that give a text, read without an error, the canonical layout.
 
     The texts of the edits have the most frequent line end of the file.
     """
@@ -102,14 +102,14 @@ class _Layout:
         ends = line_ends(self.source.text)
         self.end = next(iter(ends), "\n")
         self.mixed = len(ends) > 1
-        self.ended = len(self.text)  # where the text ends but for blanks and marks
+        self.ended = len(self.text)  # end of the text without trailing blanks and marks
         while self.ended and self.source.text[self.ended - 1] in f"{END_MARK} \t\r\n":
             self.ended -= 1
-        self.found: list[TextEdit] = []
+        self.collected: list[TextEdit] = []
         self.blanks: list[Span] = []
 
     def edits(self) -> list[TextEdit]:
-        """All edits, in no order."""
+        """Return all edits, in any order."""
         tree = self.origin.tree
         self._stray(tree.preamble.leaves)
         for index, section in enumerate(tree.sections):
@@ -125,19 +125,19 @@ class _Layout:
                     self._block(block, read)
         for span in self.blanks:
             self._put(span, self._marks(span))
-        return self.found
+        return self.collected
 
     def _marks(self, span: Span) -> str:
-        """The end-of-file marks of old systems among blanks, which formatting leaves unchanged."""
+        """Return the end-of-file marks of old systems among blanks, which formatting leaves unchanged."""
         return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
 
     def _put(self, span: Span, lines: str) -> None:
-        """Put lines, each with a LF, in the place of those of a span; end-of-file marks stay behind the last one."""
+        """Replace the lines of a span by lines that end with LF; end-of-file marks stay after the last line."""
         if span.end > self.ended and not lines.endswith(END_MARK):
             lines += self._marks(Span(max(span.start, self.ended), span.end))
         new = lines if self.end == "\n" else lines.replace("\n", self.end)
         if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
-            self.found.append(TextEdit(span, new))
+            self.collected.append(TextEdit(span, new))
 
     def _end_blanks(self) -> None:
         """Keep one of the blank lines before a line that is not blank."""
@@ -146,7 +146,7 @@ class _Layout:
         self.blanks.clear()
 
     def _head(self, canonical: str, leaf: Leaf) -> None:
-        """A `$` or `*` line. Non-ASCII letters stay unchanged where changing their case could change their bytes."""
+        """Replace a `$` or `*` line; non-ASCII letters are unchanged where a change of case may change their bytes."""
         self._end_blanks()
         written = self.text[slice(*leaf.span)].strip(" \t\r\n")
         known = written.isascii() or self.source.encoding == "utf-8"
@@ -155,7 +155,7 @@ class _Layout:
         self._put(leaf.span, f"{controls}{canonical if known else written}\n")
 
     def _kept(self, leaves: list[Leaf]) -> None:
-        """Lines that stay unchanged, except for their line ends."""
+        """Leave lines unchanged, except for their line ends."""
         for leaf in leaves:
             self._end_blanks()
             if self.mixed or leaf.span.end == len(self.text):
@@ -166,7 +166,7 @@ class _Layout:
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
-        """Lines that belong to no keyword."""
+        """Lay out lines that belong to no keyword."""
         for leaf in leaves:
             if leaf.kind is Kind.BLANK:
                 self.blanks.append(leaf.span)
@@ -177,7 +177,7 @@ class _Layout:
                 self._kept([leaf])
 
     def _block(self, raw: RawBlock, read: ReadBlock) -> None:
-        """A block with a model."""
+        """Lay out a block with a model."""
         for leaf in raw.leaves:
             if leaf.kind is Kind.BLANK:
                 self.blanks.append(leaf.span)
@@ -193,10 +193,13 @@ _BLANKS = re.compile(r"[ \t]*")
 
 
 @dataclass(slots=True)
-class Reading:
-    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice written there.
+class RowIndex:
+    """Facts about a block by offset in its text.
 
-    `whole` has the choices that are not known, which may hold commas.
+    Attributes:
+        kinds: kind of the row, or of the values of a KEY=, that begins at the offset.
+        choices: known choice at the offset.
+        whole: unknown choice at the offset, which may contain commas.
     """
 
     text: str
@@ -205,11 +208,11 @@ class Reading:
     whole: dict[int, str] = field(default_factory=dict)
 
     def kind_at(self, start: int) -> RowKind | None:
-        """The kind of the row that begins at an offset or after the blanks there."""
+        """Return the kind of the row that begins at an offset or after the blanks there."""
         return self.kinds.get(self._begin(start))
 
     def put(self, start: int, kind: RowKind) -> None:
-        """Note the kind of a row."""
+        """Record the kind of a row."""
         self.kinds[self._begin(start)] = kind
 
     def _begin(self, start: int) -> int:
@@ -217,44 +220,44 @@ class Reading:
         return match.end() if match else start
 
 
-def _record(record: Record, path: Path, places: Places, found: Reading) -> None:
+def _record(record: Record, path: Path, places: Places, reading: RowIndex) -> None:
     declared = record_schema(type(record))
     plain = [slot for slot in declared.columns if not slot.row and not slot.many]
     if plain and len(plain) == len(declared.columns) and (span := places.spans.get((*path, plain[0].json))):
-        found.put(span.start, RowKind(plain[0], tuple(plain)))
+        reading.put(span.start, RowKind(plain[0], tuple(plain)))
         plain = []
     for slot in declared.slots:
         inner = (*path, slot.json)
         value = getattr(record, slot.name)
         if slot.record:
             for index, child in enumerate(value):
-                _record(child, (*inner, index), places, found)
+                _record(child, (*inner, index), places, reading)
         elif value is not None:
-            _value(slot, value, inner, places, found)
+            _value(slot, value, inner, places, reading)
         if slot in plain and (span := places.spans.get(inner)):
-            found.put(span.start, RowKind(slot, (slot,)))
+            reading.put(span.start, RowKind(slot, (slot,)))
 
 
-def _value(slot: FieldSpec, value: object, path: Path, places: Places, found: Reading) -> None:
-    """The value of one field that is not a record."""
+def _value(slot: FieldSpec, value: object, path: Path, places: Places, reading: RowIndex) -> None:
+    """Record one field that is not a record."""
     span = places.spans.get(path)
     if isinstance(value, Table) and slot.row:
         kind = RowKind(slot, tuple(record_schema(slot.row).columns), table=True)
         for _, run in places.runs.get(path, ()):
-            found.put(run.start, kind)
+            reading.put(run.start, kind)
     elif isinstance(value, list):
         if first := places.spans.get((*path, 0)):
-            found.put(first.start, RowKind(slot, (slot,), many=True))
+            reading.put(first.start, RowKind(slot, (slot,), many=True))
     elif span and isinstance(value, Row):
         columns = record_schema(type(value)).columns
-        found.put(span.start, RowKind(slot, tuple(columns)))
+        reading.put(span.start, RowKind(slot, tuple(columns)))
         for column in columns:
-            _value(column, getattr(value, column.name), (*path, column.json), places, found)
+            _value(column, getattr(value, column.name), (*path, column.json), places, reading)
     elif span and slot.kind is not FieldKind.NAME and value in slot.choices:
-        if found.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
-            found.choices[span.start] = str(value)
+        if reading.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
+            reading.choices[span.start] = str(value)
     elif span and slot.about.opaque is not None and isinstance(value, str):
-        found.whole[span.start] = value
+        reading.whole[span.start] = value
 
 
 Laid = tuple[Span, str]
@@ -262,30 +265,30 @@ Laid = tuple[Span, str]
 
 
 def comment_line(text: str, span: Span) -> str:
-    """A comment without blanks at its end."""
+    """Return a comment without trailing blanks."""
     return text[slice(*span)].rstrip(" \t\r\n") + "\n"
 
 
 def block_lines(text: str, raw: RawBlock, read: ReadBlock) -> Iterator[Laid]:
-    """The lines of a block except its head and its blank lines."""
-    block = _Block(text, read)
+    """Yield the lines of a block except its head and its blank lines."""
+    block = _BlockLayout(text, read)
     for leaf in raw.leaves:
         yield from block.lines(leaf)
     yield from block.flush()
 
 
-class _Block:
+class _BlockLayout:
     def __init__(self, text: str, read: ReadBlock) -> None:
         self.text = text
         self.declared = type(read.model)
         self.keys = all_keys(self.declared)
-        self.reading = Reading(read.places.text)
+        self.reading = RowIndex(read.places.text)
         _record(read.model, (), read.places, self.reading)
         self.kept = read.places.kept
-        self.rows: Rows | None = None
+        self.rows: AlignedRows | None = None
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
-        """The lines that are complete when this leaf is reached: rows are collected until their table ends."""
+        """Yield the lines that are complete at this leaf: rows are collected until their table ends."""
         if leaf.kind in (Kind.RUN, Kind.TEXT):
             for span in self._row_spans(leaf.span):
                 yield from self._row(span)
@@ -300,13 +303,13 @@ class _Block:
             yield leaf.span, comment_line(self.text, leaf.span)
 
     def flush(self) -> Iterator[Laid]:
-        """The rows collected so far."""
+        """Yield the rows collected so far."""
         if self.rows:
             yield from self.rows.laid_out()
         self.rows = None
 
     def _row_spans(self, run: Span) -> Iterator[Span]:
-        """The whole run where it belongs to a table, else its lines with their ends."""
+        """Yield the whole run if it belongs to a table, else its lines with their ends."""
         if self.declared.tabular:
             yield run
             return
@@ -314,19 +317,19 @@ class _Block:
             yield Span(line.start, min(line.end + 1, run.end))
 
     def _row(self, span: Span) -> Iterator[Laid]:
-        """Add a row, or a run of them, to those collected if it is of their kind; else start a new table."""
+        """Add a row, or a run of rows, to collected rows of the same kind; otherwise start a new table."""
         kind = self.reading.kind_at(span.start)
         if kind is None:  # not part of the model: left unchanged
             return
         if self.rows is None or self.rows.kind.slot is not kind.slot:
             yield from self.flush()
-            self.rows = Rows(kind)
-        self.rows.members.append(Run(self.text, span) if kind.table else Single(self._fields(span), span))
+            self.rows = AlignedRows(kind)
+        self.rows.members.append(TableRun(self.text, span) if kind.table else Single(self._fields(span), span))
 
     def _fields(self, span: Span) -> list[str]:
-        """The fields of a row outside a table."""
+        """Return the fields of a row outside a table."""
         fields, _ = split(self.text, span, slashes=self.declared.slashes)
-        texts = [self.reading.choices.get(given.span.start, given.text) for given in fields]
+        texts = [self.reading.choices.get(value.span.start, value.text) for value in fields]
         return cut(split_blanks(texts))
 
     def _setting(self, span: Span) -> str:
@@ -338,11 +341,11 @@ class _Block:
         return " " + ", ".join(texts).rstrip(" ") + "\n"
 
     def _group(self, group: Group) -> list[str]:
-        """`KEY=` with its first value, then the others.
+        """Return `KEY=` with its first value, then the other values.
 
-        A value that begins with a bracket keeps a blank before it: without that it would be an equation.
+        A value that begins with a bracket keeps a blank before it: without the blank it would be an equation.
         """
-        texts = [self.reading.choices.get(given.span.start, given.text) for given in group.fields]
+        texts = [self.reading.choices.get(value.span.start, value.text) for value in group.fields]
         kind = self.reading.kinds.get(group.span.start)
         texts = cut(split_blanks(texts) if kind and len(kind.columns) > 1 else texts)
         first = group.fields[0].span.start
@@ -351,5 +354,5 @@ class _Block:
 
 
 def split_blanks(texts: list[str]) -> list[str]:
-    """Numbers that are separated only by blanks, each a field."""
+    """Return numbers separated only by blanks as fields."""
     return texts[0].split() if len(texts) == 1 and blank_separated(texts[0]) else texts

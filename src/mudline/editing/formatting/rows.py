@@ -17,16 +17,20 @@ from mudline.language.keywords.values import Kind
 from mudline.language.syntax.rows import GROUPED, PIECE, line_spans, row_fields
 
 WIDEST = 32
-"""Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
+"""Width above which a field, such as an equation, does not widen its column; later fields of its row shift right."""
 
 _INTEGER = re.compile(r"[-+0-9]*")
 _NUMERIC = frozenset("+-.0123456789")
 
 
 class RowKind(NamedTuple):
-    """Rows that fill the same field of a model: that field, and the fields on a row.
+    """Kind of rows, by the field of a model that they fill.
 
-    `many`: any number of values of the one field; `table`: rows that are read as arrays.
+    Attributes:
+        slot: the field of the model.
+        columns: the fields on a row.
+        many: True if the row has any number of values of the one field.
+        table: True if rows are read as arrays.
     """
 
     slot: FieldSpec
@@ -35,15 +39,20 @@ class RowKind(NamedTuple):
     table: bool = False
 
     def is_text(self, column: int) -> bool:
-        """Whether a column holds names or text; others hold numbers, with an equation or a label here and there."""
+        """Return True if a column holds names or text; other columns hold numbers, with a few equations and labels."""
         slot = self.columns[0] if self.many else self.columns[min(column, len(self.columns) - 1)]
         return bool(slot.choices) or slot.kind in (Kind.NAME, Kind.REAL_OR_NAME)
 
 
-class Shape(NamedTuple):
-    """The alignment of a column: its width, the position of its decimal points, and the width from there on.
+class ColumnShape(NamedTuple):
+    """Alignment of a column.
 
-    Without numbers all but the width is 0: words are aligned left. Among numbers they are aligned right.
+    Words are aligned left, but right among numbers.
+
+    Attributes:
+        width: width of the column.
+        point: position of the decimal points; 0 without numbers.
+        right: width from the decimal point on; 0 without numbers.
     """
 
     width: int
@@ -51,21 +60,21 @@ class Shape(NamedTuple):
     right: int
 
     def padded(self, text: str) -> str:
-        """A field with its comma, one blank before it, and the padding of its column on both sides."""
+        """Return a field with its comma, one blank before it, and the padding of its column on both sides."""
         before = self.point - self._inner(text)
         if before <= 0:
             return f" {text},{' ' * (self.width - len(text))}"
         return f" {' ' * before}{text},{' ' * (self.width - before - len(text))}"
 
     def _inner(self, text: str) -> int:
-        """How many characters of a field come before the decimal point of its column."""
+        """Return the number of characters before the decimal point of the column."""
         if not text or text[0] in _NUMERIC:
             return _integer(text)
         return len(text) - self.right
 
 
 def _integer(number: str) -> int:
-    """Length of a number before its decimal point or its exponent."""
+    """Return the length of a number before its decimal point or its exponent."""
     at = number.find(".")
     if at < 0:
         match = _INTEGER.match(number)
@@ -74,7 +83,7 @@ def _integer(number: str) -> int:
 
 
 @dataclass(slots=True)
-class Column:
+class ColumnWidths:
     """Widths of a column: before the decimal point, from there on, and of words; with `text` all fields are words."""
 
     text: bool = False
@@ -99,27 +108,27 @@ class Column:
         self.left = max(self.left, left)
         self.right = max(self.right, right)
 
-    def shape(self) -> Shape:
-        """The alignment of all fields so far."""
+    def shape(self) -> ColumnShape:
+        """Return the alignment of all fields so far."""
         width = max(self.left + self.right, self.words)
-        return Shape(width, width - self.right if self.left or self.right else 0, self.right)
+        return ColumnShape(width, width - self.right if self.left or self.right else 0, self.right)
 
 
 @dataclass(slots=True)
 class Columns:
-    """The columns of rows of one kind."""
+    """Columns of rows of one kind."""
 
     kind: RowKind
-    columns: list[Column] = field(default_factory=list)
+    columns: list[ColumnWidths] = field(default_factory=list)
 
-    def upto(self, count: int) -> Sequence[Column]:
-        """At least `count` columns."""
+    def upto(self, count: int) -> Sequence[ColumnWidths]:
+        """Return at least `count` columns."""
         for number in range(len(self.columns), count):
-            self.columns.append(Column(self.kind.is_text(number)))
+            self.columns.append(ColumnWidths(self.kind.is_text(number)))
         return self.columns
 
-    def shapes(self) -> list[Shape]:
-        """The shape of each column."""
+    def shapes(self) -> list[ColumnShape]:
+        """Return the shape of each column."""
         return [column.shape() for column in self.columns]
 
 
@@ -135,39 +144,42 @@ class WordRows:
         for column, fields in zip(columns.upto(len(texts)), texts, strict=False):
             column.take(fields)
 
-    def lines(self, shapes: Sequence[Shape]) -> str:
-        """The lines of the rows, each with a LF."""
+    def lines(self, shapes: Sequence[ColumnShape]) -> str:
+        """Return the lines of the rows, each with a LF."""
         return "".join(f"{line(row, shapes)}\n" for row in self.rows)
 
 
 def cut(fields: list[str]) -> list[str]:
-    """The fields of a row without empty ones at its end; at least one stays."""
+    """Return the fields of a row without trailing empty fields; at least one remains."""
     length = len(fields)
     while length > 1 and not fields[length - 1]:
         length -= 1
     return fields[:length]
 
 
-def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
-    """A row, indented by one blank; a row of one empty field is a comma, as an empty line would not be a row."""
-    *first, last = map(Shape.padded, shapes, row)
+def line(row: Sequence[str], shapes: Iterable[ColumnShape]) -> str:
+    """Return a row, indented by one blank; a row of one empty field is a comma, as an empty line would not be a row."""
+    *first, last = map(ColumnShape.padded, shapes, row)
     return ("".join(first) + last[: last.rindex(",")]).rstrip(" ") or " ,"
 
 
 _GAP = re.compile(rb"(?<=[^ \t\r\n])[ \t]+(?=[^ \t\r\n])")
 _TAB, _LF, _CR, _BLANK, _PLUS, _COMMA, _POINT, _SLASH, _DIGIT, _LETTERS = 9, 10, 13, 32, 43, 44, 46, 47, 57, 65
 _WITHOUT_CASE, _D_OR_E = 0xDE, 0x44
-"""D and E, d and e, are the characters that differ from D in the other bits only."""
+"""Bits of a letter without its case, and those of D; E differs from D only in the lowest bit, which is masked too."""
 
 _Array = NDArray[np.integer]
 
 
 @dataclass(slots=True)
-class PlainRows:
-    """Rows of numbers: the characters of all fields laid end to end, each with the comma or the LF behind it.
+class NumberRows:
+    """Rows of numbers.
 
-    `sizes` and `lefts` (fields,) are the characters of a field, and those before its decimal point or exponent;
-    `column` (fields,) counts from 0 in each row.
+    Attributes:
+        characters: characters of all fields laid end to end, each with the comma or LF after it.
+        sizes: characters of each field (fields,).
+        lefts: characters of each field before its decimal point or exponent (fields,).
+        column: column of each field (fields,), from 0 in each row.
     """
 
     characters: NDArray[np.uint8]
@@ -177,7 +189,7 @@ class PlainRows:
 
     @classmethod
     def read(cls, text: str, most: int) -> Self | None:
-        """The rows of some whole lines, cut to `most` fields; None for anything but plain numbers."""
+        """Return the rows of whole lines, cut to `most` fields; None for anything but plain numbers."""
         data = text.encode("utf-8")
         if b"\r" in data:
             data = data.replace(b"\r\n", b"\n")
@@ -192,7 +204,7 @@ class PlainRows:
         if not (marks | letters | numerals).all():
             return None
         stops = np.flatnonzero(marks | letters | (characters == _POINT))
-        closing = np.flatnonzero(marks[stops])  # the stops that end fields: behind each the next field begins
+        closing = np.flatnonzero(marks[stops])  # the stops that end fields: after each, the next field begins
         ends = stops[closing]
         starts = np.concatenate(([0], ends[:-1] + 1))
         sizes = ends - starts
@@ -208,7 +220,7 @@ class PlainRows:
         return None if column.max() >= most else cls(characters, _small(sizes), _small(lefts), _small(column))
 
     def _cut(self, ends: _Array, opens: _Array, most: int) -> Self | None:
-        """The rows, each of which begins at one of the fields `opens`, without the empty fields at their ends.
+        """Return the rows without trailing empty fields; each row begins at one of the fields `opens`.
 
         `ends` are the places of the commas and LFs among the characters.
         """
@@ -230,8 +242,8 @@ class PlainRows:
             lefts = self.lefts[here]
             column.take_numbers(int(lefts.max(initial=0)), int((self.sizes[here] - lefts).max(initial=0)))
 
-    def lines(self, shapes: Sequence[Shape]) -> str:
-        """The lines of the rows, each with a LF."""
+    def lines(self, shapes: Sequence[ColumnShape]) -> str:
+        """Return the lines of the rows, each with a LF."""
         width = np.array([shape.width for shape in shapes])[self.column]
         point = np.array([shape.point for shape in shapes])[self.column]
         before = np.maximum(point - self.lefts, 0)
@@ -246,10 +258,10 @@ class PlainRows:
 
 
 def _without_blanks(codes: NDArray[np.uint8]) -> NDArray[np.uint8] | None:
-    """The characters that are not blank; None where blanks stand inside of a field."""
+    """Return the characters that are not blank; None if a field contains blanks."""
     blank = (codes == _BLANK) | (codes == _TAB) | (codes == _CR)
     inked = ~blank & (codes != _COMMA) & (codes != _LF)
-    if (inked[:-1] & blank[1:]).any():  # blanks behind a field: often there are none
+    if (inked[:-1] & blank[1:]).any():  # blanks after a field are rare
         places = np.flatnonzero(~blank)
         within = inked[places]
         if (within[:-1] & within[1:] & (np.diff(places) > 1)).any():
@@ -259,7 +271,7 @@ def _without_blanks(codes: NDArray[np.uint8]) -> NDArray[np.uint8] | None:
 
 
 def _small(values: _Array) -> _Array:
-    """Numbers in as little memory as they need: those of all rows of a table are kept until it is measured."""
+    """Return numbers in the smallest type that holds them: those of a whole table are kept until it is measured."""
     return values.astype(np.min_scalar_type(int(values.max())))
 
 
@@ -267,38 +279,38 @@ _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
 
 
-class Run(NamedTuple):
+class TableRun(NamedTuple):
     """Lines of a table, which may be very many."""
 
     text: str
     span: Span
 
-    def parts(self, kind: RowKind, plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
-        """The rows in pieces of some thousand.
+    def parts(self, kind: RowKind, plain: dict[int, NumberRows | None]) -> Iterator[WordRows | NumberRows]:
+        """Yield the rows in pieces of some thousand.
 
-        Plain ones are kept in `plain`, by where they begin, when they are read, and taken from there the second time;
-        others take so much memory that they are read twice.
+        Plain rows are kept in `plain`, by their offset, when first read, and taken from there the second time. Other
+        rows take so much memory that they are read twice.
         """
         start, end = self.span
         most = len(kind.columns)
         while start < end:
             stop = self.text.find("\n", min(start + PIECE, end), end) + 1 or end
             if start in plain:
-                found = plain.pop(start)
+                rows = plain.pop(start)
             else:
-                found = PlainRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
-                plain[start] = found
-            yield found or word_rows(self.text[start:stop], most)
+                rows = NumberRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
+                plain[start] = rows
+            yield rows or word_rows(self.text[start:stop], most)
             start = stop
 
 
 def word_rows(text: str, most: int) -> WordRows:
-    """The rows of some whole lines, cut to `most` fields, with any content."""
+    """Return the rows of whole lines, cut to `most` fields, with any content."""
     rows: list[list[str]] = []
     for line in line_spans(text, Span(0, len(text))):
         body = text[slice(*line)]
         if "," not in body or GROUPED.search(body):
-            rows.append(cut([given.text for given in row_fields(text, line, most)]))
+            rows.append(cut([value.text for value in row_fields(text, line, most)]))
         else:
             rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))
     return WordRows(rows)
@@ -310,22 +322,22 @@ class Single(NamedTuple):
     fields: list[str]
     span: Span
 
-    def parts(self, _kind: RowKind, _plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
-        """The row."""
+    def parts(self, _kind: RowKind, _plain: dict[int, NumberRows | None]) -> Iterator[WordRows | NumberRows]:
+        """Yield the row."""
         yield WordRows([self.fields])
 
 
 @dataclass(slots=True)
-class Rows:
-    """Rows of one kind with nothing but comments and blank lines between them."""
+class AlignedRows:
+    """Rows of one kind, separated only by comments and blank lines."""
 
     kind: RowKind
-    members: list[Run | Single] = field(default_factory=list)
+    members: list[TableRun | Single] = field(default_factory=list)
 
     def laid_out(self) -> Iterator[tuple[Span, str]]:
-        """The lines of each member in aligned columns, each with a LF."""
+        """Yield the lines of each member in aligned columns, each with a LF."""
         columns = Columns(self.kind)
-        plain: dict[int, PlainRows | None] = {}
+        plain: dict[int, NumberRows | None] = {}
         for member in self.members:
             for part in member.parts(self.kind, plain):
                 part.measure(columns)

@@ -1,1 +1,1 @@
-"""The legacy seabed keywords rewritten as the new family, and the proof that the deck means the same."""
+"""Migration of legacy seabed keywords to the new family, and the verification of equal meaning."""

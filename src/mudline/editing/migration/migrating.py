@@ -1,4 +1,4 @@
-"""A deck with legacy seabed keywords rewritten in the new family, in the same form, and the proof of equal meaning."""
+"""Migration of a deck with legacy seabed keywords to the new family, in the same form, and its verification."""
 
 from __future__ import annotations
 
@@ -34,9 +34,15 @@ from mudline.model.scene.seabed import SeabedShape, parse_profile
 
 @dataclass(frozen=True, slots=True)
 class Migration:
-    """A migrated deck: the scenes before and after, the new deck and its content, the new files beside it by name.
+    """A migrated deck.
 
-    `replaced` counts the legacy blocks by keyword.
+    Attributes:
+        before: scene before migration.
+        after: scene after migration.
+        deck: the new deck.
+        content: content of its file.
+        files: new files next to the deck, by name.
+        replaced: number of legacy blocks by keyword.
     """
 
     before: Scene
@@ -55,10 +61,10 @@ def legacy_blocks(deck: Deck) -> Counter[str]:
 def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = False) -> Migration:
     """Rewrite the legacy seabed keywords of a deck in the new family; the deck keeps its form.
 
-    `continued_by` names decks that continue this one with seabed keywords of their own; `extended` says that one may
-    have more elements, so that what no element of this deck follows is kept. A deck without legacy keywords stays as it
-    is: nothing is `replaced`, and there is no `content`. Raises DeckError for a deck with errors, and (MIG001) for what
-    the new family cannot say.
+    `continued_by` names decks that continue this deck with seabed keywords of their own. `extended` says that such a
+    deck may have more elements, so that definitions without elements are kept. A deck without legacy keywords is
+    returned unchanged, with empty `replaced` and `content`. Raises DeckError for a deck with errors, and (MIG001) for
+    statements that the new family cannot express.
     """
     before, replaced = resolve(deck), legacy_blocks(deck)
     if problems := list(refusals(deck, before.require(), continued_by) if replaced else misspelt(deck)):
@@ -66,21 +72,21 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
     if not replaced:
         return Migration(before, before, deck, b"", {}, replaced)
     text = as_text(deck)
-    made = rewrite(text, unused_definitions(before, extended=extended))
+    rewritten = rewrite(text, unused_definitions(before, extended=extended))
     origin = text.origin
-    assert isinstance(origin, TextOrigin)  # noqa: S101 - `as_text` gives no other
-    content = edited_bytes(origin.source, made.edits)
+    assert isinstance(origin, TextOrigin)  # noqa: S101 - `as_text` returns no other origin
+    content = edited_bytes(origin.source, rewritten.edits)
     changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
     changed = replace(changed, source=deck.source, folder=deck.folder)
-    after = _checked(deck, before, changed, made)
+    after = _checked(deck, before, changed, rewritten)
     if not isinstance(deck.origin, TextOrigin):
         content = dump(changed, form_of(deck.file)).encode()
-    files = {name: lines.encode() for name, lines in made.files.items()}
+    files = {name: lines.encode() for name, lines in rewritten.files.items()}
     return Migration(before, after, changed, content, files, replaced)
 
 
-def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene:
-    """The scene of the new deck; raises DeckError when it lost anything or has new faults."""
+def _checked(deck: Deck, before: Scene, changed: Deck, rewritten: Rewriting) -> Scene:
+    """Return the scene of the new deck; raises DeckError if it lost anything or has new faults."""
     after = resolve(changed)
     faults = [problem.message for problem in after.errors()]
     lost = Counter(_comments(deck)) - Counter(_comments(changed))
@@ -91,7 +97,7 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
     new = Counter(problem.code.code for problem in after.findings)
     if not np.array_equal(before.law, after.law):
         faults.append("an element would have a law of another kind")
-    for code in (new - expected) - Counter({"REF015": len(made.files)}):
+    for code in (new - expected) - Counter({"REF015": len(rewritten.files)}):
         faults.append(f"it would have a new finding {code}")
     if faults:
         where, _ = superseded_blocks(deck)[0]
@@ -101,7 +107,7 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
 
 
 def _comments(deck: Deck) -> Iterator[str]:
-    """The text of every comment, those among the lines of opaque blocks included."""
+    """Yield the text of every comment, including those among the lines of opaque blocks."""
     yield from comment_texts(deck)
     opaque = (block.lines for section in deck.sections for block in section.blocks if isinstance(block, Opaque))
     for lines in opaque:
@@ -110,9 +116,9 @@ def _comments(deck: Deck) -> Iterator[str]:
 
 
 def _others(deck: Deck) -> list[object]:
-    """Everything but the blocks that a migration rewrites, without the comments.
+    """Return all blocks that a migration does not rewrite, without comments.
 
-    Those in an opaque block are among its lines, and a keyword below it that becomes a comment is among them.
+    Data lines of an opaque block are kept, and a keyword below it that becomes a comment is one of its lines.
     """
     return [
         (
@@ -126,77 +132,86 @@ def _others(deck: Deck) -> list[object]:
     ]
 
 
-# ---------------------------------------------------------------------------------------------------------------- proof
+# -------------------------------------------------------------------------------------------------------- verification
 
 
-class Difference(NamedTuple):
-    """What the two decks define differently: an element, or the seabed, and how it differs."""
+class MigrationDifference(NamedTuple):
+    """Difference in meaning of the two decks: the element or the seabed, and the difference in words."""
 
     what: str
     text: str
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
-    """What was compared and what differs.
+class Verification:
+    """Result of a verification.
 
-    `elements` of the deck are of `kinds`; one of each kind and `representatives` for its sets were evaluated, at
-    `positions` in all. There are none for a deck that shows all its elements.
+    Attributes:
+        elements: number of elements of the deck.
+        kinds: number of kinds of elements, of each of which one was evaluated.
+        positions: number of evaluated positions.
+        representatives: number of elements evaluated for sets; 0 for a deck that lists all its elements.
+        differences: the differences.
     """
 
     elements: int
     kinds: int
     positions: int
     representatives: int
-    differences: tuple[Difference, ...]
+    differences: tuple[MigrationDifference, ...]
 
 
-def verify(migration: Migration) -> Verdict:
-    """Compare the decks before and after.
+def verify(migration: Migration) -> Verification:
+    """Compare the decks before and after a migration.
 
-    Elements that differ in nothing but their number and place have the same law in both decks; one of each kind is
-    evaluated over a sweep that covers every segment of its curve and both ends, and its forces and stiffnesses must be
-    bitwise equal; so must its friction, mobilisation, lateral resistance and suction, and the shape of the seabed. Then
-    the same for representative elements: in every set that a seabed block names and in pairs of them, which shows that
-    the same block wins for elements that the deck does not show, those of `*LINES`.
+    Elements that differ only in number and place have the same law in both decks. One of each kind is evaluated over a
+    sweep that covers every segment of its curve and both ends. Its forces and stiffnesses must be bitwise equal. So
+    must its friction, mobilisation, lateral resistance and suction, and the shape of the seabed.
+
+    The same is done for representative elements, in every set that a seabed block names and in pairs of these sets.
+    This shows that the same block wins for elements that the deck does not list, such as those of `*LINES`.
     """
     before, after = migration.before, migration.after
     differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
-    kinds, positions, found = _compare(before, after, {})
-    differences += found
+    kinds, positions, deviations = _compare(before, after, {})
+    differences += deviations
     if shows_elements(before):
-        return Verdict(len(before.element_ids), kinds, positions, 0, tuple(differences))
+        return Verification(len(before.element_ids), kinds, positions, 0, tuple(differences))
     external, names = representatives(before)
-    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
-    return Verdict(len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *found))
+    _, more, deviations = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
+    return Verification(
+        len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *deviations)
+    )
 
 
-def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]) -> Iterator[Difference]:
-    """The seabed, where it differs; the file of a profile has not been written yet and is among `files`."""
+def _seabed_shapes(
+    before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]
+) -> Iterator[MigrationDifference]:
+    """Yield the difference of the seabed, if any; the profile file is not written yet and is among `files`."""
     if after.file in files:
         after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
     if not before.same(after):
-        one, other = (f"{it.kind.value} (slope {it.slope!r}, {len(it.points)} points)" for it in (before, after))
-        yield Difference("the seabed", f"{one} before, {other} after")
+        old, new = (f"{each.kind.value} (slope {each.slope!r}, {len(each.points)} points)" for each in (before, after))
+        yield MigrationDifference("the seabed", f"{old} before, {new} after")
 
 
 # ------------------------------------------------------------------------------------------------------------ elements
 
 
-def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[Difference]]:
-    """Number of kinds and of positions, and the differences; `names` describes elements by their number."""
+def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[MigrationDifference]]:
+    """Return the numbers of kinds and positions, and the differences; `names` describes elements by their number."""
     chosen = _one_of_each_kind(before, after)
     if not len(chosen):
         return 0, 0, []
     inputs = _contact_input(before, chosen), _contact_input(after, chosen)
     depths = _depths(inputs)
     labels = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
-    found = [*_laws(before, after, chosen), *_values(before, after, chosen), *_forces(inputs, depths)]
-    return len(chosen), depths.size, [Difference(labels[index], text) for index, text in found]
+    differences = [*_laws(before, after, chosen), *_values(before, after, chosen), *_forces(inputs, depths)]
+    return len(chosen), depths.size, [MigrationDifference(labels[index], text) for index, text in differences]
 
 
 def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
-    """One element of each kind: the same source of law and of friction, and the same diameter, before and after."""
+    """Return one element of each kind: same source of law and of friction, and same diameter, before and after."""
     columns = [
         column
         for scene in (before, after)
@@ -207,47 +222,47 @@ def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
 
 
 def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """The kind of law: a rigid seabed and no law at all both give no force here."""
+    """Yield elements whose kind of law differs: a rigid seabed and no law would both give no force in the sweep."""
     for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
         element = int(chosen[index])
         yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
 
 
 def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
+    """Yield differences of friction, lateral resistance and suction; an omitted value is 0."""
     for name in ResistanceValues._fields:
-        if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
+        if name == "characteristic":  # checked earlier: effective lengths are the default, as in the new family
             continue
-        one, other = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
+        old, new = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
         if name in ("friction", "lateral", "suction"):
-            one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
-        same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
+            old, new = (np.where(np.isnan(values), 0.0, values) for values in (old, new))
+        same = _same_bits(old, new).reshape(len(chosen), -1).all(axis=1)
         for index in np.flatnonzero(~same).tolist():
-            yield index, f"{name.replace('_', ' ')}: {one[index]} before, {other[index]} after"
+            yield index, f"{name.replace('_', ' ')}: {old[index]} before, {new[index]} after"
 
 
 def _forces(inputs: Sequence[ContactInput], depths: Floats) -> Iterator[tuple[int, str]]:
-    """The first depth at which an element differs in a result."""
+    """Yield the first depth at which an element differs in a result."""
     positions = np.repeat(-depths, 2, axis=1)[:, :, np.newaxis] * np.array([1.0, 0.0, 0.0])
-    results = [ContactModel(given).evaluate(positions) for given in inputs]
+    results = [ContactModel(contact_input).evaluate(positions) for contact_input in inputs]
     for name in ("force", "stiffness", "slope", "ratio"):
-        one, other = (getattr(result, name) for result in results)
-        different = ~_same_bits(one, other)
+        old, new = (getattr(result, name) for result in results)
+        different = ~_same_bits(old, new)
         for element in np.flatnonzero(different.any(axis=0)).tolist():
             step = int(np.argmax(different[:, element]))
-            values = f"{float(one[step, element])!r} before, {float(other[step, element])!r} after"
+            values = f"{float(old[step, element])!r} before, {float(new[step, element])!r} after"
             yield element, f"{name} at depth {float(depths[step, element])!r}: {values}"
 
 
-def _same_bits(one: Floats, other: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    same: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] = one.view(np.uint64) == other.view(np.uint64)
+def _same_bits(old: Floats, new: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    same: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] = old.view(np.uint64) == new.view(np.uint64)
     return same
 
 
 def _contact_input(scene: Scene, chosen: Indices) -> ContactInput:
-    """The chosen elements (k), each with two nodes of its own, whether the deck has nodes for them or not.
+    """Return the contact input of the chosen elements (k), each with two nodes of its own.
 
-    An element without a diameter gets one: its law is the same for every diameter.
+    An element without a diameter gets a diameter of 1: its law is the same for every diameter.
     """
     count = len(chosen)
     arrays = scene.law_arrays()
@@ -275,29 +290,29 @@ _PLAIN = np.array([-1.0, -1e-9, 0.0, 5e-324, 1e-9, 1e-3, 0.1, 1.0, 37.5, 1e6])
 
 
 def _depths(inputs: Sequence[ContactInput]) -> Floats:
-    """Depths (steps, elements) for inputs with the same elements, one or more, in their unit of length.
+    """Return depths (steps, elements) for one or more inputs with the same elements, in their unit of length.
 
-    For an element with a curve: every point of its curves and the floats beside it, three places within each segment,
-    and places far beyond both ends; for every element the seabed itself, just above and below it, and some depths.
+    For an element with a curve: every point of its curves and the adjacent floats, three places within each segment,
+    and places far beyond both ends. For every element: the seabed, just above and below it, and some depths.
     """
     curves: dict[tuple[int, ...], Floats] = {}
     columns: list[Floats] = []
-    of_element = np.column_stack([given.curve_index for given in inputs]).tolist()
+    of_element = np.column_stack([contact_input.curve_index for contact_input in inputs]).tolist()
     for diameter, indices in zip(inputs[0].diameter.tolist(), map(tuple, of_element), strict=True):
         if indices not in curves:
-            found = [_ratios(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
-            curves[indices] = np.unique(np.concatenate(found)) if found else np.zeros(0)
+            ratios = [_ratios(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
+            curves[indices] = np.unique(np.concatenate(ratios)) if ratios else np.zeros(0)
         columns.append(np.concatenate([_PLAIN, curves[indices] * diameter]))
     steps = max(map(len, columns))
     return np.column_stack([np.pad(column, (0, steps - len(column)), mode="edge") for column in columns])
 
 
 def _ratios(curve: ForceCurve) -> Floats:
-    """Ratios at, beside and between the points of a curve, and beyond its ends."""
+    """Return ratios at, next to and between the points of a curve, and beyond its ends."""
     points = curve.ratios
     inside = [points[:-1] + fraction * np.diff(points) for fraction in _FRACTIONS]
     width = float(points[-1] - points[0])
     beyond = np.array([points[0] - width, points[0] - 10.0 * width, points[-1] + width, points[-1] + 10.0 * width])
     beside = [np.nextafter(points, -np.inf), points, np.nextafter(points, np.inf)]
-    found: Floats = np.concatenate([*beside, *inside, beyond])
-    return found[np.isfinite(found)]
+    ratios: Floats = np.concatenate([*beside, *inside, beyond])
+    return ratios[np.isfinite(ratios)]

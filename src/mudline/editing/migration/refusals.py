@@ -1,4 +1,4 @@
-"""What stops a migration: misspelt seabed keywords, what the new family cannot express, and decks that continue one."""
+"""Reasons against a migration: misspelt keywords, statements without equivalent, decks that continue a deck."""
 
 from __future__ import annotations
 
@@ -34,40 +34,40 @@ _MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
 
 
 def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
-    """The blocks of superseded keywords: surfaces first, then curves by set."""
+    """Return the blocks of superseded keywords: surfaces first, then curves by set."""
     present = filter(is_superseded, in_order(deck.keywords()))
     first = sorted(present, key=lambda keyword: not facts_of(keyword, "MODEL").seabed_type)
-    return [found for keyword in first for found in deck.blocks(keyword)]
+    return [block for keyword in first for block in deck.blocks(keyword)]
 
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
-    """The legacy surfaces of a deck, in the order of the file."""
+    """Return the legacy surfaces of a deck, in the order of the file."""
     return deck.blocks_with("seabed_type")
 
 
 def misspelt(deck: Deck) -> Iterator[Problem]:
-    """Keywords of the model that are not known and spelt nearly as a legacy one; for a deck that has no other."""
+    """Yield unknown keywords of the model that resemble a legacy keyword; for a deck without legacy keywords."""
     for i, section in enumerate(deck.sections):
         for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
             unknown = isinstance(block, Opaque) and sections_of(block.keyword) is None
-            if unknown and is_superseded(meant := suggest_keyword(block.keyword)):
-                yield _refusal(_MISSPELT.format(f"*{block.keyword}, which is not known,", meant, ""), Where(i, j))
+            if unknown and is_superseded(suggested := suggest_keyword(block.keyword)):
+                yield _refusal(_MISSPELT.format(f"*{block.keyword}, which is not known,", suggested, ""), Where(i, j))
 
 
 def refusals(deck: Deck, scene: Scene, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
-    """The reasons why a deck without errors cannot be migrated; `deck` has its equations as written.
+    """Yield the reasons why a deck without errors cannot be migrated; `deck` has its equations as written.
 
-    `scene` is the resolved deck; `continued_by` names decks that continue this one with seabed keywords of their own.
+    `scene` is the resolved deck. `continued_by` names decks that continue this deck with seabed keywords of their own.
     """
     yield from misplaced_keywords(scene)
     yield from _mixed_families(deck)
     yield from _restarts(deck)
     yield from _continued(deck, continued_by)
     yield from _varied_keywords(deck)
-    found = surfaces(deck)
-    for where, block in found[1:]:
+    legacy = surfaces(deck)
+    for where, block in legacy[1:]:
         yield _refusal(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
-    for where, block in found[:1]:
+    for where, block in legacy[:1]:
         yield from _lengths(block, where, deck.units)
         yield from _shapes(deck, block, where)
 
@@ -77,12 +77,12 @@ def _refusal(message: str, where: Where) -> Problem:
 
 
 def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
-    """Keywords that are misspelt or stand where they are not read, and that matter to the laws.
+    """Yield misspelt or misplaced keywords that matter to the laws.
 
-    Those of the seabed do, and those for want of which an error is a warning.
+    These are keywords of the seabed, and keywords whose absence turns an error into a warning.
     """
     for keyword in filter(None, scene.context.misplaced):
-        depend = sorted({found.code.code for found in scene.findings if found.maybe_defined_by == keyword})
+        depend = sorted({finding.code.code for finding in scene.findings if finding.maybe_defined_by == keyword})
         if depend or is_superseded(keyword) or supersedes(keyword):
             words, where = scene.context.misplaced[keyword]
             codes = f" ({', '.join(depend)})" if depend else ""
@@ -90,23 +90,23 @@ def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
 
 
 def _mixed_families(deck: Deck) -> Iterator[Problem]:
-    """Which of the two families applies to an element cannot be decided by rewriting."""
+    """Yield blocks of the new family: which family applies to an element cannot be decided by rewriting."""
     for where, _ in deck.blocks("SEABED PROPERTIES"):
-        message = "*SEABED PROPERTIES is used beside legacy keywords: decide which applies and remove the other"
+        message = "*SEABED PROPERTIES is used next to legacy keywords: decide which applies and remove the other"
         yield _refusal(message, where)
 
 
 def _restarts(deck: Deck) -> Iterator[Problem]:
-    """A deck that continues another one, whose seabed applies as well."""
-    for section, found in enumerate(deck.sections):
-        for block, restart in enumerate(found.blocks):
-            if found.name == "LOAD CASE" and restart.keyword == "RESTART":
+    """Yield the `*RESTART` of a deck that continues another deck, whose seabed applies as well."""
+    for index, section in enumerate(deck.sections):
+        for number, restart in enumerate(section.blocks):
+            if section.name == "LOAD CASE" and restart.keyword == "RESTART":
                 message = "*RESTART continues another deck, whose seabed applies as well: put the model in one deck"
-                yield _refusal(message, Where(section, block))
+                yield _refusal(message, Where(index, number))
 
 
 def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
-    """The keywords of a deck that continues this one would be combined with others than before."""
+    """Yield decks that continue this deck, whose keywords would be combined with other keywords than before."""
     where, _ = superseded_blocks(deck)[0]
     for name in continued_by:
         message = (
@@ -117,7 +117,7 @@ def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
 
 
 def _varied_keywords(deck: Deck) -> Iterator[Problem]:
-    """Actions of `*VARIATION` on keywords that a migration removes or adds."""
+    """Yield actions of `*VARIATION` on keywords that a migration removes or adds."""
     for where, block in deck.blocks("VARIATION", "PREPROCESSOR"):
         for i, variation in enumerate(block.variations):
             for j, item in enumerate(variation.blocks):
@@ -128,10 +128,10 @@ def _varied_keywords(deck: Deck) -> Iterator[Problem]:
 
 
 def _lengths(block: Surface, where: Where, units: str) -> Iterator[Problem]:
-    """Largest characteristic lengths that bound the mobilisation length and are not the default.
+    """Yield largest characteristic lengths that bound the mobilisation length and differ from the default.
 
-    One has no effect where the mobilisation length is given or the friction coefficient is 0. The value of an equation
-    may change: it is taken neither as 0 nor as the default.
+    A length has no effect if the mobilisation length is given or the friction coefficient is 0. The value of an
+    equation may change: it is taken neither as 0 nor as the default.
     """
     values: Any = block.properties
     for direction in DIRECTIONS:
@@ -148,7 +148,7 @@ def _lengths(block: Surface, where: Where, units: str) -> Iterator[Problem]:
 
 
 def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
-    """A slope or profile that `*SEABED PROFILE` cannot take over."""
+    """Yield a slope or profile that `*SEABED PROFILE` cannot take over."""
     shaped = block.slope is not None or block.profile is not None
     if block.slope is not None and block.profile is not None:
         yield _refusal("a slope and a profile: remove one of them", where.inside("slope"))
@@ -168,30 +168,30 @@ _NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
 
 
 class Continuations:
-    """The decks that continue a deck, among those to be migrated and those in its folder."""
+    """Decks that continue a deck, among those to be migrated and those in its folder."""
 
     def __init__(self, files: Iterable[Path] = ()) -> None:
         self._looked: set[Path] = set()
         self._states: dict[Path, tuple[int, ...]] = {}
         self._found: dict[Path, tuple[list[Path], bool]] = {}
-        """Of each deck that continues others: these, and whether it has seabed keywords of its own."""
+        """Decks continued by each deck, and True if that deck has seabed keywords of its own."""
         for file in files:
             self._visit(file)
 
     def of(self, file: Path) -> list[str]:
-        """Names of the decks that continue a deck and have seabed keywords of their own."""
+        """Return the names of the decks that continue a deck and have seabed keywords of their own."""
         if file.parent not in self._looked:
             self.look_in(file.parent)
         base = file.resolve()
         return sorted(other.as_posix() for other, (bases, seabed) in self._found.items() if seabed and base in bases)
 
     def extend(self, file: Path) -> bool:
-        """Whether a deck that continues a deck, among those visited, has a model of its own: more elements or sets."""
+        """Return True if a visited deck that continues the deck has a model of its own, with more elements or sets."""
         base = file.resolve()
         return any(base in bases for bases, _ in self._found.values())
 
     def look_in(self, folder: Path) -> None:
-        """Read the decks of a folder that are new or have changed; those that are gone are forgotten."""
+        """Read new and changed decks of a folder, and forget decks that no longer exist."""
         self._looked.add(folder)
         there = {file for file in folder.iterdir() if file.suffix.lower() in SUFFIXES}
         for gone in [file for file in self._states if file.parent == folder and file not in there]:
@@ -202,32 +202,32 @@ class Continuations:
 
     def _visit(self, file: Path) -> None:
         try:
-            about = file.stat()
-            state = about.st_ino, about.st_mtime_ns, about.st_size
+            status = file.stat()
+            state = status.st_ino, status.st_mtime_ns, status.st_size
             if self._states.get(file) == state:
                 return
             self._states[file] = state
             self._found.pop(file, None)
-            if about.st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
+            if status.st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
                 return
             deck = load_path(file)
         except (OSError, DeckError):
-            return  # an unreadable deck continues nothing; where it is to be migrated itself, that is an error
+            return  # an unreadable deck continues nothing; if it is to be migrated, that is an error there
         if keywords := deck.keywords():
             seabed = bool(keywords & _NEWER) or any(map(is_superseded, keywords))
             self._found[file] = [base.resolve() for base in decks_before(deck)], seabed
 
 
 def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
-    """What `Continuations.of` and `extend` give for a deck and its folder as it is now."""
+    """Return the results of `Continuations.of` and `extend` for a deck and its folder in its present state."""
     if deck.folder is None or not deck.folder.is_dir():
         return [], False
-    found, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
-    found.look_in(deck.folder)
-    return found.of(file), found.extend(file)
+    continuations, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
+    continuations.look_in(deck.folder)
+    return continuations.of(file), continuations.extend(file)
 
 
 @lru_cache(maxsize=1)
 def _continuations_in(_: Path) -> Continuations:
-    """Those of a folder, so that of many decks of it each is read once."""
+    """Return the continuations of a folder, kept so that each of many decks is read once."""
     return Continuations()

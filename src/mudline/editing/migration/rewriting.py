@@ -1,4 +1,4 @@
-"""The edits that turn the legacy keywords of a text into the new family; every other byte stays."""
+"""Edits that turn the legacy keywords of a text into the new family; all other bytes remain."""
 
 from __future__ import annotations
 
@@ -40,16 +40,15 @@ class Rewriting(NamedTuple):
 
 
 def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
-    """The edits for a deck that was read from text and that has no refusals; `unused` is left out."""
-    return _Rewriter(deck, unused).rewrite()
+    """Return the edits of a deck that was read from text and has no refusals; `unused` definitions are left out."""
+    return _MigrationRewriter(deck, unused).rewrite()
 
 
 def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
-    """Where the surface and the curves stand that no element follows.
+    """Return the places of the surface and of the curves that no element follows.
 
-    One of a set that a later curve is for, or that stands before a curve for ALL, has no element in any case; others
-    are known not to have one only where the deck shows all its elements, and no deck that continues it has more
-    (`extended`).
+    A curve has no elements if a later curve has the same set or ALL. Other definitions are known to have none only if
+    the deck lists all its elements and no deck that continues it has more (`extended`).
     """
     shown = shows_elements(scene) and not extended
     later: set[str] = set()
@@ -68,7 +67,7 @@ def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     return unused
 
 
-class _Rewriter:
+class _MigrationRewriter:
     def __init__(self, deck: Deck, unused: Container[Where]) -> None:
         self.deck = deck
         self.unused = unused
@@ -80,8 +79,8 @@ class _Rewriter:
     def rewrite(self) -> Rewriting:
         curves: list[tuple[Where, int, str]] = []
         for where, block in self.deck.blocks("EMBEDMENT"):
-            given = [(where, i, one.set_name or "ALL") for i, one in enumerate(cast("Embedment", block).curves)]
-            used = [one for one in given if where.inside("curves", one[1]) not in self.unused]
+            given = [(where, i, curve.set_name or "ALL") for i, curve in enumerate(cast("Embedment", block).curves)]
+            used = [entry for entry in given if where.inside("curves", entry[1]) not in self.unused]
             self._head(where, "SEABED STIFFNESS" if used else "")
             for _, index, _ in given:
                 if where.inside("curves", index) in self.unused:
@@ -106,7 +105,7 @@ class _Rewriter:
         return self.origin.tree.sections[where.section].blocks[where.block]
 
     def _head(self, where: Where, keyword: str) -> None:
-        """Write a keyword in the place of that of a block; "" makes the line a comment."""
+        """Replace the keyword of a block; "" makes the line a comment."""
         head = trimmed(self.text, *self._raw(where).head.span)
         if keyword:
             self._edit(head, f"*{keyword}")
@@ -114,12 +113,12 @@ class _Rewriter:
             self._insert(self._line_start(head.start), "C ")
 
     def _rows(self, where: Where) -> list[Span]:
-        """The lines of a block without comments and blank lines, and without the blanks at their ends."""
+        """Return the lines of a block without comments, blank lines and trailing blanks."""
         leaves = (leaf for leaf in self._raw(where).leaves if leaf.kind is not Kind.COMMENT)
         return [trimmed(self.text, *line) for leaf in leaves for line in line_spans(self.text, leaf.span)]
 
     def _leave_out(self, where: Where, index: int) -> None:
-        """Make comments of the lines of a curve that no element follows."""
+        """Turn the lines of a curve that no element follows into comments."""
         spans = self.origin.read[where.section, where.block].places.spans
         first, following = spans["curves", index], spans.get(("curves", index + 1))
         comment = "C left out, as no element is on this curve:\n"
@@ -132,11 +131,11 @@ class _Rewriter:
         return self.text.rfind("\n", 0, offset) + 1
 
     def _indent(self, offset: int) -> str:
-        """As many blanks as stand before the first character of a line; one at least, as a key may begin with C."""
+        """Return the blanks before the first character of a line; at least one, as a key may begin with C."""
         return " " * max(offset - self._line_start(offset), 1)
 
     def _row(self, row: Span, lines: str) -> None:
-        """Settings in the place of a row, indented as it is or by a blank."""
+        """Replace a row by settings, indented as the row or by a blank."""
         self._edit(row, lines if self._line_start(row.start) < row.start else f" {lines}")
 
     def _curve(self, where: Where, index: int, name: str) -> None:
@@ -151,8 +150,8 @@ class _Rewriter:
     def _surface(self, where: Where, block: Surface, curves: Sequence[tuple[str, str]]) -> None:
         """Replace a surface by a block for ALL with its linear law, then one for each curve, so that curves win.
 
-        Every block gives all values, as it inherits none. That for ALL is left out where every element is on a curve.
-        On a rigid seabed it is needed in any case: it says that the elements lie on that seabed.
+        Every block gives all values, as it inherits none. The block for ALL is left out if every element is on a curve.
+        On a rigid seabed it is always needed: it says that the elements lie on that seabed.
         """
         self._head(where, "SEABED PROPERTIES")
         rows = self._rows(where)
@@ -178,14 +177,14 @@ class _Rewriter:
             self._profile(block, rows, indent)
 
     def _fields(self, where: Where, block: Surface) -> dict[str, str]:
-        """The fields of the first line as they are written."""
+        """Return the fields of the first line as written."""
         spans = self.origin.read[where.section, where.block].places.spans
         columns = [slot.json for slot in record_schema(type(block.properties)).columns]
-        found = {name: spans.get(("properties", name), Span(0, 0)) for name in columns}
-        return {name: self.text[slice(*span)].strip(" \t\r\n,") for name, span in found.items()}
+        places = {name: spans.get(("properties", name), Span(0, 0)) for name in columns}
+        return {name: self.text[slice(*span)].strip(" \t\r\n,") for name, span in places.items()}
 
     def _profile(self, block: Surface, rows: Sequence[Span], indent: str) -> None:
-        """Turn the lines behind the first into a `*SEABED PROFILE`, comments between them included."""
+        """Turn the lines after the first into a `*SEABED PROFILE`, including comments between them."""
         self._insert(self.text.index("\n", rows[0].end) + 1, "*SEABED PROFILE\n")
         if block.profile is None:
             value = self.text[slice(*rows[1])].strip(" \t,")
@@ -202,7 +201,7 @@ class _Rewriter:
         self.files[name] = head + "".join(lines)
 
     def _file_name(self) -> str:
-        """A name for the file of the profile that no other file beside the deck has."""
+        """Return a name for the profile file that no other file next to the deck has."""
         stem = _UNSAFE.sub("-", PurePath(self.deck.source).stem).strip("-.") or "deck"
         name, number = f"{stem}-profile.txt", 2
         while self.deck.folder is not None and (self.deck.folder / name).exists():
@@ -211,7 +210,7 @@ class _Rewriter:
 
 
 def _other_lines(fields: Mapping[str, str]) -> list[str]:
-    """The lines of a surface besides its stiffness: fields by name, as they are written, "" for an empty one."""
+    """Return the lines of a surface next to its stiffness, from fields as written by name; "" for an empty field."""
     lines: list[str] = []
     friction = [fields.get(name, "") for name in _FRICTION]
     if any(friction):
@@ -226,15 +225,15 @@ def _other_lines(fields: Mapping[str, str]) -> list[str]:
 
 
 def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
-    """A name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number behind it where needed.
+    """Return a name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number appended if needed.
 
-    A name that another curve has, in any case of letters, would name both; one that reads as a number or an equation
+    A name that another curve has, in any case of letters, would name both. A name that reads as a number or an equation
     would be taken for a stiffness.
     """
     used = {folded(name) for name in taken}
     names: list[str] = []
     for name in sets:
-        chosen = next(one for one in _candidates(name) if folded(one) not in used and reads_as_name(one))
+        chosen = next(name for name in _candidates(name) if folded(name) not in used and reads_as_name(name))
         used.add(folded(chosen))
         names.append(chosen)
     return names

@@ -1,1 +1,1 @@
-"""The decks that `*VARIATION` and `*COMBINATIONS` describe: planned as a whole, then written one by one."""
+"""Decks that `*VARIATION` and `*COMBINATIONS` describe: planned as a whole, then written one by one."""

@@ -1,4 +1,4 @@
-"""The parameters of a deck, and `*VARIATION` to cases: their values, and the blocks that actions add or remove."""
+"""Parameters of a deck, and cases of `*VARIATION`: parameter values, and blocks that actions add or remove."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ if TYPE_CHECKING:
 
 
 _PLANNING = "PREPROCESSOR"
-"""The section of keywords that describe the decks; actions do not add or remove them."""
+"""Section of the keywords that describe the decks; actions do not add or remove them."""
 
 
 Values = Mapping[str, str]
-"""Values as they are written in `*PARAMETERS`, by the name of the parameter there."""
+"""Values as written in `*PARAMETERS`, by the name of the parameter there."""
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class ParameterTarget:
     """A parameter: its name and the text of its value, both as written, and the place of the value."""
 
     name: str
@@ -51,7 +51,7 @@ class Target:
     in_list: bool = False
 
     def field(self, value: str) -> str | None:
-        """A value as it is written in the place of the old one, or None when it cannot be written there."""
+        """Return a value as written in place of the old one, or None if it cannot be written there."""
         field = parameter_field(value)
         bare = field is not None and field == unquoted(field) and Equation.match(field) is None
         if not self.in_list or not bare or read_number(value) is not None:
@@ -59,59 +59,59 @@ class Target:
         return f'"{field}"'  # a colon or a slash would mean something else in a list
 
 
-class Targets:
-    """The parameters of a deck that was read from text; of several with one name the last, which holds."""
+class ParameterTargets:
+    """Parameters of a deck that was read from text; the last of several with the same name applies."""
 
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
         self.parameters = Parameters(deck)
-        self._targets: dict[str, Target] = {}
+        self._targets: dict[str, ParameterTarget] = {}
         self._effort = Effort()
         for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
             for index, parameter in enumerate(cast("Block_", block).parameters):
                 place = where.inside("parameters", index, "value")
                 self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
 
-    def _written(self, name: str, where: Where) -> Iterator[Target]:
-        """The parameters that a line of `*PARAMETERS` defines."""
+    def _written(self, name: str, where: Where) -> Iterator[ParameterTarget]:
+        """Yield the parameters that a line of `*PARAMETERS` defines."""
         origin = cast("TextOrigin", self.deck.origin)
         span = origin.read[where.section, where.block].places.find(where.path)
         text = origin.source.text[slice(*span)]
         if not text.startswith("/"):
-            yield Target(name, text, span)
+            yield ParameterTarget(name, text, span)
             return
         for item in list_items(name, text)[0]:
             start = span.start + item.start
-            yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
+            yield ParameterTarget(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
 
-    def target(self, name: str) -> Target:
-        """A parameter that is known to exist."""
+    def target(self, name: str) -> ParameterTarget:
+        """Return a parameter that is known to exist."""
         return self._targets[folded(name)]
 
     def undefined(self, name: str, where: Where) -> Problem | None:
-        """The problem of a name that is not a parameter, else None."""
+        """Return the problem of a name that is not a parameter, else None."""
         if folded(name) in self._targets:
             return None
         return undefined_parameter(name, (target.name for target in self._targets.values()), self._effort, where)
 
     def in_a_name(self, name: str, values: Values) -> str | None:
-        """A parameter's value for the name of a file: as written, without quotes; None where an equation has none."""
+        """Return a parameter's value for a file name: as written, unquoted; None for an equation without a value."""
         key = folded(name)
-        given = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
-        if Equation.match(given) is None:
-            return unquoted(given)
-        found = Parameters(with_values(self.deck, values)).values.get(key)
-        if isinstance(found, float) and found.is_integer() and abs(found) < 1e15:
-            return str(int(found))
-        return None if found is None else str(found)
+        written = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
+        if Equation.match(written) is None:
+            return unquoted(written)
+        evaluated = Parameters(with_values(self.deck, values)).values.get(key)
+        if isinstance(evaluated, float) and evaluated.is_integer() and abs(evaluated) < 1e15:
+            return str(int(evaluated))
+        return None if evaluated is None else str(evaluated)
 
 
 def with_values(deck: Deck, values: Values) -> Deck:
-    """The deck with other parameter values, for its equations only: its text is not that of the new one.
+    """Return the deck with other parameter values, for its equations only: its text remains that of the old deck.
 
-    They are defined again after all others, as the last definition of a parameter applies.
+    The parameters are defined again after all others, as the last definition of a parameter applies.
     """
-    where, block = [found for found in deck.blocks("PARAMETERS", "PREPROCESSOR") if found[1].parameters][-1]
+    where, block = [entry for entry in deck.blocks("PARAMETERS", "PREPROCESSOR") if entry[1].parameters][-1]
     known = cast("Block_", block).parameters
     more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
     sections = list(deck.sections)
@@ -122,7 +122,7 @@ def with_values(deck: Deck, values: Values) -> Deck:
 
 
 def parameter_field(text: str) -> str | None:
-    """A value as a field of `*PARAMETERS`, a text with blanks or commas in quotes; None when it cannot be written."""
+    """Return a value as a field of `*PARAMETERS`, quoted if it has blanks or commas; None if it cannot be written."""
     if read_number(text) is not None or Equation.match(text):
         return text
     if not text:
@@ -144,7 +144,7 @@ class Removal:
 
 @dataclass(frozen=True, slots=True)
 class Addition:
-    """Lines to put at the end of a section, each with a LF."""
+    """Lines to add at the end of a section, each with a LF."""
 
     section: int
     text: str
@@ -165,11 +165,11 @@ class Cases:
 
 
 class RefusedError(Exception):
-    """An action that cannot be carried out; the message says why."""
+    """Reason why an action cannot be carried out."""
 
 
 def action_of(deck: Deck, varied: VariedBlock, where: Where) -> Action | Problem:
-    """The effect of an ACTION= line on a deck that was read from text, or why it has none."""
+    """Return the effect of an ACTION= line on a deck that was read from text, or the problem that prevents it."""
     try:
         keyword = _keyword(varied)
         section = _section(deck, varied, keyword)
@@ -188,7 +188,7 @@ def _keyword(varied: VariedBlock) -> str:
 
 
 def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
-    """The section of an action, which the deck has."""
+    """Return the section of an action, which the deck has."""
     there = [section.name for section in deck.sections]
     if varied.section is not None:
         name = canonical_name("$" + unquoted(varied.section).removeprefix("$"))
@@ -206,9 +206,9 @@ def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
 def _removal(deck: Deck, keyword: str, section: str) -> Removal:
     blocks = [
         (index, number, block.keyword)
-        for index, found in enumerate(deck.sections)
-        if found.name == section
-        for number, block in enumerate(found.blocks)
+        for index, deck_section in enumerate(deck.sections)
+        if deck_section.name == section
+        for number, block in enumerate(deck_section.blocks)
     ]
     gone = frozenset((index, number) for index, number, name in blocks if name == keyword)
     if not gone:
@@ -218,7 +218,7 @@ def _removal(deck: Deck, keyword: str, section: str) -> Removal:
 
 
 def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Addition:
-    last = max(index for index, found in enumerate(deck.sections) if found.name == section)
+    last = max(index for index, deck_section in enumerate(deck.sections) if deck_section.name == section)
     if varied.file is None:
         return Addition(last, f"*{keyword}\n")
     if deck.folder is None:
@@ -255,7 +255,7 @@ def _content(path: Path, name: str) -> Source:
 
 
 def _block_text(source: Source, keyword: str) -> str:
-    """The lines of a file as blocks of a keyword; the head is added where the file has none."""
+    """Return the lines of a file as blocks of a keyword, with the keyword line added if the file has none."""
     tree = parse(source)
     if tree.sections:
         raise RefusedError(f"{source.name} opens the section ${tree.sections[0].name}: expected only the block")
@@ -274,25 +274,25 @@ _NOISE = Decimal("1e-9")
 
 
 class CaseReader:
-    """Reads the variations of a deck that was read from text; faults are added to `problems`."""
+    """Reader of the variations of a deck that was read from text; faults are added to `problems`."""
 
-    def __init__(self, deck: Deck, targets: Targets) -> None:
+    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
         self.deck = deck
         self.targets = targets
         self.problems: list[Problem] = []
 
     def read(self) -> dict[str, Cases]:
-        """Every variation by its name as names compare."""
-        found: dict[str, Cases] = {}
+        """Return every variation by its name in the form in which names are compared."""
+        by_name: dict[str, Cases] = {}
         for where, block in self.deck.blocks("VARIATION", "PREPROCESSOR"):
             for index, variation in enumerate(block.variations):
                 place = where.inside("variations", index)
                 cases = self._cases(variation, place)
-                if name_key(cases.name) in found:
+                if name_key(cases.name) in by_name:
                     message = f"variation {shown(cases.name)} is already defined: choose another name"
                     self._report(message, place.inside("name"))
-                found[name_key(cases.name)] = cases
-        return found
+                by_name[name_key(cases.name)] = cases
+        return by_name
 
     def _report(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
@@ -323,7 +323,7 @@ class CaseReader:
                 yield action
 
     def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
-        """Check that the parameters of a variation, which change together, have a value for every case each."""
+        """Report a problem unless all parameters of a variation, which change together, have equally many values."""
         counts = {len(values) for values in columns.values() if values}
         if len(counts) > 1:
             listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
@@ -333,8 +333,8 @@ class CaseReader:
             )
             self._report(message, where)
 
-    def _values(self, varied: VariedParameter, target: Target, where: Where) -> list[str]:
-        """The values as fields of `*PARAMETERS`; none when they are faulty."""
+    def _values(self, varied: VariedParameter, target: ParameterTarget, where: Where) -> list[str]:
+        """Return the values as fields of `*PARAMETERS`; an empty list if they are faulty."""
         if varied.generate is not None:
             return self._range(varied.generate, where.inside("generate"))
         if not varied.values:
@@ -354,7 +354,7 @@ class CaseReader:
         return values
 
     def _defined(self, field: str, where: Where) -> None:
-        """Check that an equation uses defined parameters; whether it has a value depends on the case."""
+        """Report undefined parameters of an equation; it may have a value in some cases only."""
         if equation := Equation.match(field):
             try:
                 self.targets.parameters.evaluate(equation, where)
@@ -381,7 +381,7 @@ class CaseReader:
 
 
 def _spelled(number: Decimal) -> str:
-    """A number in digits, a whole one without a point; of a very large or small one the shortest form."""
+    """Return a number in digits, a whole number without a point; the shortest form if very large or small."""
     if not number:
         return "0"
     plain = number.normalize()

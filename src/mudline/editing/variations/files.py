@@ -1,4 +1,4 @@
-"""The files of an expansion: their paths, the text of each new deck, the manifest, and files in the way."""
+"""Files of an expansion: their paths, the text of each new deck, the manifest, and conflicts with existing files."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import NamedTuple, cast
 
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
-from mudline.editing.variations.cases import Action, Removal, Targets, Values
+from mudline.editing.variations.cases import Action, ParameterTargets, Removal, Values
 from mudline.editing.variations.names import filled
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.loading import dump
@@ -37,17 +37,17 @@ _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
 _DRIVE = re.compile(r"[A-Za-z]:")
 _DEVICES = frozenset(["CON", "PRN", "AUX", "NUL", *(f"{name}{n}" for name in ("COM", "LPT") for n in range(1, 10))])
 PART_BYTES = 240
-"""Bytes of a folder's or a file's name; the systems in use end at 255."""
+"""Longest name of a folder or a file, in bytes; the systems in use allow 255."""
 PATH_BYTES = 1000
-"""Bytes of a path within the output folder."""
+"""Longest path within the output folder, in bytes."""
 
 
 _ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
-"""What a file name of a deck ends with; another name gets the suffix of the source."""
+"""Suffixes of decks; a file name without one gets the suffix of the source."""
 
 
 class Template(NamedTuple):
-    """The names that a combination gives its files, without quotes; None where it gives none."""
+    """Names that a combination gives its files, without quotes; None for a name that it does not give."""
 
     directory: str | None
     subdirectory: str | None
@@ -55,20 +55,20 @@ class Template(NamedTuple):
 
 
 class Namer:
-    """Names the decks that come from one source."""
+    """Generator of file names for the decks from one source."""
 
-    def __init__(self, deck: Deck, targets: Targets) -> None:
+    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
         own = PurePath(deck.file).name
         self.source = PurePath("deck" if path_fault(own) else own)
         self.suffix = self.source.suffix or ".keyx"
         self.targets = targets
 
     def path(self, template: Template, values: Values, counter: str) -> tuple[str, str]:
-        """The path of a deck with `/` in the output folder, and why it may not be used, "" when it may.
+        """Return the path of a deck with `/` in the output folder, and the reason why it may not be used, or "".
 
         `counter` distinguishes decks whose combination gives no name at all.
 
-        A deck without a name of its own has that of the source, in a folder of its own or with the counter behind it.
+        A deck without a name of its own has that of the source, in a folder of its own or followed by the counter.
         """
         missing: list[str] = []
 
@@ -95,7 +95,7 @@ class Namer:
 
 
 def path_fault(path: str) -> str:
-    """Why a path may not be used within the output folder, on any system; "" when it may."""
+    """Return the reason why a path may not be used within the output folder, on any system; "" if it may."""
     if "\\" in path:
         return "holds a backslash: separate folders by /"
     if path.startswith("/") or _DRIVE.match(path):
@@ -106,7 +106,7 @@ def path_fault(path: str) -> str:
 
 
 def _part_fault(part: str) -> str:
-    """Why a folder or a file may not have this name."""
+    """Return the reason why a folder or a file may not have this name; "" if it may."""
     device = part.partition(".")[0].strip(" ")
     sign = next(iter(_FORBIDDEN.findall(part)), "")
     shown = sign if sign.isprintable() else f"U+{ord(sign):04X}"
@@ -118,28 +118,28 @@ def _part_fault(part: str) -> str:
         f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
         f"has a part that is longer than {PART_BYTES} bytes": len(part.encode(errors="replace")) > PART_BYTES,
     }
-    return next((fault for fault, found in faults.items() if found), "")
+    return next((fault for fault, applies in faults.items() if applies), "")
 
 
 def same_place(path: str) -> str:
-    """A key that is the same for paths that some systems confuse: neither case nor Unicode composition counts."""
+    """Return a key that is equal for paths that some systems confuse: case and Unicode composition do not count."""
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
 
 
 class Taken:
-    """The paths that are taken so far, each with who took it."""
+    """Paths in use, each with the number of its deck."""
 
     def __init__(self) -> None:
         self._files: dict[str, int] = {}
         self._folders: dict[str, int] = {}
 
     def take(self, path: str, number: int) -> int | None:
-        """Take a path for a number; the number that has it, or needs it as a folder, when it is not free."""
+        """Reserve a path for a number; return the number that uses it already as file or folder, else None."""
         place = same_place(path)
         parts = place.split("/")
         folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
         holders = chain((self._files.get(name) for name in (place, *folders)), [self._folders.get(place)])
-        holder = next((one for one in holders if one is not None), None)
+        holder = next((number_there for number_there in holders if number_there is not None), None)
         if holder is None:
             self._files[place] = number
             for folder in folders:
@@ -150,20 +150,20 @@ class Taken:
 # ------------------------------------------------------------------------------------------------------- other files
 
 _KEYS = ("FILE", "LAST")
-"""Settings that name a file in blocks that have no model."""
+"""Settings that name a file in blocks without a model."""
 
 
 def companions(deck: Deck) -> list[str]:
-    """The files that a deck names and that are there, relative to the deck, each once.
+    """Return the existing files that a deck names, relative to the deck, each once.
 
-    Those of `$PREPROCESSOR` are needed to make the new decks, not by the new decks.
+    Files of `$PREPROCESSOR` are left out: they are needed to make the new decks, not by the new decks.
     """
-    found: dict[str, None] = {}
+    existing: dict[str, None] = {}
     for written in _written(deck):
         name = file_name(written)
         if name and not path_fault(name) and find_file(deck.folder, name):
-            found[name] = None
-    return list(found)
+            existing[name] = None
+    return list(existing)
 
 
 def _written(deck: Deck) -> Iterator[str]:
@@ -189,9 +189,14 @@ def _in_lines(text: str, block: RawBlock) -> Iterator[str]:
 
 @dataclass(frozen=True, slots=True)
 class PlannedDeck:
-    """A deck to write: its path with `/` in the output folder, and its description.
+    """A deck to write.
 
-    `variations` are the names of those combined in it, `values` its varied parameters as they will be written.
+    Attributes:
+        path: path in the output folder, with `/`.
+        description: description of the combination.
+        variations: names of the variations combined in the deck.
+        values: varied parameters as they will be written.
+        actions: blocks to add and to remove.
     """
 
     path: str
@@ -203,10 +208,10 @@ class PlannedDeck:
     __repr__ = short_repr
 
 
-class Rewriter:
-    """Makes the decks of a source that was read from text."""
+class CaseRewriter:
+    """Generator of the decks of a source that was read from text."""
 
-    def __init__(self, deck: Deck, targets: Targets) -> None:
+    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
         self.deck = deck
         self.targets = targets
         origin = cast("TextOrigin", deck.origin)
@@ -221,7 +226,7 @@ class Rewriter:
         )
 
     def content(self, planned: PlannedDeck) -> bytes:
-        """A new deck, in the form of its path's suffix."""
+        """Return a new deck, in the form given by its path's suffix."""
         content = edited_bytes(self.source, self.edits(planned))
         form = form_of(planned.path)
         if form == "keyword":
@@ -230,7 +235,7 @@ class Rewriter:
         return dump(replace(read, source=planned.path.rpartition("/")[2]), form).encode()
 
     def edits(self, planned: PlannedDeck) -> list[TextEdit]:
-        """What is changed in the text of the source."""
+        """Return the edits of the source's text that give a planned deck."""
         edits: list[TextEdit] = []
         for name, text in planned.values.items():
             target = self.targets.target(name)
@@ -246,12 +251,12 @@ class Rewriter:
         return edits
 
     def _lines_of(self, section: int, number: int) -> Span:
-        """A block without the comments and blank lines behind it, which belong to what follows."""
+        """Return the span of a block without the comments and blank lines after it, which belong to the next block."""
         block = self.tree.sections[section].blocks[number]
         return Span(block.head.span.start, self._end(section, block))
 
     def _insertion(self, section: int, text: str) -> TextEdit:
-        """Lines inserted after the last ones of a section that are not a comment."""
+        """Return the insertion of lines after the last line of a section that is not a comment."""
         raw = self.tree.sections[section]
         head = cast("Leaf", raw.head)
         at = self._end(section, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
@@ -271,35 +276,39 @@ class Rewriter:
 
 @dataclass(frozen=True, slots=True)
 class ExpansionPlan:
-    """The decks in the order of `*COMBINATIONS`, and the rewriter that makes their texts.
+    """Decks of an expansion, in the order of `*COMBINATIONS`.
 
-    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
-    beside the source that the new decks name too.
+    Attributes:
+        source: name of the file of the source.
+        decks: the planned decks.
+        rewriter: generator of their texts.
+        notes: remarks for a reader.
+        companions: files next to the source that the new decks name too.
     """
 
     source: str
     decks: Sequence[PlannedDeck]
-    rewriter: Rewriter
+    rewriter: CaseRewriter
     notes: Sequence[str] = ()
     companions: Sequence[str] = ()
 
     __repr__ = short_repr
 
     def content(self, planned: PlannedDeck) -> bytes:
-        """The content of a planned deck."""
+        """Return the content of a planned deck."""
         return self.rewriter.content(planned)
 
 
-# ------------------------------------------------------------------------------------------------------ what is written
+# -------------------------------------------------------------------------------------------- manifest and conflicts
 
 
 FORMAT = "mudline-expand/1"
 MANIFEST = "manifest.json"
-"""The file's name in the output folder."""
+"""Name of the file in the output folder."""
 
 
 def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
-    """The list of the new decks as JSON text: the same for the same deck, whenever and wherever it is written."""
+    """Return the list of the new decks as JSON text; it depends on the deck only, not on time or place of the run."""
     listed = [
         {
             "file": deck.path,
@@ -314,7 +323,7 @@ def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
 
 
 def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:
-    """Why files of a plan may not be written into a folder, as messages; `force` lets files be overwritten.
+    """Return messages about files of a plan that may not be written into a folder; `force` allows overwriting.
 
     Links are not followed out of the folder, and files that the run reads are never overwritten.
     """
@@ -325,7 +334,7 @@ def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]
 
 
 def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
-    """The files that the new decks name and that one of them would not find."""
+    """Return the files named by the new decks that at least one of them would not find."""
     parents = {(folder / deck.path).parent for deck in planned.decks} if planned.companions else set()
     return [
         name
@@ -353,7 +362,7 @@ def _conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> Iterator
 
 
 def _there(path: Path, *, force: bool) -> Iterator[str]:
-    """What is wrong with a path that exists."""
+    """Yield the reason why an existing path may not be written."""
     if path.is_symlink() or not path.is_file():
         yield f"{path.as_posix()}: exists already and is not a regular file: it is not overwritten"
     elif is_read(path):
@@ -363,6 +372,6 @@ def _there(path: Path, *, force: bool) -> Iterator[str]:
 
 
 def _file_above(folder: Path, path: Path) -> Path | None:
-    """A file where a folder is needed."""
+    """Return a file where a folder is needed, or None."""
     above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
     return next((parent for parent in above if parent.exists() and not parent.is_dir()), None)

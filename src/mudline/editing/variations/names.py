@@ -1,4 +1,4 @@
-"""Names in `*VARIATION` and `*COMBINATIONS`: how they compare, and which of them are undefined."""
+"""Names in `*VARIATION` and `*COMBINATIONS`: their comparison, and undefined names."""
 
 from __future__ import annotations
 
@@ -23,33 +23,33 @@ if TYPE_CHECKING:
 
 
 def unquoted(text: str) -> str:
-    """A text without the double quotes around it."""
+    """Return a text without the double quotes around it."""
     return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
 
 
 def name_key(name: str) -> str:
-    """The name of a variation as names compare."""
+    """Return the name of a variation in the form in which names are compared."""
     return folded(" ".join(unquoted(name).split()))
 
 
 def placeholders(template: str) -> list[str]:
-    """The names between `%` in a template, in their order."""
+    """Return the names between `%` in a template, in order."""
     return [match[1].strip(" \t") for match in PLACEHOLDER.finditer(template)]
 
 
 def filled(template: str, value_of: Callable[[str], str]) -> str:
-    """A template with every `%name%` replaced by what `value_of` says of the name."""
+    """Return a template with every `%name%` replaced by `value_of` the name."""
     return PLACEHOLDER.sub(lambda match: value_of(match[1].strip(" \t")), template)
 
 
 def undefined_parameter(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
-    """A parameter that is not among the known ones."""
+    """Return the problem of a parameter that is not among the known parameters."""
     near = suggestion(name, known, effort)
     return Problem(REF013, f"parameter {shown(name)} is not defined{near}: define it in *PARAMETERS", where=where)
 
 
 def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
-    """A variation that is not among the known ones; their names are without quotes."""
+    """Return the problem of a variation that is not among the known variations, whose names have no quotes."""
     name = unquoted(name)
     near = suggestion(name, known, effort)
     return Problem(REF001, f"there is no variation {shown(name)}{near}: define it in *VARIATION", where=where)
@@ -58,18 +58,18 @@ def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: 
 # ------------------------------------------------------------------------------------------------------ in any deck
 
 _Named = tuple[str, Where]
-"""A name, and where it stands."""
+"""A name, and its place."""
 
 
 def may_vary(deck: Deck) -> bool:
-    """Whether a deck has a section in which variations and their names may stand."""
+    """Return True if a deck has a section that may contain variations and their names."""
     return any(section.name == DEFINING for section in deck.sections)
 
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
-    """Parameters in PARA= or as `%name%` in a folder or file name that `*PARAMETERS` does not define."""
-    varied = (one for one in deck.names() if one.kind is Names.PARAMETER and one.role == "names")
-    named = [*((unquoted(one.name), one.where) for one in varied), *_in_names(deck)]
+    """Yield parameters in PARA=, or as `%name%` in a folder or file name, that `*PARAMETERS` does not define."""
+    varied = (name for name in deck.names() if name.kind is Names.PARAMETER and name.role == "names")
+    named = [*((unquoted(name.name), name.where) for name in varied), *_in_names(deck)]
     known = _parameters(deck) if named else None
     effort = Effort()
     for name, where in named:
@@ -78,7 +78,7 @@ def undefined_parameters(deck: Deck) -> Iterator[Problem]:
 
 
 def undefined_variations(deck: Deck) -> Iterator[Problem]:
-    """Variations in VARIATIONS= that no `*VARIATION` defines; `*EXCEL VARIATIONS`, not read, may define any."""
+    """Yield variations in VARIATIONS= that no `*VARIATION` defines; an unread `*EXCEL VARIATIONS` may define any."""
     called = list(_called(deck))
     present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
@@ -96,7 +96,7 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
 
 
 def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
-    """Warn of an unknown keyword in KEYWORD= of an action whose spelling is close to a known one."""
+    """Yield unknown keywords in KEYWORD= of an action that resemble a known keyword."""
     effort = Effort()
     for varied, where in _actions(deck):
         words = cast("list[str] | None", varied.keyword) or ()
@@ -107,7 +107,7 @@ def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
 
 
 def misspelt_sections(deck: Deck) -> Iterator[Problem]:
-    """Warn of an unknown section in SECTION= of an action whose spelling is close to a known one."""
+    """Yield unknown sections in SECTION= of an action that resemble a known section."""
     effort = Effort()
     for varied, where in _actions(deck):
         name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
@@ -117,7 +117,7 @@ def misspelt_sections(deck: Deck) -> Iterator[Problem]:
 
 
 def _similar(name: str, known: Collection[str], effort: Effort) -> str:
-    """The known name that is close to an unknown one, or ""."""
+    """Return the known name that resembles an unknown name, or ""."""
     return "" if not name or name in known else nearest(name, known, effort)
 
 
@@ -129,19 +129,19 @@ def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
 
 
 def _in_names(deck: Deck) -> Iterator[_Named]:
-    """The parameters in names of folders and files."""
+    """Yield the parameters in names of folders and files."""
     for where, block in deck.blocks("COMBINATIONS", DEFINING):
-        given = [(block.directory, where.inside("directory"))]
+        templates = [(block.directory, where.inside("directory"))]
         for i, combination in enumerate(block.combinations):
             place = where.inside("combinations", i)
-            given.append((combination.subdirectory, place.inside("subdirectory")))
-            given.append((combination.filename, place.inside("filename")))
-        for text, place in given:
+            templates.append((combination.subdirectory, place.inside("subdirectory")))
+            templates.append((combination.filename, place.inside("filename")))
+        for text, place in templates:
             yield from ((name, place) for name in placeholders(unquoted(text or "")))
 
 
 def _called(deck: Deck) -> Iterator[_Named]:
-    """The variations that combinations call."""
+    """Yield the variations that combinations call."""
     for where, block in deck.blocks("COMBINATIONS", DEFINING):
         for i, combination in enumerate(block.combinations):
             for j, line in enumerate(combination.variations):
@@ -150,19 +150,19 @@ def _called(deck: Deck) -> Iterator[_Named]:
 
 
 def _parameters(deck: Deck) -> dict[str, str] | None:
-    """Names of parameters by their folded form; None where a line that could not be read may define more."""
+    """Return names of parameters by casefolded form; None if a line that could not be read may define more."""
     blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", DEFINING)
     listed = [parameter for _, block in blocks for parameter in block.parameters]
     unread = any(is_unknown(parameter.name) for parameter in listed)
     if unread or _unsure(deck, "PARAMETERS"):
         return None
-    defined = {key: found.name for key, found in Parameters(deck).definitions.items()}
+    defined = {key: definition.name for key, definition in Parameters(deck).definitions.items()}
     without_value = [parameter.name for parameter in listed if is_unknown(parameter.value)]
     return {folded(name): name for name in without_value} | defined
 
 
 def _unsure(deck: Deck, keyword: str) -> bool:
-    """Whether a line of a keyword could not be used, or a block with a misspelt name may be meant for one."""
+    """Return True if a keyword may define more: a line could not be used, or a block may have its name misspelt."""
     for i, section in enumerate(deck.sections):
         for j, block in enumerate(section.blocks):
             if block.keyword == keyword and section.name == DEFINING:

@@ -1,4 +1,4 @@
-"""The decks that a deck describes, all of them planned and checked before any of them is written."""
+"""Plan of the decks that a deck describes: all are checked before the first is written."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
-from mudline.editing.variations.cases import CaseReader, Cases, Targets, Values
+from mudline.editing.variations.cases import CaseReader, Cases, ParameterTargets, Values
 from mudline.editing.variations.files import (
     MANIFEST,
+    CaseRewriter,
     ExpansionPlan,
     Namer,
     PlannedDeck,
-    Rewriter,
     Taken,
     Template,
     companions,
@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 
 
 MOST_LOOKED_AT = 1000
-"""Decks whose names are looked at where none is to be written."""
+"""Number of decks whose names are checked if none is to be written."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Group:
+class _CaseGroup:
     """A combination with its variations: a deck for each combination of their cases."""
 
     where: Where
@@ -57,14 +57,15 @@ class _Group:
 def plan(deck: Deck) -> ExpansionPlan:
     """Plan the decks that a deck describes.
 
-    Raises DeckError for a deck with errors, and for what cannot be expanded: an undefined parameter, parameters of one
-    variation with different numbers of values, a name that leaves the output folder, two decks with one name.
+    Raises DeckError for a deck with errors, and for variations that cannot be expanded: an undefined parameter,
+    parameters of one variation with different numbers of values, a name that leads out of the output folder, two decks
+    with one name.
     """
     return _Planner(deck.require()).plan()
 
 
 def plan_faults(deck: Deck) -> list[Problem]:
-    """Why the decks that a deck describes cannot be planned; of very many decks only what their variations lack."""
+    """Return the problems of planning the decks of a deck; names are not checked if there are very many decks."""
     planner = _Planner(deck)
     try:
         planner.plan(MOST_LOOKED_AT)
@@ -77,9 +78,9 @@ class _Planner:
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
         self.text = as_text(deck).require()
-        self.targets = Targets(self.text)
+        self.targets = ParameterTargets(self.text)
         self.namer = Namer(deck, self.targets)
-        self.rewriter = Rewriter(self.text, self.targets)
+        self.rewriter = CaseRewriter(self.text, self.targets)
         self.problems: list[Problem] = []
         self.effort = Effort()
 
@@ -115,16 +116,16 @@ class _Planner:
 
     # ------------------------------------------------------------------------------------------------- combinations
 
-    def _groups(self, variations: dict[str, Cases]) -> Iterator[_Group]:
+    def _groups(self, variations: dict[str, Cases]) -> Iterator[_CaseGroup]:
         for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
             for index, combination in enumerate(block.combinations):
                 place = where.inside("combinations", index)
                 names = (block.directory, combination.subdirectory, combination.filename)
                 template = Template(*(name if name is None else unquoted(name) for name in names))
-                yield _Group(place, combination, template, self._called(combination, place, variations))
+                yield _CaseGroup(place, combination, template, self._called(combination, place, variations))
 
     def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
-        """The variations that a combination calls, each once; without a name all of the deck."""
+        """Return the variations that a combination calls, each once; if it names none, all of the deck."""
         called: dict[str, Cases] = {}
         for index, line in enumerate(combination.variations):
             for number, name in enumerate(line.names):
@@ -136,12 +137,12 @@ class _Planner:
                 else:
                     known = (cases.name for cases in variations.values())
                     place = where.inside("variations", index, "names", number)
-                    found = undefined_variation(name, known, self.effort, place)
-                    self.problems.append(replace(found, code=EXP001))
+                    problem = undefined_variation(name, known, self.effort, place)
+                    self.problems.append(replace(problem, code=EXP001))
         return list((called if combination.variations else variations).values())
 
-    def _is_valid(self, group: _Group) -> bool:
-        """Check that the parameters in file names are defined, and that none varies in two variations at once."""
+    def _is_valid(self, group: _CaseGroup) -> bool:
+        """Return True if the parameters in file names are defined, and none varies in two variations at once."""
         before = len(self.problems)
         owners: dict[str, str] = {}
         for cases in group.cases:
@@ -160,8 +161,8 @@ class _Planner:
 
     # -------------------------------------------------------------------------------------------------------- decks
 
-    def _named(self, groups: Sequence[_Group], total: int) -> list[PlannedDeck]:
-        """The decks with their paths, each of them unique."""
+    def _named(self, groups: Sequence[_CaseGroup], total: int) -> list[PlannedDeck]:
+        """Return the decks with their paths, each of them unique."""
         decks: list[PlannedDeck] = []
         taken = Taken()
         taken.take(MANIFEST, -1)
@@ -205,19 +206,19 @@ class _Planner:
 
 
 def _products(variations: Sequence[Cases]) -> Iterator[dict[str, str]]:
-    """The values of every combination of cases, the last variation the fastest."""
+    """Yield the values of every combination of cases; the last variation changes fastest."""
     names = [name for cases in variations for name in cases.parameters]
     for rows in product(*(cases.rows for cases in variations)):
         yield dict(zip(names, (text for row in rows for text in row), strict=True))
 
 
 def listed(values: Values) -> str:
-    """Values as `Offset=-100, Period=08`."""
+    """Return values as `Offset=-100, Period=08`."""
     return ", ".join(f"{name}={text}" for name, text in values.items()) or "no varied parameter"
 
 
-def _clash(deck: PlannedDeck, other: PlannedDeck | None) -> str:
-    if other is None:
+def _clash(deck: PlannedDeck, holder: PlannedDeck | None) -> str:
+    if holder is None:
         return "is that of the manifest"
-    same = "" if deck.path == other.path else f" (as {shown(other.path)})"
-    return f"is that of the deck with {listed(other.values)}{same}: name what differs with %parameter%"
+    same = "" if deck.path == holder.path else f" (as {shown(holder.path)})"
+    return f"is that of the deck with {listed(holder.values)}{same}: name what differs with %parameter%"

@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 from stat import S_ISREG
 from typing import NamedTuple
 
-from mudline.basics.patterns import Pattern, read_pattern
+from mudline.basics.patterns import PathPattern, read_pattern
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.syntax.source import KEY_FILE
@@ -80,7 +80,7 @@ class _Rules(NamedTuple):
 
     above: str
     below: int
-    patterns: Sequence[Pattern]
+    patterns: Sequence[PathPattern]
 
     def hides(self, path: str, *, folder: bool) -> bool | None:
         """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""

@@ -1,1 +1,1 @@
-"""An archive of decks: a folder of Parquet files with what is in many decks, and questions about it in SQL."""
+"""Archive of decks: a folder of Parquet files with the contents of many decks, to be queried in SQL."""

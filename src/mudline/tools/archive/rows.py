@@ -1,4 +1,4 @@
-"""What a deck gives to each table of an archive: read, resolved and linted once."""
+"""Rows of a deck for each table of an archive: the deck is read, resolved and linted once."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ from mudline.model.scene.sets import ALL
 from mudline.tools.archive.tables import CurveRow, DeckRow, FindingRow, KeywordRow, LawRow, ParameterRow, SetRow
 
 _DIGESTS = 1 << 63
-"""Number of the digests of values, which are whole numbers in the tables."""
+"""Upper bound of digests, which are whole numbers in the tables."""
 _EQUATION = re.compile(r"=\[((?:[^\[\]]|\[[^\[\]]*\])*)\]|%([^%\s]+)%")
 _WORD = re.compile(r"[^\W\d][\w.]*")
 
 Rows = dict[str, list[Any]]
-"""The rows of a deck by table, without the column `file`."""
+"""Rows of a deck by table, without the column `file`."""
 
 
 def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None) -> Rows:
@@ -48,18 +48,18 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
         row = DeckRow(settings.units or "user", ok=False, errors=len(error.diagnostics))
         return {"decks": [row], "findings": _findings(error.diagnostics)}
     context = LintContext(deck, dialect=settings.dialect)
-    found = with_severities(lint_context(context, settings.rules), settings)
+    findings = with_severities(lint_context(context, settings.rules), settings)
     scene, coverage = context.scene, coverage_of(deck)
     keywords = list(_keywords(deck))
     rows: Rows = {
-        "findings": _findings(found),
+        "findings": _findings(findings),
         "keywords": keywords,
         "sets": list(_sets(deck, scene)),
         "curves": list(_curves(deck, scene)),
         "laws": list(_laws(deck, scene)),
         "parameters": list(_parameters(deck, data)),
     }
-    levels = [one.severity for one in found]
+    levels = [finding.severity for finding in findings]
     severities = (levels.count(Severity.ERROR), levels.count(Severity.WARNING), levels.count(Severity.INFO))
     read = (coverage.total, coverage.read, sum(coverage.partly.values()), sum(coverage.unread.values()))
     sizes = (len(scene.node_ids), len(scene.element_ids), len(rows["sets"]), len(scene.laws.curves))
@@ -79,12 +79,12 @@ def _keyword_at(scene: Scene, where: Where) -> str:
     return scene.deck.sections[where.section].blocks[where.block].keyword
 
 
-def _findings(found: Iterable[Diagnostic]) -> list[FindingRow]:
+def _findings(findings: Iterable[Diagnostic]) -> list[FindingRow]:
     rows = []
-    for one in found:
-        place = (one.line, one.column, one.end_line, one.end_column)
-        fix = one.fix.applicability if one.fix else None
-        rows.append(FindingRow(one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks))
+    for each in findings:
+        place = (each.line, each.column, each.end_line, each.end_column)
+        fix = each.fix.applicability if each.fix else None
+        rows.append(FindingRow(each.code, each.slug, each.severity.value, each.message, *place, fix, each.blocks))
     return rows
 
 
@@ -101,8 +101,8 @@ def _keywords(deck: Deck) -> Iterator[KeywordRow]:
 def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
     used = {name_key(name) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
-    # Lines that are not read may name sets.
-    lines = (one.lines if type(one) is Opaque else kept_lines(one) for part in deck.sections for one in part.blocks)
+    # Unread lines may name sets.
+    lines = (each.lines if type(each) is Opaque else kept_lines(each) for part in deck.sections for each in part.blocks)
     unread = "\n".join(line for own in lines for line in own).casefold()
     for key, entry in named.items():
         ids = scene.element_ids[entry.elements]
@@ -112,12 +112,12 @@ def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
 
 
 def _curves(deck: Deck, scene: Scene) -> Iterator[CurveRow]:
-    """Yield the curves of the seabed, then the others, which no element follows."""
+    """Yield the curves of the seabed, then all other curves, which no element follows."""
     curves: list[tuple[Any, ...]] = []
-    for place, one in enumerate(scene.laws.curves):
+    for place, entry in enumerate(scene.laws.curves):
         followers = len(scene.laws.followers(place)) if len(scene.element_ids) else 0
-        curves.append((one, OF_SEABED, _keyword_at(scene, one.where), one.embedment, one.curve, followers))
-    curves += [(one, one.kind, one.keyword, False, one.made(), 0) for one in other_curves(scene.deck)]
+        curves.append((entry, OF_SEABED, _keyword_at(scene, entry.where), entry.embedment, entry.curve, followers))
+    curves += [(entry, entry.kind, entry.keyword, False, entry.made(), 0) for entry in other_curves(scene.deck)]
     for place, (entry, kind, keyword, legacy, curve, followers) in enumerate(curves, 1):
         over, values = (curve.ratios, curve.forces) if curve else np.ascontiguousarray(entry.points.T)
         first, last, largest = map(float, (over[0], over[-1], values.max())) if len(over) else (None, None, None)
@@ -143,13 +143,13 @@ def _parameters(deck: Deck, data: bytes) -> Iterator[ParameterRow]:
     varied = "VARIATION" in deck.keywords("PREPROCESSOR")
     equations = (match[1] or match[2] for match in _EQUATION.finditer(data.decode("utf-8", "replace")))
     used = {folded(word) for piece in equations for word in (*_WORD.findall(piece), piece)}
-    for key, found in parameters.definitions.items():
+    for key, definition in parameters.definitions.items():
         value = parameters.values.get(key)
         text = value if isinstance(value, str) else None
         amount = None if text is not None or value is None else float(value)
-        equation = str(found.value) if isinstance(found.value, Equation) else None
+        equation = str(definition.value) if isinstance(definition.value, Equation) else None
         is_used = None if varied else key in used
-        yield ParameterRow(found.name, amount, text, equation, is_used, _line(deck, found.where))
+        yield ParameterRow(definition.name, amount, text, equation, is_used, _line(deck, definition.where))
 
 
 def _number(data: bytes) -> int:
@@ -157,7 +157,7 @@ def _number(data: bytes) -> int:
 
 
 def _digest(section: str, block: Any) -> int:
-    """Return a digest of what a block says: equal for equal values, whatever their layout and comments are."""
+    """Return a digest of the values of a block; layout and comments do not count."""
     lines = block.lines if type(block) is Opaque else block_lines(block)
-    said = (" ".join(line.split()).casefold() for line in lines if not re.match(r"C(\s|$)", line))
-    return _number("\n".join([section, block.keyword, *filter(None, said)]).encode("utf-8", "backslashreplace"))
+    texts = (" ".join(line.split()).casefold() for line in lines if not re.match(r"C(\s|$)", line))
+    return _number("\n".join([section, block.keyword, *filter(None, texts)]).encode("utf-8", "backslashreplace"))

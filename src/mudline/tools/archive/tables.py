@@ -1,6 +1,6 @@
-"""The tables of an archive, each a list of columns: what a row is, what its columns hold and what they mean.
+"""Tables of an archive, each a list of columns with types and meanings.
 
-In front of these columns each table has `file`, by which tables are joined. Numbers are in the units of their deck.
+The first column of each table is `file`, by which tables are joined. Numbers are in the units of their deck.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ class DeckRow(NamedTuple):
     infos: Annotated[int, "findings of severity info"] = 0
     sections: Annotated[int, "sections"] = 0
     keywords: Annotated[int, "keyword blocks"] = 0
-    read: Annotated[int, "keyword blocks of which all was read"] = 0
-    partly: Annotated[int, "keyword blocks of which a line or part was passed over"] = 0
-    unread: Annotated[int, "keyword blocks whose lines were passed over"] = 0
+    read: Annotated[int, "keyword blocks that were read completely"] = 0
+    partly: Annotated[int, "keyword blocks of which a line or a part was not read"] = 0
+    unread: Annotated[int, "keyword blocks whose lines were not read"] = 0
     nodes: Annotated[int, "nodes"] = 0
     elements: Annotated[int, "elements"] = 0
     sets: Annotated[int, "element sets, without ALL"] = 0
@@ -39,10 +39,10 @@ class KeywordRow(NamedTuple):
     section: Annotated[str, "section, without $"]
     keyword: Annotated[str, "keyword, without *"]
     line: Annotated[int | None, "line of the keyword"]
-    is_read: Annotated[bool, "whether its lines are read; those of others are passed through"]
-    partly: Annotated[bool, "whether a line or part of it was passed over"]
-    superseded: Annotated[bool, "whether a newer keyword supersedes it"]
-    extension: Annotated[bool, "whether it is an extension of mudline"]
+    is_read: Annotated[bool, "true if its lines are read; otherwise they are passed through unchanged"]
+    partly: Annotated[bool, "true if a line or a part of it was not read"]
+    superseded: Annotated[bool, "true if a newer keyword supersedes it"]
+    extension: Annotated[bool, "true if it is an extension of mudline"]
     content: Annotated[int, "digest of its values; equal for equal blocks"]
     others: Annotated[int, "digest of all other blocks; equal where decks differ in this block only"]
 
@@ -54,8 +54,8 @@ class SetRow(NamedTuple):
     elements: Annotated[int, "number of its elements"]
     first: Annotated[int | None, "smallest element number"]
     last: Annotated[int | None, "largest element number"]
-    complete: Annotated[bool, "whether the deck shows all its elements"]
-    used: Annotated[bool, "whether anything in the deck names it"]
+    complete: Annotated[bool, "true if the deck lists all its elements"]
+    used: Annotated[bool, "true if anything in the deck names it"]
     line: Annotated[int | None, "line of its definition"]
 
 
@@ -64,13 +64,14 @@ class CurveRow(NamedTuple):
 
     curve: Annotated[int, "place among the curves of the deck, from 1"]
     name: Annotated[str, "name; of *EMBEDMENT that of its set"]
-    kind: Annotated[str, "what kind of curve it is, such as force-embedment curve"]
+    kind: Annotated[str, "kind of curve, such as force-embedment curve"]
     keyword: Annotated[str, "keyword that gives it"]
-    legacy: Annotated[bool, "whether it is one of *EMBEDMENT"]
+    legacy: Annotated[bool, "true for a curve of *EMBEDMENT"]
     ratios: Annotated[
-        list[float], "embedment ratios of its points, sorted: penetration / external diameter; of others the abscissa"
+        list[float],
+        "embedment ratios of its points, sorted: penetration / external diameter; for others the abscissa",
     ]
-    forces: Annotated[list[float], "forces per unit length at these points; of others the ordinate"]
+    forces: Annotated[list[float], "forces per unit length at these points; for others the ordinate"]
     first_ratio: Annotated[float | None, "smallest embedment ratio"]
     last_ratio: Annotated[float | None, "largest embedment ratio"]
     largest_force: Annotated[float | None, "largest force per unit length at a point"]
@@ -81,18 +82,18 @@ class CurveRow(NamedTuple):
 
 
 class LawRow(NamedTuple):
-    """A seabed stiffness or curve that a place of the deck gives to a set."""
+    """A seabed stiffness or curve that the deck assigns to a set."""
 
     law: Annotated[int, "place among the laws of the deck, from 1"]
     keyword: Annotated[str, "keyword that gives it"]
     family: Annotated[str, "legacy or new"]
     kind: Annotated[str, "curve, linear, rigid or none"]
-    set: Annotated[str, "set that it is given to"]
+    set: Annotated[str, "set to which it is assigned"]
     curve: Annotated[int | None, "number of its curve"]
     stiffness: Annotated[float | None, "linear stiffness per unit length"]
     set_elements: Annotated[int, "elements of the set"]
     elements: Annotated[int, "elements that follow it"]
-    line: Annotated[int | None, "line in which it stands"]
+    line: Annotated[int | None, "line of the assignment"]
 
 
 class ParameterRow(NamedTuple):
@@ -102,7 +103,7 @@ class ParameterRow(NamedTuple):
     value: Annotated[float | None, "value, if it is a number"]
     text: Annotated[str | None, "value, if it is a text"]
     equation: Annotated[str | None, "equation, if one gives the value"]
-    used: Annotated[bool | None, "whether an equation names it; none in a deck with variations"]
+    used: Annotated[bool | None, "true if an equation names it; none in a deck with variations"]
     line: Annotated[int | None, "line of its value"]
 
 
@@ -118,14 +119,14 @@ class FindingRow(NamedTuple):
     end_line: Annotated[int | None, "line of the end"]
     end_column: Annotated[int | None, "column of the end, exclusive"]
     fix: Annotated[str | None, "safe or unsafe, if it can be fixed"]
-    blocks: Annotated[bool, "whether it keeps the deck from being evaluated"]
+    blocks: Annotated[bool, "true if it prevents evaluation of the deck"]
 
 
 TABLES: dict[str, type[Any]] = {
     f"{row.__name__.removesuffix('Row').lower()}s": row
     for row in (DeckRow, KeywordRow, SetRow, CurveRow, LawRow, ParameterRow, FindingRow)
 }
-"""The class of the rows of each table, by the name of its file and view."""
+"""Class of the rows of each table, by the name of its file and view."""
 
 
 def columns_of(table: str) -> Iterator[tuple[Any, ...]]:

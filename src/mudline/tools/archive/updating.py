@@ -1,6 +1,6 @@
-"""An archive on disk: its tables, which decks are known, and what a run changes.
+"""Archive on disk: its tables, the known decks, and the changes of a run.
 
-Tables are written beside their places and moved there together: a run may be killed at any moment.
+Tables are written next to their places and moved there together: a run may be killed at any moment.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from mudline.tools.running.remembered import Memory
 VIEWS, LOCK, _MEMORY = "archive.duckdb", "mudline.lock", ".known"
 _FORMAT = {b"mudline": b"archive/4"}
 _WRITING, _WRITTEN = ".writing", ".written"
-"""Folders of tables that are being written, and that are complete but not all in their places."""
+"""Folders of tables that are being written, and of tables that are complete but not all in their places."""
 _TYPES: dict[Any, Any] = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}
-_TYPES |= {one | None: kind for one, kind in _TYPES.items()} | {list[float]: pa.list_(pa.float64())}
+_TYPES |= {python | None: arrow for python, arrow in _TYPES.items()} | {list[float]: pa.list_(pa.float64())}
 
 
 class ArchiveError(Exception):
-    """A folder is no archive, one of another version, or damaged; the message names it."""
+    """Folder that is no archive, an archive of another version, or damaged; the message names it."""
 
 
 def check_folder(folder: Path) -> None:
@@ -45,10 +45,10 @@ def check_folder(folder: Path) -> None:
 
 
 class Archive:
-    """The tables of an archive as they were written, and what one run has read since; no other may change them.
+    """Tables of an archive as written, and the decks that this run has read; no other run may change them.
 
     Attributes:
-        counts: how many decks are new, changed, unchanged and gone.
+        counts: number of decks that are new, changed, unchanged and gone.
         memory: keys of the decks whose rows are in the tables, with the files that these depend on.
     """
 
@@ -64,24 +64,24 @@ class Archive:
         self._known = {row["file"]: row["key"] for row in self._tables["decks"].select(["file", "key"]).to_pylist()}
 
     def place(self, path: str) -> str:
-        """Return a path from the folder that holds the archive, so that both may be moved."""
+        """Return a path relative to the folder that contains the archive, so that both may be moved together."""
         return _escaped(relative_path(path, self._root))
 
     def is_new(self, place: str, key: str) -> bool:
-        """Return True if a deck is to be read: its rows are not those of this key. It is counted."""
+        """Count a deck, and return True if it must be read: the tables have no rows with this key."""
         known = self._known.get(place)
         holds = known == key and self.memory.get(key) is not None
         self.counts["unchanged" if holds else "changed" if known else "new"] += 1
         return not holds
 
     def put(self, place: str, key: str, rows: Rows, paths: Iterable[str]) -> None:
-        """Take what was read of a deck, and the paths that it depends on."""
+        """Add the rows of a deck, and the paths that they depend on."""
         self.memory.put(key, [], paths)
         self._rows[place] = {**rows, "decks": [row._replace(key=key) for row in rows["decks"]]}
 
     def remove_gone(self, seen: set[str], folders: Sequence[str], *, everywhere: bool) -> None:
-        """Remove the decks not seen below folders, and, `everywhere`, those whose files are gone; raises OSError."""
-        starts = tuple(os.path.join(one, "") for one in folders)  # noqa: PTH118 - texts
+        """Remove unseen decks below `folders`, and with `everywhere` decks whose files are gone; raises OSError."""
+        starts = tuple(os.path.join(folder, "") for folder in folders)  # noqa: PTH118 - texts
         for place in self._known.keys() - seen:
             path = os.path.normpath(os.path.join(self._root, place))  # noqa: PTH118 - a place may be on another drive
             if path.startswith(starts) or (everywhere and not os.path.lexists(path)):
@@ -89,7 +89,7 @@ class Archive:
         self.counts["gone"] = len(self._gone)
 
     def close(self) -> None:
-        """Write the tables with all that was read, and the views; raises OSError."""
+        """Write the tables with all new rows, and the views; raises OSError."""
         dropped = pa.array([*self._rows, *self._gone], pa.string())
         if len(dropped) or not (self.folder / "decks.parquet").exists():
             (self.folder / _WRITING).mkdir()
@@ -106,7 +106,7 @@ class Archive:
 
 def _write_views(folder: Path) -> None:
     """Write the database with a view of each table, named by its absolute path; raises OSError."""
-    # Not in the archive: DuckDB takes a question mark in the path of a database for the start of options.
+    # In a temporary folder: DuckDB reads a question mark in the path of a database as the start of options.
     with TemporaryDirectory(prefix="mudline-") as place:
         with duckdb.connect(str(Path(place, VIEWS))) as connection:
             for name in TABLES:
@@ -117,7 +117,7 @@ def _write_views(folder: Path) -> None:
 
 
 def _put_in_place(folder: Path) -> None:
-    """Move the tables of a save that is complete to their places, and remove those of one that is not."""
+    """Move the tables of a complete save to their places, and remove those of an incomplete save."""
     for path in (folder / _WRITTEN).glob("*.parquet"):
         path.replace(folder / path.name)
     for name in (_WRITING, _WRITTEN):
@@ -125,12 +125,12 @@ def _put_in_place(folder: Path) -> None:
 
 
 def _read(folder: Path) -> dict[str, Any]:
-    """Return the tables, empty ones of a new archive; raises ArchiveError for what is damaged or of another version."""
+    """Return the tables, empty for a new archive; raises ArchiveError for a damaged archive or another version."""
     tables = {name: _table(name, []) for name in TABLES}
     for name in TABLES if (folder / "decks.parquet").exists() else ():
         path = folder / f"{name}.parquet"
         try:
-            # pyarrow reads no path with a colon or an equals sign as it is.
+            # pyarrow cannot open a path with a colon or an equals sign.
             data = pa.BufferReader(path.read_bytes())
             tables[name] = pq.ParquetFile(data, page_checksum_verification=True).read()
         except (OSError, ValueError) as error:
@@ -142,14 +142,14 @@ def _read(folder: Path) -> dict[str, Any]:
 
 
 def _table(name: str, rows: Sequence[tuple[object, ...]]) -> Any:
-    """Return rows as a pyarrow.Table; NaN is no value."""
+    """Return rows as a pyarrow.Table; NaN becomes null."""
     schema = pa.schema([(column, _TYPES[kind]) for column, kind, _ in columns_of(name)], _FORMAT)
     columns = list(zip(*rows, strict=True)) or [()] * len(schema)
-    texts = [[_escaped(one) if isinstance(one, str) else one for one in column] for column in columns]
+    texts = [[_escaped(value) if isinstance(value, str) else value for value in column] for column in columns]
     arrays = [pa.array(values, column.type, from_pandas=True) for values, column in zip(texts, schema, strict=True)]
     return pa.Table.from_arrays(arrays, schema=schema)
 
 
 def _escaped(text: str) -> str:
-    """Return a text as UTF-8 holds it: halves of surrogate pairs, which names of files may have, are written out."""
+    """Return a text that UTF-8 can hold: halves of surrogate pairs, as in names of files, are escaped."""
     return text.encode("utf-8", "backslashreplace").decode()

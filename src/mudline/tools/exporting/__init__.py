@@ -1,1 +1,1 @@
-"""The model of a deck for other programs, what does not carry over to them, and what comes back from them."""
+"""Export of a deck's model to other programs, a report of what does not carry over, and import of their results."""

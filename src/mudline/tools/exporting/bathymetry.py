@@ -1,4 +1,4 @@
-"""A seabed from GeoTIFF, ESRI ASC or MoorDyn's grid, as few of its points as keep to a bound, and its deck."""
+"""Deck of a seabed from GeoTIFF, ESRI ASC or MoorDyn's grid, with as few points as a bound on the error allows."""
 
 from __future__ import annotations
 
@@ -27,17 +27,23 @@ _UNITS = {
     **dict.fromkeys(("us survey foot", "us survey feet", "ftus"), 1200.0 / 3937.0),
     **dict.fromkeys(("fathom", "fathoms"), 1.8288),
 }
-"""Metres in a unit of a band."""
+"""Metres per unit of a raster band."""
 _EARTH = (-11_100.0, 9_000.0)
-"""Elevations of the ground anywhere, in metres: the deepest trench and the highest mountain, rounded outwards."""
+"""Range of ground elevations on earth, in metres: deepest trench and highest mountain, rounded outwards."""
 _ISOLATED = 10.0
-"""How often the spread of all other elevations lies between them and a value that stands for a missing one."""
+"""Ratio of the gap next to a presumed fill value to the spread of all other elevations."""
 
 
 class Bed(NamedTuple):
-    """The deck of a seabed, the text of its file of points, how many points of how many, and the largest difference.
+    """Deck of a seabed made from a grid.
 
-    `above` is how many points are above the sea, X = 0 of the grid itself.
+    Attributes:
+        deck: text of the deck.
+        points: text of the file of points.
+        kept: number of points in the file.
+        given: number of points of the grid.
+        error: largest difference from the grid.
+        above: number of points above sea level, the X = 0 of the grid.
     """
 
     deck: str
@@ -49,29 +55,29 @@ class Bed(NamedTuple):
 
 
 def read_bed(path: Path, form: str) -> Floats:
-    """The points (k, 3) of a grid, elevation, easting and northing in metres; without those that have no value.
+    """Return the points (k, 3) of a grid: elevation, easting and northing in metres.
 
-    Raises OSError, or DeckError for what is not such a file.
+    Points without a value are left out. Raises OSError, or DeckError for a file that is not a grid.
     """
     file = path.as_posix()
     try:
-        found = _geotiff(path) if form == "geotiff" else _text_grid(path, form)
+        points = _geotiff(path) if form == "geotiff" else _text_grid(path, form)
     except _GridError as error:
         raise data_error(file, f"not a seabed in the form {form}: {error}", error.line) from error
     except (ValueError, IndexError, OverflowError) as error:
         raise data_error(file, f"not a seabed in the form {form}: {error}") from error
-    found = found[np.isfinite(found).all(axis=1)]
-    if len(found) < 3:
-        raise data_error(file, f"the grid has {len(found)} points with a value; expected three or more")
-    if filled := _fill(found):
+    points = points[np.isfinite(points).all(axis=1)]
+    if len(points) < 3:
+        raise data_error(file, f"the grid has {len(points)} points with a value; expected three or more")
+    if filled := _fill(points):
         raise data_error(file, filled)
-    return found
+    return points
 
 
 def _fill(points: Floats) -> str:
-    """Return what is wrong with an elevation that must be a fill value nobody declared; "" where none is.
+    """Return a message about an elevation that must be an undeclared fill value; "" if there is none.
 
-    No ground on earth is so high or so deep; or it is a round fill value, alone and far from all others.
+    No ground on earth is so high or so deep; or the value is a usual fill value, alone and far from all others.
     """
     level = points[:, 0]
     low, high = float(level.min()), float(level.max())
@@ -94,7 +100,7 @@ def _geotiff(path: Path) -> Floats:
     import rasterio  # noqa: PLC0415 - an extra
     from rasterio.errors import RasterioError  # noqa: PLC0415 - as above
 
-    path.open("rb").close()  # what cannot be opened is reported as any file
+    path.open("rb").close()  # raises OSError as for any other file
     try:
         with rasterio.open(path) as source:
             if source.crs is not None and (source.crs.is_geographic or source.crs.linear_units not in _METRE):
@@ -124,13 +130,13 @@ def _text_grid(path: Path, form: str) -> Floats:
 
 
 def _esri(lines: list[str]) -> Floats:
-    """Cells row by row from the north; the corner or the middle of the lowest on the left is given."""
+    """Return the cells row by row from the north; the corner or the middle of the lowest left cell is given."""
     head: dict[str, float] = {}
     while len(head) < len(lines) and lines[len(head)].strip()[:1].isalpha():
         key, _, value = lines[len(head)].strip().partition(" ")
         head[key.lower()] = _floats([value.strip()], len(head) + 1)[0]
-    given = {name.replace("center", "corner") for name in head}
-    if lacking := [one for one in ("ncols", "nrows", "xllcorner", "yllcorner", "cellsize") if one not in given]:
+    names = {name.replace("center", "corner") for name in head}
+    if lacking := [name for name in ("ncols", "nrows", "xllcorner", "yllcorner", "cellsize") if name not in names]:
         raise _GridError(len(head) + 1, f"{' and '.join(lacking)} missing in the header above this line")
     columns, rows, size = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
     table = [(number, words) for number, line in enumerate(lines, 1) if number > len(head) and (words := line.split())]
@@ -149,8 +155,8 @@ def _esri(lines: list[str]) -> Floats:
 
 
 def _moordyn_c(lines: list[str]) -> Floats:
-    """Numbers of columns and rows, their x and y, then x, y and elevation of each point."""
-    columns, rows = (int(one) for one in _floats(lines[0].split(), 1))
+    """Return the points after the numbers of columns and rows and their x and y: x, y and elevation of each."""
+    columns, rows = (int(number) for number in _floats(lines[0].split(), 1))
     points = [_floats(line.split(), number) for number, line in enumerate(lines[3:], 4) if line.strip()]
     if len(points) != columns * rows or any(len(point) != 3 for point in points):
         raise _GridError(4, f"expected {columns} x {rows} lines of x, y and elevation")
@@ -158,7 +164,7 @@ def _moordyn_c(lines: list[str]) -> Floats:
 
 
 def _moordyn_f(lines: list[str]) -> Floats:
-    """`nGridX n`, `nGridY m`, the x of the columns, then y and the depths of each row."""
+    """Return the points of a file with `nGridX n`, `nGridY m`, the x of the columns, then y and depths of each row."""
     columns, rows = (int(_floats(lines[at].split()[1:2], at + 1)[0]) for at in (1, 2))
     east = _floats(lines[3].split(), 4)
     table = [_floats(line.split(), number) for number, line in enumerate(lines[4 : 4 + rows], 5)]
@@ -169,7 +175,7 @@ def _moordyn_f(lines: list[str]) -> Floats:
 
 
 class _GridError(ValueError):
-    """A fault of a grid in text, with its line."""
+    """Fault in a grid in text form, with its line."""
 
     def __init__(self, line: int, message: str) -> None:
         super().__init__(message)
@@ -177,21 +183,22 @@ class _GridError(ValueError):
 
 
 def _floats(words: list[str], line: int) -> Floats:
-    """Return the numbers of a line; raises _GridError for a word that is none."""
-    found = np.empty(len(words))
+    """Return the numbers of a line; raises _GridError for a word that is not a number."""
+    numbers = np.empty(len(words))
     for at, word in enumerate(words):
         try:
-            found[at] = float(word)
+            numbers[at] = float(word)
         except ValueError:
             comma = ": write a point for the decimal comma" if "," in word else ""
             raise _GridError(line, f"{word!r} is not a number{comma}") from None
-    return found
+    return numbers
 
 
 def thinned(points: Floats, within: float) -> Indices:
-    """Points (indices) whose triangles, as the deck's seabed is evaluated, are `within` a bound of all the points.
+    """Return points (indices) whose triangulated seabed is `within` a bound of all points.
 
-    From the corners of the hull on, the worst point of each of some blocks is taken, until none is farther off.
+    Starting from the corners of the hull, the worst point of each block of the plane is added until none exceeds the
+    bound.
     """
     places = points[:, 1:] - points[:, 1:].min(axis=0)
     chosen: Indices = np.sort(ConvexHull(places).vertices.astype(np.intp))
@@ -209,30 +216,30 @@ def thinned(points: Floats, within: float) -> Indices:
 
 
 def differences(points: Floats, kept: Floats) -> Floats:
-    """Elevation of the seabed through some points less that of all (k,); NaN where it has none."""
+    """Return the elevation of the seabed through some points minus that of all points (k,); NaN outside the seabed."""
     return ScatteredSeabed(kept).elevation(points[:, 1], points[:, 2]) - points[:, 0]
 
 
 def bed_deck(path: Path, form: str, output: str, within: float, origin: tuple[float, float, float]) -> Bed:
-    """Read a grid and make its deck; `origin` is the elevation, easting and northing of X = Y = Z = 0.
+    """Return the deck of a grid; `origin` is the elevation, easting and northing of X = Y = Z = 0.
 
-    Raises OSError, or DeckError for what is not a grid or has its points on a line.
+    Raises OSError, or DeckError for a file that is not a grid or has its points on one line.
     """
     grid = read_bed(path, form)
-    given = grid - np.array(origin)
+    local = grid - np.array(origin)
     try:
-        kept = given[thinned(given, within)]
+        kept = local[thinned(local, within)]
     except (QhullError, ValueError) as error:
         raise data_error(path.as_posix(), f"the points make no surface: {str(error).splitlines()[0]}") from error
     rows = "".join(f"{x!r}, {y!r}, {z!r}\n" for x, y, z in kept.tolist())
-    # The bound holds for what is read back from the text, evaluated as the deck is.
-    off = np.abs(differences(given, parse_profile(rows.encode(), output, 3)))
+    # The bound must hold for the numbers in the text, evaluated as in the deck.
+    off = np.abs(differences(local, parse_profile(rows.encode(), output, 3)))
     worst = float(np.nan_to_num(off, nan=np.inf).max())
     elevation, east, north = map(shown, origin, (12, 12, 12))
     head = [
-        f"Seabed of {one_line(path.name)}: {len(kept)} of {len(given)} points of the grid",
+        f"Seabed of {one_line(path.name)}: {len(kept)} of {len(local)} points of the grid",
         f"No point of the grid is more than {shown(worst, 3)} m off, {shown(within)} m were allowed",
         f"X = 0 is at elevation {elevation}; Y is easting - {east}, Z northing - {north}. Metres",
     ]
     deck = [*(f"C {line}" for line in head), "$MODEL", "*SEABED PROFILE", " TYPE=3D", f" FILE={output}"]
-    return Bed("".join(f"{line}\n" for line in deck), rows, len(kept), len(given), worst, int((grid[:, 0] > 0.0).sum()))
+    return Bed("".join(f"{line}\n" for line in deck), rows, len(kept), len(local), worst, int((grid[:, 0] > 0.0).sum()))

@@ -1,4 +1,4 @@
-"""Which nodes a deck holds, in which degrees of freedom, and what became of the ends of its lines."""
+"""Nodes that a deck holds, in which degrees of freedom, and the report on the ends of its lines."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 from mudline.basics.quantities import shown
 from mudline.model.scene.boundary import TRANSLATIONS, conditions
 from mudline.model.scene.model import Scene
-from mudline.tools.exporting.report import Report, Status
+from mudline.tools.exporting.report import ExportReport, Outcome
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.loads import Boundary
@@ -18,7 +18,7 @@ _NO_FREEDOMS: frozenset[int] = frozenset()
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """An end of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
+    """End of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
 
     node: int
     held: frozenset[int]
@@ -26,65 +26,65 @@ class End:
 
     @property
     def joins(self) -> bool:
-        """Whether lines join there and nothing else holds it."""
+        """True if lines join there and nothing else holds the node."""
         return not self.held & TRANSLATIONS
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
-    """The degrees of freedom in which `*BOUNDARY` holds nodes, by their indices, and those that a vessel moves."""
+class HeldNodes:
+    """Degrees of freedom in which `*BOUNDARY` holds nodes, by their indices, and the nodes that a vessel moves."""
 
     freedoms: dict[int, frozenset[int]] = field(default_factory=dict)
     moved: set[int] = field(default_factory=set)
 
     def of(self, node: int) -> frozenset[int]:
-        """Those of a node."""
+        """Return the held degrees of freedom of a node."""
         return self.freedoms.get(node, _NO_FREEDOMS)
 
 
-def read_held(scene: Scene, report: Report) -> Held:
-    """What `*BOUNDARY` holds; displacements and types of other motions are added to the report."""
-    held = Held()
+def read_held(scene: Scene, report: ExportReport) -> HeldNodes:
+    """Return the nodes held by `*BOUNDARY`; displacements and other types of motion are added to the report."""
+    held = HeldNodes()
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
         for each in cast("Boundary", block).types:
             if each.type_ not in ("CONSTANT", "VESSEL"):
                 effect = "its nodes are held and not moved"
-                report.add(where, Status.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
+                report.add(where, Outcome.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
             for nodes, freedoms, value in conditions(scene, each):
                 for node in nodes.tolist():
                     held.freedoms[node] = held.of(node) | freedoms
                 held.moved.update(nodes.tolist() if each.type_ == "VESSEL" else ())
                 if value:
                     effect = f"node {int(scene.node_ids[nodes[0]])} stays where its coordinates are"
-                    report.add(where, Status.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
+                    report.add(where, Outcome.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
     return held
 
 
-def report_inside(scene: Scene, report: Report, held: Held, ends: set[int]) -> None:
-    """Add the nodes inside of lines that are held in a part of their degrees of freedom."""
+def report_inside(scene: Scene, report: ExportReport, held: HeldNodes, ends: set[int]) -> None:
+    """Report nodes inside lines that are held in some of their degrees of freedom."""
     inside: dict[str, list[int]] = {}
     for node in sorted(set(held.freedoms) - ends):
         inside.setdefault(", ".join(map(str, sorted(held.of(node)))), []).append(int(scene.node_ids[node]))
     where = [at for at, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for freedoms, nodes in inside.items():
         effect = f"inside of a line: free here (nodes: {len(nodes)}, the first {nodes[0]})"
-        report.add(where[-1], Status.LEFT_OUT, "none", effect, f"DOF {freedoms}")
+        report.add(where[-1], Outcome.LEFT_OUT, "none", effect, f"DOF {freedoms}")
 
 
-def report_ends(report: Report, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
-    """Add what became of the ends: held where they may move a little, on vessels, against rotation."""
+def report_ends(report: ExportReport, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
+    """Report the ends: held although partly free, on vessels, fixed against rotation."""
     scene = report.scene
     places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for where in places:
-        report.add(where, Status.CARRIED, f"{fixed}, {vessel} ends")
+        report.add(where, Outcome.CARRIED, f"{fixed}, {vessel} ends")
     for end in ends:
         node = f"node {int(scene.node_ids[end.node])}"
         if end.vessel:
-            status = Status.CARRIED if vessel != fixed else Status.APPROXIMATED
+            status = Outcome.CARRIED if vessel != fixed else Outcome.APPROXIMATED
             report.add(places[-1], status, vessel, f"{node} stays where it is until it is moved", f"vessel at {node}")
         if not end.joins and (missing := sorted(TRANSLATIONS - end.held)):
             effect = f"free in DOF {', '.join(map(str, missing))} in the deck: held at its coordinates"
-            report.add(places[-1], Status.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
+            report.add(places[-1], Outcome.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
         if not clamps and (turned := sorted(end.held - TRANSLATIONS)):
             effect = f"no moment at {node}: the line turns freely there"
-            report.add(places[-1], Status.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")
+            report.add(places[-1], Outcome.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")

@@ -1,7 +1,7 @@
-"""One description of a deck's lines for all targets: sections, stretches of them, end points, the seabed below.
+"""Description of a deck's lines for all targets: sections, stretches, end points, seabed.
 
-In SI units and the axes of the targets: x and y horizontal, those of Y and Z in the deck, z up from the surface of the
-sea; the mudline of the deck's X = 0 is at z = -depth.
+SI units in the axes of the targets: x and y horizontal, equal to Y and Z of the deck, z up from the sea surface. The
+mudline at X = 0 of the deck is at z = -depth.
 """
 
 from __future__ import annotations
@@ -28,28 +28,28 @@ from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
 from mudline.tools.exporting.held import End, read_held, report_inside
-from mudline.tools.exporting.report import Report, Status
-from mudline.tools.exporting.soil import Soil, Units, soils_of
+from mudline.tools.exporting.report import ExportReport, Outcome
+from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
     from mudline.model.contact.seabed import Seabed
 
 _ALIKE = 1e-3
-"""Part of the longest element by which lengths differ that are alike."""
+"""Share of the longest element by which equal lengths may differ."""
 _AROUND = 5
-"""Elements in contact next to a touchdown point, whose seabed is that of targets that have but one."""
+"""Elements in contact next to each touchdown point whose seabed is used for targets with one seabed."""
 _DRAG, _ADDED = 1.2, 1.0
-"""Coefficients where the deck has none."""
-_UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
+"""Coefficients used if the deck has none."""
+_UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
 @dataclass(frozen=True, slots=True)
 class PipeSection:
-    """A cross-section with its contents and coefficients.
+    """A cross-section with its contents and coefficients, in SI units.
 
-    `diameter` is the one of contact, `buoyancy` that of the displaced water. `mass` includes the `contents`. Drag and
-    added mass, across and along, are coefficients for the buoyancy diameter; `assumed` says that the deck has none.
+    `diameter` is that of contact, `buoyancy` that of the displaced water. `mass` includes the `contents`. Coefficients
+    of drag and added mass, across and along, refer to the buoyancy diameter. `assumed` is True if the deck has none.
     """
 
     name: str
@@ -70,8 +70,8 @@ class PipeSection:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
-    """Elements in a row with one section and one seabed: indices in the model, of the k + 1 nodes, and k lengths."""
+class LineStretch:
+    """Consecutive elements with one section and one seabed: indices of k + 1 nodes in the model, and k lengths."""
 
     section: int
     soil: int
@@ -80,80 +80,80 @@ class Stretch:
 
     @property
     def is_even(self) -> bool:
-        """Whether the elements are of one length, but for the rounding of coordinates."""
+        """True if the elements have equal lengths, apart from the rounding of coordinates."""
         return bool(np.ptp(self.lengths) <= _ALIKE * self.lengths.max())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ExportLine:
-    """A line from one end to the other; `begin` and `end` count in the ends of the model."""
+    """A line from one end to the other; `begin` and `end` are indices of the model's ends."""
 
     name: str
     begin: int
     end: int
-    stretches: list[Stretch]
+    stretches: list[LineStretch]
 
-    def pieces(self, key: Callable[[Stretch], object]) -> list[Stretch]:
-        """The stretches, joined where those in a row have the same key."""
-        joined: list[Stretch] = []
-        for one in self.stretches:
+    def pieces(self, key: Callable[[LineStretch], object]) -> list[LineStretch]:
+        """Return the stretches, with consecutive stretches of the same key joined."""
+        joined: list[LineStretch] = []
+        for stretch in self.stretches:
             last = joined[-1] if joined else None
-            if last is None or key(last) != key(one):
-                joined.append(one)
+            if last is None or key(last) != key(stretch):
+                joined.append(stretch)
                 continue
-            nodes, lengths = np.append(last.nodes, one.nodes[1:]), np.append(last.lengths, one.lengths)
-            joined[-1] = Stretch(last.section, last.soil, nodes, lengths)
+            nodes, lengths = np.append(last.nodes, stretch.nodes[1:]), np.append(last.lengths, stretch.lengths)
+            joined[-1] = LineStretch(last.section, last.soil, nodes, lengths)
         return joined
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineModel:
-    """The lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is that of X = 0."""
+    """Lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is the water depth at X = 0."""
 
     scene: Scene
-    report: Report
+    report: ExportReport
     places: Floats
     depth: float
     density: float
     gravity: float
     sections: list[PipeSection]
-    soils: list[Soil]
+    soils: list[ExportSoil]
     soil_lengths: Floats
     at_touchdown: bool
     ends: list[End]
     lines: list[ExportLine]
     seabed: Seabed | None
-    units: Units
+    units: SiFactors
 
     def mudline(self, x: Floats, y: Floats) -> Floats:
-        """Elevation z of the seabed; NaN where there is none."""
+        """Return the elevation z of the seabed; NaN where there is none."""
         if self.seabed is None:
             return np.full(np.shape(x), -self.depth)
         size = self.units.length
         return self.seabed.elevation(np.asarray(x) / size, np.asarray(y) / size) * size - self.depth
 
     def levels(self, x: Floats, y: Floats) -> Floats:
-        """The same for a target whose seabed has no end: where the deck has none, the lowest that is known."""
+        """Return the elevation of an unbounded seabed: outside the deck's seabed, its lowest known elevation."""
         level = self.mudline(x, y)
         known = level[~np.isnan(level)]
         return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
 
     def line_of(self, where: Where) -> int:
-        """The line of a place in its file."""
+        """Return the line of a place in its file."""
         return self.scene.deck.place(Problem(RUN001, "", where=where)).line
 
     def line_nodes(self) -> Indices:
-        """The nodes of all lines, each once."""
+        """Return the nodes of all lines, each once."""
         return np.unique(np.concatenate([part.nodes for line in self.lines for part in line.stretches]))
 
 
 def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     """Describe the lines of a deck that can be evaluated, at positions (n, 3) of its nodes or its own coordinates.
 
-    Raises DeckError: units that are not known, no elements, no ocean, an element without a section or an axial
-    stiffness, an end that nothing holds, a closed line, a seabed that is not known.
+    Raises DeckError for unknown units, a deck without elements or ocean, and an element without a section or an axial
+    stiffness. Also raised for an end that nothing holds, a closed line, and an unknown seabed.
     """
-    report = Report(scene)
+    report = ExportReport(scene)
     units = _UNITS.get(scene.units)
     if units is None:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
@@ -161,10 +161,10 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     around, depth = scene.surroundings, _depth(scene)
     sections, of_element = _sections(scene, units)
     soils, soil_of = soils_of(scene, units)
-    given = scene.coordinates if positions is None else positions
-    places = given[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
+    positions_used = scene.coordinates if positions is None else positions
+    places = positions_used[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
     ends, lines = _lines(scene, report, units, of_element, soil_of)
-    result = scene.contact().evaluate(given)
+    result = scene.contact().evaluate(positions_used)
     carried = np.array([each.stiffness > 0.0 for each in soils])[soil_of]
     near = _around_touchdown(result, (result.depth.reshape(-1) > 0.0) & carried)
     weights = np.select([near, result.depth.reshape(-1) > 0.0], [1e12, 1e6], 1.0)
@@ -186,7 +186,7 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
 
 
 def _around_touchdown(result: ContactResult, carried: Mask) -> Mask:
-    """The elements (m,) nearest to each touchdown point of their line, of those that a law carries in contact."""
+    """Return a mask (m,) of the elements nearest to each touchdown point of their line, among the carried elements."""
     lines, near = result.known.lines, np.zeros(len(carried), np.bool_)
     for line in line_summaries(result):
         elements = lines.elements[line.line - 1]
@@ -201,12 +201,14 @@ def _require_elements(scene: Scene) -> None:
     if not len(scene.element_ids):
         makers = unread_makers(scene.set_table.context.external_definers, "ELEMENT")
         blocks = (
-            (i, j, block.keyword) for i, one in enumerate(scene.deck.sections) for j, block in enumerate(one.blocks)
+            (i, j, block.keyword)
+            for i, section in enumerate(scene.deck.sections)
+            for j, block in enumerate(section.blocks)
         )
         where = next((Where(i, j) for i, j, keyword in blocks if keyword in makers), None)
-        names = " or ".join(f"*{one}" for one in makers)
+        names = " or ".join(f"*{maker}" for maker in makers)
         why = f": those of {names} are not in it, as its lines have no public format" if makers else ""
-        raise scene.refusal(f"the deck shows no elements to export{why}; give nodes and elements", where)
+        raise scene.refusal(f"the deck has no elements to export{why}; give nodes and elements", where)
     unknown = np.flatnonzero((scene.element_nodes < 0).any(axis=1) | ~np.isfinite(scene.length))
     if unknown.size:
         message = "the element has no known length, so its line cannot be exported: give coordinates to its nodes"
@@ -224,8 +226,8 @@ def _depth(scene: Scene) -> float:
 # ------------------------------------------------------------------------------------------------------- sections
 
 
-def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
-    """The cross-sections in use, in the order of the deck, and that of each element (m,)."""
+def _sections(scene: Scene, units: SiFactors) -> tuple[list[PipeSection], Indices]:
+    """Return the cross-sections in use, in the order of the deck, and that of each element (m,)."""
     table = scene.section_table
     bare = np.flatnonzero(table.of_element < 0)
     if bare.size:
@@ -235,11 +237,11 @@ def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
     own = [pipe.contents, pipe.drag, pipe.added_mass, pipe.axial_drag_coefficient, pipe.axial_added_mass]
     keys = np.column_stack([table.of_element, *np.nan_to_num(own), pipe.has_coefficients])
     _, firsts, of_element = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    found = [_pipe(scene, units, table.sections[int(table.of_element[at])], pipe, at) for at in firsts.tolist()]
-    return found, of_element.ravel()
+    pipes = [_pipe(scene, units, table.sections[int(table.of_element[at])], pipe, at) for at in firsts.tolist()]
+    return pipes, of_element.ravel()
 
 
-def _pipe(scene: Scene, units: Units, section: Section, pipe: Pipe, element: int) -> PipeSection:
+def _pipe(scene: Scene, units: SiFactors, section: Section, pipe: Pipe, element: int) -> PipeSection:
     row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
@@ -275,16 +277,16 @@ def _pipe(scene: Scene, units: Units, section: Section, pipe: Pipe, element: int
 
 
 def _plain(coefficient: float) -> float:
-    """A coefficient without the rounding of what it was divided by."""
+    """Return a coefficient without the rounding error of a division."""
     return float(f"{coefficient:.12g}")
 
 
 def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
-    """Add what became of each cross-section: its name in the target, curves by their slope at 0, torsion."""
+    """Report each cross-section: its name in the target, curves by their slope at 0, torsion."""
     for section, name in zip(model.sections, names, strict=True):
-        given = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
-        curved = [each for each in ("eiyy_curve", "ei_curve", *STIFFNESS_CURVES) if getattr(given, each)]
-        status = Status.APPROXIMATED if curved else Status.CARRIED
+        entry = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
+        curved = [each for each in ("eiyy_curve", "ei_curve", *STIFFNESS_CURVES) if getattr(entry, each)]
+        status = Outcome.APPROXIMATED if curved else Outcome.CARRIED
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
         effect += f", mass with {shown(section.contents, 4)} kg/m of contents" if section.contents else ""
@@ -292,14 +294,14 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     _report_water(model, target)
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
-        model.report.add(twisted[0].where, Status.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
+        model.report.add(twisted[0].where, Outcome.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
     for keyword in (BENDING_CURVES, *STIFFNESS_CURVES.values()):
         for where, _ in model.scene.deck.blocks(keyword):
-            model.report.add(where, Status.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
+            model.report.add(where, Outcome.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 
 
 def _report_water(model: LineModel, target: str) -> None:
-    """Add what became of coefficients and contents."""
+    """Report coefficients and contents."""
     deck = model.scene.deck
     for where, block in deck.blocks("HYDRODYNAMIC SETS"):
         entries = cast("HydrodynamicSets", block).sets
@@ -311,21 +313,21 @@ def _report_water(model: LineModel, target: str) -> None:
             effects += ["drag along as it is written, on an area that the manual does not show"]
         if any(section.assumed for section in model.sections):
             effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
-        status = Status.APPROXIMATED if effects else Status.CARRIED
+        status = Outcome.APPROXIMATED if effects else Outcome.CARRIED
         model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
         effect = "its mass at rest; pressure and flow are not written"
-        model.report.add(where, Status.APPROXIMATED, f"mass of each {target}", effect)
+        model.report.add(where, Outcome.APPROXIMATED, f"mass of each {target}", effect)
 
 
 # ---------------------------------------------------------------------------------------------------------- lines
 
 
 def _lines(
-    scene: Scene, report: Report, units: Units, section_of: Indices, soil_of: Indices
+    scene: Scene, report: ExportReport, units: SiFactors, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
     held = read_held(scene, report)
-    found = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
+    traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     ends: dict[int, End] = {}
     order: dict[int, int] = {}
@@ -340,7 +342,7 @@ def _lines(
             ends[node] = end
         return order.setdefault(node, len(order))
 
-    for elements, nodes in zip(found.elements, found.nodes, strict=True):
+    for elements, nodes in zip(traced.elements, traced.nodes, strict=True):
         if nodes[0] == nodes[-1]:
             message = "the line of this node is closed, and has no end to be held by: it cannot be exported"
             raise scene.refusal(message, scene.nodes.where(int(nodes[0])))
@@ -352,7 +354,9 @@ def _lines(
             keys = np.column_stack([section_of[part], soil_of[part]])
             starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
             stretches = [
-                Stretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length)
+                LineStretch(
+                    int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length
+                )
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))

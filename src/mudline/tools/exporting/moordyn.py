@@ -1,7 +1,7 @@
-"""MoorDyn v2: the input file, and the file of the seabed where that is not flat.
+"""MoorDyn v2: the input file, and the file of a seabed that is not flat.
 
-One stiffness (kBot, per area of the projected pipe) and one friction coefficient hold for the whole seabed. A line type
-begins where the section changes; there lines are joined by points, which carry no moment.
+One stiffness (kBot, per area of the projected pipe) and one friction coefficient apply to the whole seabed. A line type
+begins where the section changes. There, lines are joined by points, which transmit no moment.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from mudline.basics.quantities import shown
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, PipeSection, Stretch, report_sections
-from mudline.tools.exporting.report import Names, Status
+from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_sections
+from mudline.tools.exporting.report import Outcome, TargetNames
 from mudline.tools.exporting.soil import (
-    Soil,
+    ExportSoil,
     distance,
     governing,
     report_friction,
@@ -29,23 +29,23 @@ from mudline.tools.exporting.soil import (
 
 TITLE = "MoorDyn v2"
 _FINEST = 2
-"""Segments are not more than this times the elements."""
+"""Largest ratio of segments to elements."""
 _GRID = 200
 
 
-def pieces(model: LineModel) -> list[list[Stretch]]:
-    """The lines of MoorDyn along each line of the model: sections of the same numbers are one line type."""
+def pieces(model: LineModel) -> list[list[LineStretch]]:
+    """Return the lines of MoorDyn along each line of the model: sections with the same numbers are one line type."""
     return [line.pieces(lambda each: alike(model, each.section)) for line in model.lines]
 
 
 def alike(model: LineModel, section: int) -> int:
-    """The first section with the numbers of a section, as far as MoorDyn has them."""
+    """Return the first section with the same numbers, as far as MoorDyn has them."""
     numbers = [_numbers(each) for each in model.sections]
     return numbers.index(numbers[section])
 
 
-def segments(piece: Stretch) -> int:
-    """How many equal segments a line of MoorDyn has: as short as its shortest element, up to a number."""
+def segments(piece: LineStretch) -> int:
+    """Return the number of equal segments of a line of MoorDyn: as short as its shortest element, up to a limit."""
     elements = len(piece.lengths)
     if piece.is_even:
         return elements
@@ -53,8 +53,8 @@ def segments(piece: Stretch) -> int:
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
-    """The text of each file by its name; `name` is that of the input file."""
-    names = Names(model.report, "A-Za-z0-9_", 32)
+    """Return the text of each file by its name; `name` is that of the input file."""
+    names = TargetNames(model.report, "A-Za-z0-9_", 32)
     first = [alike(model, at) for at in range(len(model.sections))]
     taken = {at: names.take(model.sections[at].name, model.sections[at].where) for at in dict.fromkeys(first)}
     types = [taken[at] for at in first]
@@ -101,7 +101,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
 
 
 def _numbers(section: PipeSection) -> tuple[float, ...]:
-    """What MoorDyn has of a section: diameter, mass, EA, damping, EI, Cd, Ca, CdAx, CaAx."""
+    """Return the numbers of a section for MoorDyn: diameter, mass, EA, damping, EI, Cd, Ca, CdAx, CaAx."""
     water = (section.drag, section.added, section.axial_drag, section.axial_added)
     return (section.buoyancy, section.mass, section.axial, -1.0, section.bending, *water)
 
@@ -111,13 +111,13 @@ def _line_type(section: PipeSection, name: str) -> str:
 
 
 def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
-    """The rows of points: the ends, then the joints; and those of lines."""
+    """Return the rows of points, ends first and joints second, and the rows of lines."""
     on_bed = model.levels(*model.places[:, :2].T)
     rows: list[str] = []
 
     def add_point(node: int, kind: str) -> None:
         x, y, z = model.places[node].tolist()
-        # MoorDyn lowers the whole seabed to a point that is below it.
+        # MoorDyn lowers the whole seabed to a point below it.
         rows.append(f"{len(rows) + 1} {kind} {x!r} {y!r} {max(z, float(on_bed[node]))!r} 0 0 0 0")
 
     for end in model.ends:
@@ -137,7 +137,7 @@ def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _time_step(model: LineModel) -> float:
-    """Two fifths of what the fastest wave along a segment takes, or bending from node to node."""
+    """Return two fifths of the time of the fastest wave along a segment, or of bending between nodes."""
     steps = []
     for part in (part for parts in pieces(model) for part in parts):
         section, size = model.sections[part.section], float(part.lengths.sum()) / segments(part)
@@ -151,13 +151,13 @@ def _time_step(model: LineModel) -> float:
 
 
 def _grid(model: LineModel) -> str:
-    """The file of the seabed: numbers of columns and rows, their x and y, and x, y and z of each point."""
+    """Return the file of the seabed: numbers of columns and rows, their x and y, and x, y and z of each point."""
     x, y = (_axis(model, axis) for axis in (0, 1))
     corners = np.meshgrid(x, y, indexing="ij")
     level = model.levels(*(each.ravel() for each in corners)).reshape(len(x), len(y))
     places = model.places[model.line_nodes()]
     worst = float(np.abs(_bilinear(x, y, level, places) - model.levels(places[:, 0], places[:, 1])).max())
-    status = Status.CARRIED if worst < 1e-6 else Status.APPROXIMATED
+    status = Outcome.CARRIED if worst < 1e-6 else Outcome.APPROXIMATED
     effect = f"largest difference below the nodes {shown(worst, 3)} m"
     model.report.add(model.scene.seabed.where, status, f"a grid of {len(x)} x {len(y)} points", effect)
     rows = [
@@ -170,7 +170,7 @@ def _grid(model: LineModel) -> str:
 
 
 def _axis(model: LineModel, axis: int) -> Floats:
-    """The columns of the grid: ends for a plane, the points of a profile along the axis, else evenly spaced ones."""
+    """Return the columns of the grid: ends of a plane, points of a profile along the axis, else evenly spaced."""
     shape = model.scene.seabed
     along = model.places[model.line_nodes()]
     low, high = along.min(axis=0), along.max(axis=0)
@@ -180,8 +180,8 @@ def _axis(model: LineModel, axis: int) -> Floats:
     if shape.kind is SeabedKind.SLOPING or (straight and axis == 1):
         return ends
     if straight:
-        given = shape.points[:, 0] * model.units.length
-        return np.unique([*ends, *given[(given > ends[0]) & (given < ends[1])]])
+        points = shape.points[:, 0] * model.units.length
+        return np.unique([*ends, *points[(points > ends[0]) & (points < ends[1])]])
     size = float((high - low)[:2].max() + 2.0 * margin) / _GRID
     return np.linspace(float(ends[0]), float(ends[1]), max(2, ceil((ends[1] - ends[0]) / size) + 1))
 
@@ -197,7 +197,7 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 # --------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, types: list[str], soil: Soil, stiffness: float, width: dict[int, float]) -> None:
+def _report(model: LineModel, types: list[str], soil: ExportSoil, stiffness: float, width: dict[int, float]) -> None:
     report = model.report
     report_sections(model, "line type", names=types, torsion=False)
     report_ends(report, model.ends, "Fixed", "Coupled")
@@ -212,16 +212,18 @@ def _report(model: LineModel, types: list[str], soil: Soil, stiffness: float, wi
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
             effect = "MoorDyn lowers its seabed to a point that is below it"
             place = model.scene.nodes.where(end.node)
-            report.add(place, Status.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
+            report.add(place, Outcome.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)
         if not part.is_even:
             least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
             effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
-            report.add(blocks[-1], Status.APPROXIMATED, "equal segments", effect, "lengths")
+            report.add(blocks[-1], Outcome.APPROXIMATED, "equal segments", effect, "lengths")
     joints = sum(len(parts) - 1 for parts in pieces(model))
     if joints and any(section.bending for section in model.sections):
         where = model.sections[0].where
-        report.add(where, Status.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints")
+        report.add(
+            where, Outcome.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints"
+        )
     report.finish()

@@ -1,7 +1,8 @@
-"""OrcaFlex: a text data file (YAML). One normal stiffness, or one nonlinear soil, holds for the whole seabed.
+"""OrcaFlex: a text data file (YAML). One normal stiffness, or one nonlinear soil, applies to the whole seabed.
 
-The source of the name of each data item is in `docs/export.md`. Units are those of the system SI there: metre, tonne,
-kilonewton. Penetration is that of the underside of the pipe, so the seabed lies half a diameter below that of the deck.
+`docs/export.md` has the source of the name of each data item. Units are those of the program's SI system: metre, tonne,
+kilonewton. The penetration is that of the invert of the pipe, so the seabed lies half a diameter below that of the
+deck.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ from mudline.basics.quantities import shown
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, Stretch, report_sections
-from mudline.tools.exporting.report import Names, Status, one_line, short_name
+from mudline.tools.exporting.line_model import LineModel, LineStretch, report_sections
+from mudline.tools.exporting.report import Outcome, TargetNames, one_line, short_name
 from mudline.tools.exporting.soil import (
-    Soil,
+    ExportSoil,
     distance,
     governing,
     kilo,
@@ -45,32 +46,32 @@ _DEFAULTS = (
     ("suction_decay", 1.0),
     ("repenetration", 0.3),
 )
-"""Of the nonlinear soil model, by the parameters of `*SEABED SOIL`."""
+"""Defaults of the nonlinear soil model, by the parameters of `*SEABED SOIL`."""
 _BUOYANCY = 1.5
-"""Default of its factor of the weight of displaced soil."""
+"""Default factor of the weight of displaced soil."""
 
 Items = dict[str, object]
 
 
-def pieces(model: LineModel) -> list[list[Stretch]]:
-    """The sections of OrcaFlex along each line of the model: a line type has its friction."""
+def pieces(model: LineModel) -> list[list[LineStretch]]:
+    """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
     return [line.pieces(lambda each: (each.section, each.soil)) for line in model.lines]
 
 
-def segments(piece: Stretch) -> int:
-    """How many segments the target segment length, that of the shortest element, makes of a section."""
+def segments(piece: LineStretch) -> int:
+    """Return the number of segments of a section: its length over the target segment length, the shortest element."""
     return max(1, round(float(piece.lengths.sum() / piece.lengths.min())))
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
-    """The text of the file by its name. Raises DeckError: lines join at a node that nothing holds, a slope above 45."""
+    """Return the text of the file by its name. Raises DeckError for lines joined at a free node and slopes above 45."""
     for end in model.ends:
         if end.joins:
             message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
             raise model.scene.refusal(message, model.scene.nodes.where(end.node))
     soil = governing(model.soils, model.soil_lengths)
     keys = dict.fromkeys(_key(model, piece) for parts in pieces(model) for piece in parts)
-    taken = Names(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
+    taken = TargetNames(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
     names = {key: taken.take(model.sections[key[0]].name, model.sections[key[0]].where) for key in keys}
     environment = _environment(model, soil)
     lines = [_line(model, at, names) for at in range(len(model.lines))]
@@ -89,7 +90,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
 
 
 def _rows(items: Items, margin: str) -> list[str]:
-    """Items as lines; a list of lists is a table, with a line for each of its rows."""
+    """Return items as lines; a list of lists is a table, with a line for each of its rows."""
     rows: list[str] = []
     for key, value in items.items():
         if key == "#":
@@ -113,10 +114,10 @@ def _value(value: object) -> str:
 # ------------------------------------------------------------------------------------------------------ line types
 
 Key = tuple[int, float, float]
-"""Of a line type: section, and the coefficients of friction along and across."""
+"""Key of a line type: section, and the coefficients of friction along and across."""
 
 
-def _key(model: LineModel, piece: Stretch) -> Key:
+def _key(model: LineModel, piece: LineStretch) -> Key:
     soil = model.soils[piece.soil]
     return piece.section, soil.axial, soil.lateral
 
@@ -159,8 +160,8 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     }
 
 
-def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
-    """Where an end is, and the direction of the line there, from A to B."""
+def _end(model: LineModel, index: int, piece: LineStretch) -> list[object]:
+    """Return the place of an end, and the direction of the line there, from A to B."""
     first = piece.nodes[0] == model.ends[index].node
     inner = piece.nodes[1] if first else piece.nodes[-2]
     place = model.places[model.ends[index].node]
@@ -171,12 +172,12 @@ def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
 # ----------------------------------------------------------------------------------------------------- environment
 
 
-def _environment(model: LineModel, soil: Soil) -> Items:
+def _environment(model: LineModel, soil: ExportSoil) -> Items:
     shape = model.scene.seabed
     half = 0.5 * soil.diameter
-    said = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
+    law = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
     items: Items = {
-        "#": f"seabed: {said}",
+        "#": f"seabed: {law}",
         "Density": model.density / 1e3,
         "SeabedType": "Flat",
         "SeabedOrigin": [0.0, 0.0],
@@ -188,7 +189,7 @@ def _environment(model: LineModel, soil: Soil) -> Items:
         depth = model.depth + half / cos(radians(slope))
         items |= {"WaterDepth": depth, "SeabedSlopeDirection": direction % 360.0, "SeabedSlope": slope}
         if shape.kind is SeabedKind.SLOPING:
-            model.report.add(shape.where, Status.CARRIED, f"SeabedSlope {shown(slope)}")
+            model.report.add(shape.where, Outcome.CARRIED, f"SeabedSlope {shown(slope)}")
     else:
         items |= {"SeabedType": "Profile"} | _profile(model, half)
     if soil.kind is not LawKind.SOIL:
@@ -207,12 +208,12 @@ def _environment(model: LineModel, soil: Soil) -> Items:
 
 
 def _profile(model: LineModel, half: float) -> Items:
-    """The points of a profile; of any other seabed those below the first line, in the direction from end to end."""
+    """Return the points of a profile; for any other seabed those below the first line, from end to end."""
     shape, line, size = model.scene.seabed, model.lines[0], model.units.length
     if shape.kind is SeabedKind.PROFILE:
         rows = np.column_stack([shape.points[:, 0] * size, model.depth - shape.points[:, 1] * size + half])
         effect = "between its points as OrcaFlex interpolates"
-        model.report.add(shape.where, Status.APPROXIMATED, f"profile of {len(rows)} points", effect)
+        model.report.add(shape.where, Outcome.APPROXIMATED, f"profile of {len(rows)} points", effect)
         return {"SeabedSlopeDirection": shape.direction % 360.0, _PROFILE: rows[np.argsort(rows[:, 0])].tolist()}
     first, last = (model.places[model.ends[index].node][:2] for index in (line.begin, line.end))
     length = float(np.hypot(*(last - first)))
@@ -223,7 +224,7 @@ def _profile(model: LineModel, half: float) -> Items:
     error = np.abs(np.interp((places[:, :2] - first) @ along, distance, level) - model.levels(*places[:, :2].T))
     off = shown(float(error.max()), 3)
     effect = f"the seabed below {line.name}, level across it: up to {off} m off below the nodes"
-    model.report.add(shape.where, Status.APPROXIMATED, f"profile of {_POINTS} points", effect)
+    model.report.add(shape.where, Outcome.APPROXIMATED, f"profile of {_POINTS} points", effect)
     return {
         "SeabedOrigin": first.tolist(),
         "SeabedSlopeDirection": degrees(atan2(along[1], along[0])) % 360.0,
@@ -234,7 +235,7 @@ def _profile(model: LineModel, half: float) -> Items:
 # ---------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
+def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report = model.report
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
     report_sections(model, "line type", names=listed, torsion=True)
@@ -249,28 +250,28 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
     if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
         springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
         report.add(
-            soil.friction_at, Status.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
+            soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
         )
     report_resistance(report, "none")
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):
             effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
-            report.add(section.where, Status.APPROXIMATED, "one seabed", effect, "diameter")
+            report.add(section.where, Outcome.APPROXIMATED, "one seabed", effect, "diameter")
     uneven = any(not part.is_even for parts in pieces(model) for part in parts)
     for where, _ in model.scene.deck.blocks("ELEMENT") if uneven else ():
         effect = "segments as long as the shortest of a section"
-        report.add(where, Status.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
+        report.add(where, Outcome.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
     report.finish()
 
 
-def _report_soil(model: LineModel, soil: Soil) -> None:
+def _report_soil(model: LineModel, soil: ExportSoil) -> None:
     numbers = dict(soil.parameters)
-    other = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
+    changed = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
-    model.report.add(soil.where, Status.CARRIED, "Nonlinear soil model", effect)
-    if other:
-        model.report.add(soil.where, Status.LEFT_OUT, "defaults", f"set by hand: {', '.join(other)}", "parameters")
+    model.report.add(soil.where, Outcome.CARRIED, "Nonlinear soil model", effect)
+    if changed:
+        model.report.add(soil.where, Outcome.LEFT_OUT, "defaults", f"set by hand: {', '.join(changed)}", "parameters")
     for each in model.soils:
         if each.kind is LawKind.SOIL and each.parameters != soil.parameters:
             effect = f"{each.says()}; here that of most of the pipe"
-            model.report.add(each.where, Status.APPROXIMATED, "one soil", effect)
+            model.report.add(each.where, Outcome.APPROXIMATED, "one soil", effect)

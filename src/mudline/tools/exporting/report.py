@@ -1,4 +1,4 @@
-"""What became of each keyword of a deck in another program's file, and names that the program takes."""
+"""Report on each keyword of a deck in another program's file, and names that the program accepts."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from mudline.language.keywords.text import shown as quoted
 from mudline.model.scene.resolved import ResolvedDeck
 
 _LETTERS = 120
-"""Of a text of the deck that stand in a comment."""
+"""Characters of a text of the deck in a comment."""
 
 _MOST_NAMED = 5
-"""Keywords and lines of which the same is said."""
+"""Keywords and lines listed in a row."""
 
 _BY_SUBJECT = {
     "loads": "loads and currents are not written: the shape at rest is that of weight, buoyancy and seabed",
     "waves": "no sea is written: no effect at rest",
     "vessels": "no vessel is written: ends on it are held where the deck puts them",
     "analysis": "settings of an analysis are the target's own",
-    "post-processing": "results are asked for in the target",
+    "post-processing": "results are chosen in the target",
     "seabed": "this law is not in the target's seabed",
     "model": "not in the target's model of the line",
     "deck": "other cases of the deck are not written: export each of them",
 }
-_UNKNOWN = "mudline does not read this keyword, and passes it over"
+_UNKNOWN = "mudline does not read this keyword"
 _WORDS = ("none", "fixed", "free", "anchored", "yes", "no", "y", "n", "true", "false", "on", "off", "null", "infinity")
 """Names that mean something else to a target or to YAML."""
 _EFFECTS = {
@@ -42,8 +42,8 @@ _EFFECTS = {
 }
 
 
-class Status(StrEnum):
-    """What became of something in the deck."""
+class Outcome(StrEnum):
+    """Result of the export of a keyword or a setting."""
 
     CARRIED = "carried"
     APPROXIMATED = "approximated"
@@ -52,28 +52,37 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
-    """A keyword, or a setting of one; `file` and `line` where it stands, what the target has, and what follows."""
+class ExportEntry:
+    """Result of the export of a keyword, or of a setting.
+
+    Attributes:
+        keyword: the keyword, with the setting if any.
+        file: file of the block.
+        line: its line.
+        status: the result.
+        target: the equivalent in the target.
+        effect: the consequence.
+    """
 
     keyword: str
     file: str
     line: int
-    status: Status
+    status: Outcome
     target: str
     effect: str
 
 
 @dataclass
-class Report:
-    """What became of a deck. Each block of it has an entry once `finish` was called."""
+class ExportReport:
+    """Report on the export of a deck. After `finish`, each block of the deck has an entry."""
 
     scene: ResolvedDeck
-    entries: list[Entry] = field(default_factory=list)
+    entries: list[ExportEntry] = field(default_factory=list)
     _claimed: set[tuple[int, int]] = field(default_factory=set)
-    _seen: set[Entry] = field(default_factory=set)
+    _seen: set[ExportEntry] = field(default_factory=set)
 
-    def add(self, where: Where | None, status: Status, target: str, effect: str = "", setting: str = "") -> None:
-        """Add what became of the block at a place, or of a `setting` in it; nothing without a place."""
+    def add(self, where: Where | None, status: Outcome, target: str, effect: str = "", setting: str = "") -> None:
+        """Add the result for the block at a place, or for a `setting` in it; nothing without a place."""
         if where is None:
             return
         deck = self.scene.deck
@@ -82,18 +91,18 @@ class Report:
         base = deck.base_of(where)
         line = deck.place(Problem(RUN001, "", where=where)).line
         name = f"*{one_line(keyword)}{f' {setting}' if setting else ''}"
-        entry = Entry(name, base[0].file if base else deck.file, line, status, target, effect)
+        entry = ExportEntry(name, base[0].file if base else deck.file, line, status, target, effect)
         if entry not in self._seen:
             self._seen.add(entry)
             self.entries.append(entry)
 
     def claim(self, keyword: str, target: str, section: str = "MODEL") -> None:
-        """Add that all blocks of a keyword are carried."""
+        """Report all blocks of a keyword as carried."""
         for where, _ in self.scene.deck.blocks(keyword, section):
-            self.add(where, Status.CARRIED, target)
+            self.add(where, Outcome.CARRIED, target)
 
     def finish(self) -> None:
-        """Add the blocks of which nothing was said, and put all in the order of the deck."""
+        """Add the blocks without an entry, and sort all entries in the order of the deck."""
         self.claim("PARAMETERS", "the numbers that they give", "PREPROCESSOR")
         for i, section in enumerate(self.scene.deck.sections):
             for j, block in enumerate(section.blocks):
@@ -103,25 +112,25 @@ class Report:
                     if section.name.endswith("POSTPROCESSING"):
                         subject = "post-processing"
                     effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
-                    self.add(Where(i, j), Status.LEFT_OUT, "none", effect)
+                    self.add(Where(i, j), Outcome.LEFT_OUT, "none", effect)
         self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
 
     @property
-    def lost(self) -> list[Entry]:
-        """All but what is carried."""
-        return [entry for entry in self.entries if entry.status is not Status.CARRIED]
+    def lost(self) -> list[ExportEntry]:
+        """Entries that are not carried."""
+        return [entry for entry in self.entries if entry.status is not Outcome.CARRIED]
 
     @property
     def is_exact(self) -> bool:
-        """Whether nothing was approximated or left out."""
-        return all(entry.status in (Status.CARRIED, Status.RENAMED) for entry in self.entries)
+        """True if nothing was approximated or left out."""
+        return all(entry.status in (Outcome.CARRIED, Outcome.RENAMED) for entry in self.entries)
 
     def rows(self) -> list[tuple[str, str, str, str, str]]:
-        """What does not carry over: keyword, line, status, what the target has and what follows.
+        """Return rows of what does not carry over: keyword, line, status, equivalent in the target and effect.
 
-        Keywords of which the same is to be said share a row.
+        Keywords with the same status, equivalent and effect share a row.
         """
-        alike: dict[tuple[str, str, str], list[Entry]] = {}
+        alike: dict[tuple[str, str, str], list[ExportEntry]] = {}
         for entry in self.lost:
             alike.setdefault((entry.status.value, entry.target, entry.effect), []).append(entry)
         own = self.scene.deck.file
@@ -129,13 +138,13 @@ class Report:
             (
                 _some(entry.keyword for entry in entries),
                 _some(str(entry.line) if entry.file == own else f"{entry.file}:{entry.line}" for entry in entries),
-                *said,
+                *columns,
             )
-            for said, entries in alike.items()
+            for columns, entries in alike.items()
         ]
 
     def comments(self, target: str) -> list[str]:
-        """The head of a file, a line each: what does not carry over."""
+        """Return the comment lines at the head of a file: what does not carry over."""
         rows = self.rows()
         lines = [f"{target} model of {self.scene.source}, written by mudline export"]
         lines += ["What does not carry over (keyword, line of the deck, what is here, effect):"] * bool(rows)
@@ -146,28 +155,28 @@ class Report:
 
 
 def _some(words: Iterable[str]) -> str:
-    """The first of some words, each once."""
+    """Return the first of some words, each once, and the count of the others."""
     each = list(dict.fromkeys(words))
     more = len(each) - _MOST_NAMED
     return ", ".join(each[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def one_line(text: str) -> str:
-    """A text as one line of printable ASCII that is a comment in every target."""
+    """Return a text as one line of printable ASCII that is a comment in every target."""
     plain = "".join(letter if " " <= letter <= "~" else f"\\u{ord(letter):04x}" for letter in text)
     return re.sub(r"-{2,}", "-", plain).replace("#", "No.").strip()
 
 
 def short_name(written: str) -> str:
-    """A name of the deck in quotes, cut to what a table can show."""
+    """Return a name of the deck in quotes, cut to what a table can show."""
     return quoted(written if len(written) <= _LETTERS else f"{written[:_LETTERS]}...")
 
 
 @dataclass
-class Names:
-    """Names that a target takes: of `letters`, the inside of a class of a pattern, each once, up to a length."""
+class TargetNames:
+    """Names that a target accepts: of `letters`, the content of a character class, each once, up to a length."""
 
-    report: Report
+    report: ExportReport
     letters: str
     longest: int
     reserved: Iterable[str] = ()
@@ -176,7 +185,7 @@ class Names:
         self._taken = {name.casefold() for name in (*_WORDS, *self.reserved)}
 
     def take(self, written: str, where: Where) -> str:
-        """The name for one of the deck; a name that had to change is added to the report."""
+        """Return the target's name for a name of the deck; a changed name is added to the report."""
         name = re.sub(f"[^{self.letters}]+", "_", written).strip("_. ")[: self.longest].strip("_. ")
         if not re.match("[A-Za-z]", name):
             name = f"S{name}"[: self.longest]
@@ -186,5 +195,5 @@ class Names:
             name = f"{stem[: self.longest - len(str(count)) - 1]}_{count}"
         self._taken.add(name.casefold())
         if name != written:
-            self.report.add(where, Status.RENAMED, name, "a name that the target takes", f"name {short_name(written)}")
+            self.report.add(where, Outcome.RENAMED, name, "a name that the target takes", f"name {short_name(written)}")
         return name

@@ -1,7 +1,7 @@
-"""Positions of a deck's nodes from what other programs write: MoorDyn's files of lines, OrcaFlex's tables of nodes.
+"""Positions of a deck's nodes from results of other programs: MoorDyn's line files, OrcaFlex's tables of nodes.
 
-Both have x and y horizontal, those of Y and Z in the deck, and z from the surface of the sea. Where the program has
-other nodes than the deck, places between them are taken on the straight way from node to node, by arc length.
+Both have x and y horizontal, equal to Y and Z of the deck, and z from the sea surface. If the program has other nodes
+than the deck, positions are interpolated linearly between nodes, by arc length.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
 
 if TYPE_CHECKING:
-    from mudline.tools.exporting.line_model import LineModel, Stretch
+    from mudline.tools.exporting.line_model import LineModel, LineStretch
 
 _LINE_FILE = re.compile(r"(.*_Line)(\d+)(\.\w+)", re.IGNORECASE)
 _NODE = re.compile(r"node(\d+)p([xyz])")
@@ -28,10 +28,10 @@ _HEAD = 1 << 16
 
 
 def read_returned(path: Path, scene: Scene) -> Positions | None:
-    """Positions from a file of another program; None for a file that is none of those by its headings.
+    """Return positions from a file of another program; None for a file with unknown headings.
 
-    The other lines of MoorDyn are read too, from the files beside it. Raises OSError, or DeckError for a file with
-    faults, and for a deck that `export` refuses.
+    The other line files of MoorDyn next to it are read too. Raises OSError, or DeckError for a file with faults and for
+    a deck that `export` refuses.
     """
     with path.open("rb") as stream:
         first, *_ = stream.read(_HEAD).decode("utf-8", "replace").lstrip("\ufeff").lower().split("\n")
@@ -55,7 +55,7 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
     parts = [part for parts in moordyn.pieces(model) for part in parts]
     if int(named[2]) > len(parts):
         raise data_error(path.as_posix(), f"line {named[2]}: the deck is exported as {len(parts)} lines")
-    time, found = None, {}
+    time, parts_read = None, {}
     for number, part in enumerate(parts, 1):
         file = path.with_name(f"{named[1]}{number}{named[3]}")
         if not file.exists():
@@ -65,15 +65,15 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
             raise data_error(file.as_posix(), f"other times than in the file of line {number - 1}")
         time = times
         arcs = np.linspace(0.0, float(part.lengths.sum()), places.shape[1])
-        found[number] = (part, arcs, places)
-    return _positions(model, list(found.values()), time)
+        parts_read[number] = (part, arcs, places)
+    return _positions(model, list(parts_read.values()), time)
 
 
 def _line_file(path: Path) -> tuple[Floats, Floats]:
-    """Times (steps,) and places (steps, nodes, 3) of a line of MoorDyn; forces and speeds behind them are read past."""
+    """Return times (steps,) and places (steps, nodes, 3) of a line of MoorDyn; further columns are ignored."""
     lines = path.read_text(encoding="utf-8", errors="replace").split("\n")
     columns = [_NODE.fullmatch(word) for word in lines[0].lower().split()]
-    at = [index for index, found in enumerate(columns) if found]
+    at = [index for index, match in enumerate(columns) if match]
     rows = []
     for number, line in enumerate(lines[2:], 3):
         if line.strip():
@@ -114,11 +114,11 @@ def _orcaflex(path: Path, model: LineModel, headings: dict[str, str]) -> Positio
     return _positions(model, [(whole, arcs, places)], times if "time" in columns else None)
 
 
-def _positions(model: LineModel, found: list[tuple[Stretch, Floats, Floats]], time: Floats | None) -> Positions:
-    """Positions of the deck's nodes, in its axes and units, by arc length along what the program gives."""
-    steps, count = len(found[0][2]), len(model.places)
+def _positions(model: LineModel, parts: list[tuple[LineStretch, Floats, Floats]], time: Floats | None) -> Positions:
+    """Return positions of the deck's nodes, in its axes and units, interpolated by arc length."""
+    steps, count = len(parts[0][2]), len(model.places)
     values, present = np.full((steps, count, 3), np.nan), np.zeros(count, dtype=np.bool_)
-    for part, arcs, places in found:
+    for part, arcs, places in parts:
         own = np.append(0.0, np.cumsum(part.lengths))
         present[part.nodes] = True
         for step in range(steps):

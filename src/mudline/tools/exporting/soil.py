@@ -1,8 +1,8 @@
-"""What carries the elements of a deck, as other programs take it: a stiffness, and friction along and across.
+"""Seabed below the elements of a deck as other programs take it: a stiffness, and friction along and across.
 
-A stiffness is per length of pipe and of penetration. That of a curve is its secant at the static penetration, where
-the law carries the submerged weight W of the pipe with its contents: there, and only there, the reaction is that of the
-deck. Without a weight above 0 it is the secant of the curve's first point with a force.
+A stiffness is per length of pipe and of penetration. That of a curve is its secant at the static penetration, where the
+law carries the submerged weight W of the pipe with its contents. Only there the reaction equals that of the deck. If W
+is not above 0, it is the secant at the curve's first point with a force.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
-from mudline.tools.exporting.report import Report, Status, short_name
+from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
 _RIGID_SHARE = 1e-3
-"""Of the diameter: how far a pipe sinks that stands in for one on a rigid seabed."""
+"""Penetration, as a share of the diameter, of a pipe on a rigid seabed."""
 _HALVINGS = 80
 _SAME = 1e-3
-"""Part by which stiffnesses differ that count as one."""
+"""Share by which equal stiffnesses may differ."""
 _SETTINGS = {
     "SEABED CONTACT": {"smoothing": "no effect at rest beyond its zone", "damping": "no effect at rest"},
     "SEABED FRICTION": {
@@ -38,7 +38,7 @@ _SETTINGS = {
 _PLAIN = ("AXIAL", "BOX", "COULOMB", "NONE")
 
 
-class Units(NamedTuple):
+class SiFactors(NamedTuple):
     """Units of a deck in metres, newtons and kilograms."""
 
     length: float
@@ -46,20 +46,20 @@ class Units(NamedTuple):
 
     @property
     def mass(self) -> float:
-        """Of mass, as the unit of time is the second."""
+        """Unit of mass; the unit of time is the second."""
         return self.force / self.length
 
     @property
     def stiffness(self) -> float:
-        """Of force per length and length."""
+        """Unit of force per length and length."""
         return self.force / self.length**2
 
 
-class Soil(NamedTuple):
-    """The seabed of some elements, in SI units; the stiffness of what nothing carries is 0.
+class ExportSoil(NamedTuple):
+    """Seabed of some elements, in SI units; the stiffness is 0 where nothing carries them.
 
-    `axial` and `lateral` are friction coefficients, `axial_spring` and `lateral_spring` the stiffnesses per length of
-    pipe below them at the submerged weight; `parameters` those of `*SEABED SOIL`.
+    `axial` and `lateral` are friction coefficients. `axial_spring` and `lateral_spring` are the stiffnesses per length
+    of pipe below the friction limit at the submerged weight. `parameters` are those of `*SEABED SOIL`.
     """
 
     law: str
@@ -78,7 +78,7 @@ class Soil(NamedTuple):
     parameters: tuple[tuple[str, float], ...] = ()
 
     def says(self) -> str:
-        """Its law with secant and tangent, for a report."""
+        """Return its law with secant and tangent, for a report."""
         kind, _, name = self.law.partition(":")
         law = f"{kind} {short_name(name)}" if name else self.law
         if self.kind is LawKind.LINEAR:
@@ -89,17 +89,17 @@ class Soil(NamedTuple):
 
 
 def distance(metres: float) -> str:
-    """A distance in mm, or in m from 1 m on."""
+    """Return a distance in mm, or in m from 1 m on."""
     return f"{shown(metres, 3)} m" if abs(metres) >= 1.0 else f"{shown(1e3 * metres, 3)} mm"
 
 
 def kilo(stiffness: float) -> str:
-    """A stiffness in kN/m2."""
+    """Return a stiffness in kN/m2."""
     return f"{shown(stiffness / 1e3, 4)} kN/m2"
 
 
-def soils_of(scene: ResolvedDeck, units: Units) -> tuple[list[Soil], Indices]:
-    """The different seabeds of the elements, and which of them each element (m,) has."""
+def soils_of(scene: ResolvedDeck, units: SiFactors) -> tuple[list[ExportSoil], Indices]:
+    """Return the different seabeds of the elements, and the index of that of each element (m,)."""
     weight = np.nan_to_num(pipe_of(scene).weight)
     size = np.nan_to_num(scene.diameter)
     friction = _friction(scene, weight)
@@ -109,34 +109,39 @@ def soils_of(scene: ResolvedDeck, units: Units) -> tuple[list[Soil], Indices]:
     keys = np.column_stack([*own, *blocks, weight, size, per_node, friction])
     _, firsts, of_element = np.unique(np.round(keys, 9), axis=0, return_index=True, return_inverse=True)
     arrays = scene.law_arrays()
-    found = [_soil(scene, units, arrays, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
-    return found, of_element.ravel()
+    soils = [_soil(scene, units, arrays, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
+    return soils, of_element.ravel()
 
 
 def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
-    """Coefficients of friction along and across, and the springs below them, of each element (m, 4).
+    """Return coefficients of friction along and across, and the springs below the limit, of each element (m, 4).
 
-    Below the limit a spring is that of the mobilisation length, or the one of a node over the length of an element.
+    Below the limit a spring is that of the mobilisation length, or that of a node over the length of an element.
     """
     table = scene.resistance
     coefficient = np.nan_to_num(table.column("friction"))
-    given = table.column("mobilisation")
+    mobilisation = table.column("mobilisation")
     longest = np.fmin(table.column("characteristic"), LARGEST_MOBILISATION.get(scene.units, np.inf))
-    length = np.where(given > 0.0, given, np.fmin(scene.length[:, None], longest))
+    length = np.where(mobilisation > 0.0, mobilisation, np.fmin(scene.length[:, None], longest))
     with np.errstate(all="ignore"):
         spring = np.nan_to_num(coefficient * weight[:, None] / length)
     coefficient[:, 1] = np.where(table.column("lateral") > 0.0, 0.0, coefficient[:, 1])
     if (keyword := scene.extensions.get("SEABED FRICTION")) is not None:
         at = keyword.of_element
         names = (("coefficients", "first"), ("coefficients", "second"), ("stiffness", "first"), ("stiffness", "second"))
-        first, second, one, other = (keyword.values(at, *path) for path in names)
-        own, springs = np.column_stack([first, second]), np.column_stack([one, np.where(np.isnan(other), one, other)])
+        first, second, along, across = (keyword.values(at, *path) for path in names)
+        own, springs = (
+            np.column_stack([first, second]),
+            np.column_stack([along, np.where(np.isnan(across), along, across)]),
+        )
         coefficient = np.where(at[:, None] >= 0, np.nan_to_num(own), coefficient)
         spring = np.where(at[:, None] >= 0, springs / scene.length[:, None], spring)
     return np.column_stack([coefficient, spring])
 
 
-def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, weight: float, friction: list[float]) -> Soil:
+def _soil(
+    scene: ResolvedDeck, units: SiFactors, arrays: LawArrays, at: int, weight: float, friction: list[float]
+) -> ExportSoil:
     kind, diameter = LawKind(int(scene.law[at])), float(np.nan_to_num(scene.diameter[at]))
     parameters = {}
     if kind is LawKind.SOIL:
@@ -153,7 +158,7 @@ def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, weight:
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is not None and extension.of_element[at] >= 0:
         friction_at = extension.places[int(extension.of_element[at])]
-    return Soil(
+    return ExportSoil(
         scene.law_names[at],
         kind,
         where,
@@ -172,7 +177,7 @@ def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, weight:
 
 
 def _stiffness(scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, weight: float) -> tuple[float, float]:
-    """Secant and tangent at the static penetration, in the deck's units."""
+    """Return secant and tangent at the static penetration, in the deck's units."""
     diameter, stiffness = float(np.nan_to_num(scene.diameter[at])), 0.0
     if kind is LawKind.LINEAR:
         stiffness = float(arrays.linear_stiffness[at])
@@ -192,7 +197,7 @@ def _stiffness(scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, w
 
 
 def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tuple[float, float]:
-    """Secant and tangent of a soil at the static penetration."""
+    """Return secant and tangent of a soil at the static penetration."""
 
     def reaction(z: float) -> tuple[float, float]:
         pairs = (initial(z, diameter, tuple(parameters.values())), lift(z, diameter, parameters["buoyancy"]))
@@ -206,14 +211,14 @@ def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tu
     return force / high, slope
 
 
-def governing(soils: list[Soil], length: Floats) -> Soil:
-    """The seabed of most of the pipe around touchdown, by `length` (k,); for targets that have but one."""
+def governing(soils: list[ExportSoil], length: Floats) -> ExportSoil:
+    """Return the seabed of most of the pipe around touchdown, by `length` (k,), for targets with one seabed."""
     carrying = np.array([each.stiffness > 0.0 for each in soils])
     return soils[int(np.argmax(np.where(carrying, length, -1.0)))]
 
 
-def report_governing(report: Report, soils: list[Soil], one: Soil, *, at_touchdown: bool) -> None:
-    """Add whose stiffness a target with one seabed has, and the range over the line, where that is one."""
+def report_governing(report: ExportReport, soils: list[ExportSoil], main: ExportSoil, *, at_touchdown: bool) -> None:
+    """Report the stiffness in a target with one seabed, and the range over the line if stiffnesses differ."""
     carrying = [each.stiffness for each in soils if each.stiffness > 0.0]
     if carrying and max(carrying) > (1.0 + _SAME) * min(carrying):
         span = f"over the line {shown(min(carrying) / 1e3, 4)} to {kilo(max(carrying))}"
@@ -222,15 +227,17 @@ def report_governing(report: Report, soils: list[Soil], one: Soil, *, at_touchdo
             if at_touchdown
             else "that of the elements most of the pipe rests on"
         )
-        report.add(one.where, Status.APPROXIMATED, f"one stiffness, {kilo(one.stiffness)}", f"{what}; {span}", "range")
+        report.add(
+            main.where, Outcome.APPROXIMATED, f"one stiffness, {kilo(main.stiffness)}", f"{what}; {span}", "range"
+        )
 
 
-def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[float]) -> None:
-    """Add what became of the normal law of each seabed: the stiffness that the target has in its place."""
+def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, used: list[float]) -> None:
+    """Report the normal law of each seabed with the stiffness in the target."""
     for soil, stiffness in zip(soils, used, strict=True):
         same = abs(stiffness - soil.stiffness) <= 1e-6 * stiffness
         target, effect = f"{name} {kilo(stiffness)}", soil.says()
-        status = Status.CARRIED if same and soil.kind is LawKind.LINEAR else Status.APPROXIMATED
+        status = Outcome.CARRIED if same and soil.kind is LawKind.LINEAR else Outcome.APPROXIMATED
         if soil.stiffness <= 0.0 and same:
             continue
         if soil.stiffness <= 0.0:
@@ -245,24 +252,26 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
     reported, laws = {soil.where for soil in soils}, report.scene.laws
     for law in laws.set_laws:
         if law.where not in reported:
-            report.add(law.where, Status.LEFT_OUT, "none", "no element follows this law")
+            report.add(law.where, Outcome.LEFT_OUT, "none", "no element follows this law")
     followed = {law.curve for law in laws.set_laws if law.where in reported}
     for number, entry in enumerate(laws.curves):
         if number not in followed:
-            report.add(entry.where, Status.LEFT_OUT, "none", "no element follows this curve")
+            report.add(entry.where, Outcome.LEFT_OUT, "none", "no element follows this curve")
 
 
-def report_friction(report: Report, soils: list[Soil], target: str, used: list[tuple[float, float]]) -> None:
-    """Add what became of the friction of each seabed: the coefficients along and across that the target has."""
+def report_friction(
+    report: ExportReport, soils: list[ExportSoil], target: str, used: list[tuple[float, float]]
+) -> None:
+    """Report the friction of each seabed with the coefficients along and across in the target."""
     for soil, (axial, lateral) in zip(soils, used, strict=True):
-        given = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
+        own = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
         same = (axial, lateral) == (soil.axial, soil.lateral)
-        effect = given if same else f"{given} in the deck; here {shown(axial)} along, {shown(lateral)} across"
-        report.add(soil.friction_at, Status.CARRIED if same else Status.APPROXIMATED, target, effect, "friction")
+        effect = own if same else f"{own} in the deck; here {shown(axial)} along, {shown(lateral)} across"
+        report.add(soil.friction_at, Outcome.CARRIED if same else Outcome.APPROXIMATED, target, effect, "friction")
 
 
-def report_resistance(report: Report, target: str) -> None:
-    """Add the settings beside stiffness and friction that no target has."""
+def report_resistance(report: ExportReport, target: str) -> None:
+    """Report the settings next to stiffness and friction that no target has."""
     table = report.scene.resistance
     for values, where in zip(table.values, table.places, strict=True):
         for setting, value, effect in (
@@ -271,10 +280,10 @@ def report_resistance(report: Report, target: str) -> None:
             ("constant friction", values.constant, "as in mudline, which does not evaluate it"),
         ):
             if value > 0.0:
-                report.add(where, Status.LEFT_OUT, target, effect, setting)
+                report.add(where, Outcome.LEFT_OUT, target, effect, setting)
     for keyword, names in _SETTINGS.items():
         extension = report.scene.extensions.get(keyword)
         for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
             for name, effect in names.items():
-                if (given := getattr(entry, name, None)) is not None and given not in _PLAIN:
-                    report.add(where, Status.LEFT_OUT, target, effect, f"{name.upper()}=")
+                if (choice := getattr(entry, name, None)) is not None and choice not in _PLAIN:
+                    report.add(where, Outcome.LEFT_OUT, target, effect, f"{name.upper()}=")

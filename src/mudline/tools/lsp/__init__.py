@@ -1,1 +1,1 @@
-"""The language server: what an editor asks about decks, answered by what the commands use, too."""
+"""Language server: requests of an editor about decks, answered by the functions behind the commands."""

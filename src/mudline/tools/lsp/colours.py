@@ -1,4 +1,4 @@
-"""Colours: what the lexer makes of a deck, as semantic tokens, for editors that have no grammar of their own."""
+"""Colours: tokens of the lexer as semantic tokens, for editors without a grammar of their own."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, St
 
 from mudline.language.deck.forms import form_of
 from mudline.language.highlighting.lexer import DeckLexer
-from mudline.tools.lsp.documents import Document, units_of
+from mudline.tools.lsp.documents import OpenDocument, units_of
 
 _KINDS: dict[_TokenType, types.SemanticTokenTypes] = {
     Generic.Heading: types.SemanticTokenTypes.Namespace,
@@ -24,16 +24,16 @@ _KINDS: dict[_TokenType, types.SemanticTokenTypes] = {
     String: types.SemanticTokenTypes.String,
     String.Double: types.SemanticTokenTypes.String,
 }
-"""What is coloured; sections, keywords and settings that are not known stay plain."""
+"""Token types that are coloured; unknown sections, keywords and settings stay plain."""
 
 _NAMES = list(dict.fromkeys(kind.value for kind in _KINDS.values()))
 LEGEND = types.SemanticTokensLegend(_NAMES, [])
 
 
-def tokens(document: Document) -> types.SemanticTokens:
-    """Return the tokens of a deck in keyword text, each as the protocol counts: from the one before it.
+def tokens(document: OpenDocument) -> types.SemanticTokens:
+    """Return the tokens of a deck in keyword text, each relative to the previous token as the protocol counts.
 
-    None of JSON and YAML, which editors colour themselves, and none of a text too long to be read at once.
+    There are none for JSON and YAML, which editors colour themselves, nor for a text too long to be read at once.
     """
     if document.is_long or form_of(document.name) != "keyword":
         return types.SemanticTokens([])

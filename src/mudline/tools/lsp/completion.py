@@ -1,4 +1,4 @@
-"""What may be written at the cursor: sections, keywords with their lines, settings, values and names."""
+"""Completion at the cursor: sections, keywords with their lines, settings, values and names."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _ESCAPED = re.compile(r"([$}\\])")
 
 @dataclass(frozen=True, slots=True)
 class _Cursor:
-    """The place where something is to be written: what stands before it on its line, and its block."""
+    """Place of a completion, with the text before it on its line, and its block."""
 
     analysis: Analysis
     offset: int
@@ -46,28 +46,28 @@ class _Cursor:
     def item(
         self, label: str, kind: types.CompletionItemKind, text: str, start: int, detail: str = ""
     ) -> types.CompletionItem:
-        """An item that replaces what stands from `start` on."""
+        """Return an item that replaces the text from `start` on."""
         range_ = self.analysis.document.range(Span(start, self.offset))
         return types.CompletionItem(label, kind=kind, detail=detail or None, text_edit=types.TextEdit(range_, text))
 
 
 def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[types.CompletionItem]:
-    """What may be written at an offset; `snippets` says that the editor takes places to fill in."""
+    """Return the completions at an offset; `snippets` says that the editor accepts placeholders."""
     origin = analysis.origin
     if origin is None:
         return []
     document = analysis.document
     line = document.line_span(document.line_at(offset))
-    found = spot(origin.tree, max(line.start - 1, 0))
-    cursor = _Cursor(analysis, offset, document.text[line.start : offset], found, snippets)
+    here = spot(origin.tree, max(line.start - 1, 0))
+    cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
         start = line.start + head.start(1)
         return list(_sections(cursor, start) if head[1] == "$" else _keywords(cursor, start))
-    if _in_comment(found, offset):
+    if _in_comment(here, offset):
         return []
     if match := _IN_EQUATION.search(cursor.before):
         return list(_in_equation(cursor, line.start + (match.start(1) if match[1] else match.end())))
-    declared = found.declared
+    declared = here.declared
     items = list(_in_block(cursor, declared, line.start)) if declared else []
     if not cursor.before.strip():
         items += _keywords(cursor, offset)
@@ -76,7 +76,7 @@ def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[type
 
 
 def resolved(item: types.CompletionItem) -> types.CompletionItem:
-    """An item with its help."""
+    """Return an item with its help."""
     data = item.data if isinstance(item.data, dict) else {}
     keyword, section = data.get("keyword"), data.get("section")
     if isinstance(section, str):
@@ -85,8 +85,8 @@ def resolved(item: types.CompletionItem) -> types.CompletionItem:
     return item
 
 
-def _in_comment(found: Spot, offset: int) -> bool:
-    leaves = found.raw.leaves if found.raw else found.raw_section.leaves if found.raw_section else []
+def _in_comment(here: Spot, offset: int) -> bool:
+    leaves = here.raw.leaves if here.raw else here.raw_section.leaves if here.raw_section else []
     return any(leaf.kind is LeafKind.COMMENT and leaf.span.start < offset < leaf.span.end for leaf in leaves)
 
 
@@ -101,7 +101,7 @@ def _sections(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
 
 
 def _keywords(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
-    """The keywords of the section first, then those allowed in any; with the lines of each, as an example."""
+    """Yield the keywords of the section first, then those allowed in any; with the lines of each, as an example."""
     section = cursor.spot.raw_section.name if cursor.spot.raw_section else ""
     for name in catalogue.keywords():
         belongs = catalogue.sections_of(name) or ()
@@ -123,12 +123,12 @@ def _keywords(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
 
 
 def _literal(text: str) -> str:
-    """A text that a snippet writes as it is."""
+    """Return a text in which a snippet finds no placeholders."""
     return _ESCAPED.sub(r"\\\1", text)
 
 
 def snippet(declared: type[Block]) -> str:
-    """The example of a keyword with its values as places to fill in."""
+    """Return the example of a keyword with its values as placeholders."""
     head, *lines = declared.example.rstrip("\n").split("\n")
     count = 0
 
@@ -180,7 +180,7 @@ def _in_block(cursor: _Cursor, declared: type[Block], line: int) -> Iterator[typ
 
 
 def _field(slot: FieldSpec, index: int) -> FieldSpec | None:
-    """The field that the value behind some commas is of."""
+    """Return the field of the value after `index` commas."""
     if slot.row is not None and (index or not slot.choices):
         columns = record_schema(slot.row).columns
         return columns[index] if index < len(columns) else None
@@ -205,7 +205,7 @@ def _values(cursor: _Cursor, slot: FieldSpec, start: int) -> Iterator[types.Comp
 
 
 def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
-    """The names allowed in a field, with what is to be said of each."""
+    """Yield the names allowed in a field, each with a description."""
     scene, parameters = cursor.analysis.scene, cursor.analysis.parameters
     if scene is None or parameters is None:
         return

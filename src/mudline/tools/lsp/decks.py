@@ -1,4 +1,4 @@
-"""The open decks, each with its findings and its scene, made once for a text, and the decks that depend on others."""
+"""Open decks with their findings and scenes, made once for each text, and the decks that depend on others."""
 
 from __future__ import annotations
 
@@ -31,32 +31,39 @@ from mudline.language.diagnostics import DeckError, Diagnostic, Where
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
 from mudline.model.scene.model import Scene
-from mudline.tools.lsp.documents import Document
+from mudline.tools.lsp.documents import OpenDocument
 from mudline.tools.lsp.names import Occurrence, occurrences
 
 _REQUEST_FAILED = -32803
-"""The protocol's code for such an answer."""
+"""Code of the protocol for a request that cannot be fulfilled."""
 
 
 def failed(message: str) -> JsonRpcException:
-    """The answer to a request that was understood and cannot be fulfilled."""
+    """Return the answer to a request that was understood and cannot be fulfilled."""
     return JsonRpcException(message, _REQUEST_FAILED)
 
 
 def value_text(value: float | str) -> str:
-    """A number with ten digits at most, or a text in quotes."""
+    """Return a number with at most ten digits, or a text in quotes."""
     return shown(value) if isinstance(value, str) else f"{value:.10g}"
 
 
 @dataclass
 class Analysis:
-    """What is known of one text of a document, which another thread can find out: nothing in here changes with typing.
+    """Analysis of one text of a document; it does not change with typing, so that another thread may make it.
 
-    `unsaved` are the texts of all open decks. `deck` is None until the text was read, and where it is not a deck, or
-    too large; `found` is empty until it was checked. `looked_at` are the files that the findings depend on.
+    Attributes:
+        document: the document.
+        settings: settings of the check.
+        unsaved: texts of all open decks.
+        excluded: True if the configuration excludes the document.
+        deck: the deck; None until it is read, and for a text that is not a deck or too large.
+        context: context of the rules, likewise.
+        found: findings; empty until the deck is checked.
+        looked_at: files that the findings depend on.
     """
 
-    document: Document
+    document: OpenDocument
     settings: LintSettings
     unsaved: Mapping[str, Unsaved]
     excluded: bool = False
@@ -67,14 +74,14 @@ class Analysis:
 
     @contextmanager
     def reading(self) -> Iterator[None]:
-        """A block in which the texts of open decks hold before the files on the disk, and settings are heeded."""
+        """Use the texts of open decks in place of files on the disk, and the settings, until the block ends."""
         with with_unsaved(self.unsaved), refusing_outside(lambda _folder: self.settings.no_outside):
             yield
 
     def read(self) -> Self:
-        """Read the deck; its scene and its names are found when somebody asks."""
+        """Read the deck; its scene and its names are made on first use."""
         document, folder = self.document, self.document.path.parent if self.document.path else None
-        is_deck = form_of(document.name) == KEYWORD or MARK in document.text  # of JSON and YAML only decks are read
+        is_deck = form_of(document.name) == KEYWORD or MARK in document.text  # other JSON and YAML files are not read
         if is_deck and not document.is_too_large:
             with self.reading():
                 self.deck = read_deck(document.as_file(), document.name, units=self.settings.units, folder=folder)
@@ -86,36 +93,36 @@ class Analysis:
         with self.reading(), recording_looks() as looks:
             try:
                 self.read()
-                found = lint_context(self.context, self.settings.rules) if self.context else []
+                findings = lint_context(self.context, self.settings.rules) if self.context else []
             except DeckError as error:
-                found = list(error.diagnostics)
-        self.found = () if self.excluded else with_severities(found, self.settings)
+                findings = list(error.diagnostics)
+        self.found = () if self.excluded else with_severities(findings, self.settings)
         self.looked_at = frozenset(looks)
         return self
 
     @property
     def origin(self) -> TextOrigin | None:
-        """Lines and places of a keyword text; None for JSON, YAML and what is not a deck."""
+        """Lines and places of a keyword text; None for JSON, YAML and anything but a deck."""
         return self.context.text if self.context else None
 
     @cached_property
     def scene(self) -> Scene | None:
-        """The scene, as far as it can be resolved."""
+        """Scene, as far as it can be resolved."""
         with self.reading():
             return self.context.scene if self.context else None
 
     @cached_property
     def names(self) -> list[Occurrence]:
-        """Every place where a set, a curve or a parameter is named."""
+        """Places where a set, a curve or a parameter is named."""
         return occurrences(self.deck) if self.deck else []
 
     @cached_property
     def parameters(self) -> Parameters | None:
-        """The parameters, evaluated."""
+        """Evaluated parameters."""
         return Parameters(self.deck) if self.deck else None
 
     def evaluated(self, equation: Equation) -> str:
-        """The value of an equation in words, or why it has none."""
+        """Return the value of an equation in words, or why it has none."""
         if self.parameters is None:
             return ""
         try:
@@ -126,35 +133,35 @@ class Analysis:
 
     @property
     def units(self) -> str:
-        """The unit system of the deck."""
+        """Unit system of the deck."""
         return self.deck.units if self.deck else "user"
 
 
 @dataclass
 class Decks:
-    """The open documents by their addresses, with their analyses; configurations are read once for a folder."""
+    """Open documents by their addresses, with their analyses; configurations are read once for each folder."""
 
     encoding: str = "utf-16"
-    documents: dict[str, Document] = field(default_factory=dict)
+    documents: dict[str, OpenDocument] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
-    """What is wrong with configurations, to be shown once."""
+    """Faults of configurations, to be shown once."""
     _analyses: dict[str, Analysis] = field(default_factory=dict)
     _configured: Settings = field(default_factory=nearest_settings)
     _shown: set[str] = field(default_factory=set)
 
-    def open(self, uri: str, text: str, version: int, language: str) -> Document:
-        """Take up a document; one that is open already is replaced."""
+    def open(self, uri: str, text: str, version: int, language: str) -> OpenDocument:
+        """Add a document, or replace one that is open already."""
         self._analyses.pop(uri, None)
-        document = self.documents[uri] = Document(uri, text, version, language, self.encoding)
+        document = self.documents[uri] = OpenDocument(uri, text, version, language, self.encoding)
         return document
 
-    def close(self, uri: str) -> Document | None:
+    def close(self, uri: str) -> OpenDocument | None:
         """Forget a document."""
         self._analyses.pop(uri, None)
         return self.documents.pop(uri, None)
 
     def forget_configurations(self) -> None:
-        """Read all configurations again: one of them has changed."""
+        """Read all configurations again, since one has changed."""
         self._configured = nearest_settings()
         self._shown.clear()
         self._analyses.clear()
@@ -163,8 +170,8 @@ class Decks:
         """Analyse a document again, although its own text has not changed."""
         self._analyses.pop(uri, None)
 
-    def begun(self, document: Document) -> Analysis:
-        """An analysis of a document as it is now, of which nothing is read yet."""
+    def begun(self, document: OpenDocument) -> Analysis:
+        """Return an analysis of a document in its present state, not read yet."""
         configuration, settings = self._settings(document)
         opened = [each for each in self.documents.values() if each.path]
         unsaved = {str(each.path.absolute()): Unsaved(each.revision, each.text.encode) for each in opened if each.path}
@@ -172,36 +179,36 @@ class Decks:
         excluded = exclude and document.path and matches(configuration.relative(str(document.path)), exclude)
         return Analysis(copy(document), settings, unsaved, bool(excluded))
 
-    def keep(self, made: Analysis) -> None:
+    def keep(self, analysis: Analysis) -> None:
         """Keep an analysis of an open document for its text."""
-        self._analyses[made.document.uri] = made
+        self._analyses[analysis.document.uri] = analysis
 
     def analysis(self, uri: str) -> Analysis | None:
-        """The analysis of a document as it is now, read and perhaps not yet checked; None for one that is not open."""
+        """Return the analysis of a document in its present state, read and perhaps not checked; None if not open."""
         document = self.documents.get(uri)
         if document is None:
             return None
-        found = self._analyses.get(uri)
-        if found is None or found.document.revision != document.revision:
-            found = self.begun(document)
+        analysis = self._analyses.get(uri)
+        if analysis is None or analysis.document.revision != document.revision:
+            analysis = self.begun(document)
             with suppress(DeckError):
-                found.read()
-            self.keep(found)
-        return found
+                analysis.read()
+            self.keep(analysis)
+        return analysis
 
-    def at(self, path: Path) -> Document | None:
-        """The open document of a file."""
+    def at(self, path: Path) -> OpenDocument | None:
+        """Return the open document of a file, or None."""
         name = os.path.abspath(path)  # noqa: PTH100 - LAST= may lead through other folders
         opened = (each for each in self.documents.values() if each.path is not None)
         return next((each for each in opened if os.path.abspath(str(each.path)) == name), None)  # noqa: PTH100 - as above
 
     def depends(self, uri: str, path: Path) -> bool:
-        """Whether the findings of an open deck depend on a file."""
-        found = self._analyses.get(uri)
-        return found is not None and os.path.abspath(path) in found.looked_at  # noqa: PTH100 - as `look` records them
+        """Return True if the findings of an open deck depend on a file."""
+        analysis = self._analyses.get(uri)
+        return analysis is not None and os.path.abspath(path) in analysis.looked_at  # noqa: PTH100 - as `look` records them
 
-    def _settings(self, document: Document) -> tuple[Configuration, LintSettings]:
-        """The configuration of a document and its settings; one with a fault is noted and left out."""
+    def _settings(self, document: OpenDocument) -> tuple[Configuration, LintSettings]:
+        """Return configuration and settings of a document; a faulty configuration is recorded and left out."""
         if document.path is None:
             return Configuration(), merged_settings(Configuration(), CallerSettings())
         try:

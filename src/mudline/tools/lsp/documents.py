@@ -1,4 +1,4 @@
-"""The text of an open deck: its versions, its changes, and places in the units that the editor counts in."""
+"""Text of an open deck: its versions, its changes, and places in the units of the editor."""
 
 from __future__ import annotations
 
@@ -20,33 +20,33 @@ _LINE_END = re.compile(r"\r\n?|\n")
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _BOM = "\ufeff"
 _SHORT = 20_000
-"""Characters of a text whose lines are found without arrays."""
+"""Characters of a text up to which its lines are found without arrays."""
 _CHUNK = 1 << 20
 _LF, _CR = b"\n\r"
 _REVISIONS = count(1)
 
 
 def _valid(text: str) -> str:
-    """A text in which halves of UTF-16 pairs, which no file can hold, are replacement characters."""
+    """Return a text in which halves of UTF-16 pairs, which no file can hold, are replacement characters."""
     return text if text.isascii() else _SURROGATE.sub("\ufffd", text)
 
 
 def _ends(text: str) -> NDArray[np.int64]:
-    """The offset behind each line end."""
+    """Return the offset after each line end."""
     if len(text) < _SHORT:
-        return np.fromiter((found.end() for found in _LINE_END.finditer(text)), np.int64)
-    found: list[NDArray[np.int64]] = []
+        return np.fromiter((match.end() for match in _LINE_END.finditer(text)), np.int64)
+    pieces: list[NDArray[np.int64]] = []
     for at in range(0, len(text), _CHUNK):
         letters = np.frombuffer(text[at : at + _CHUNK + 1].encode("latin-1", "replace"), np.uint8)
         ends = letters == _LF
         carriage = letters == _CR
         carriage[:-1] &= ~ends[1:]
-        found.append(np.flatnonzero((ends | carriage)[: min(_CHUNK, len(text) - at)]) + (at + 1))
-    return np.concatenate(found)
+        pieces.append(np.flatnonzero((ends | carriage)[: min(_CHUNK, len(text) - at)]) + (at + 1))
+    return np.concatenate(pieces)
 
 
 def units_of(text: str, encoding: str) -> int:
-    """How many units a text has in a position encoding: "utf-8", "utf-16" or "utf-32"."""
+    """Return the number of units of a text in a position encoding: "utf-8", "utf-16" or "utf-32"."""
     if encoding == "utf-32" or text.isascii():
         return len(text)
     if encoding == "utf-8":
@@ -55,7 +55,7 @@ def units_of(text: str, encoding: str) -> int:
 
 
 def characters_of(line: str, units: int, encoding: str) -> int:
-    """How many characters of a line lie before a column in units; a column inside of one stands before it."""
+    """Return the number of characters before a column in units; a column inside a character counts as before it."""
     if units <= 0:
         return 0
     if encoding == "utf-32" or line.isascii():
@@ -65,15 +65,15 @@ def characters_of(line: str, units: int, encoding: str) -> int:
     return len(line.encode("utf-16-le")[: 2 * units].decode("utf-16-le", errors="ignore"))
 
 
-class Document:
+class OpenDocument:
     """An open file.
 
-    Offsets are those of the deck's source, which has no byte-order mark; `text` begins behind it, too.
+    Offsets are those of the deck's source, which has no byte-order mark; `text` has none either.
 
     Attributes:
-        uri: as the editor writes it.
-        path: of the file; None for a text that is in no file.
-        name: of the file, in messages and for its form.
+        uri: address as written by the editor.
+        path: path of the file; None for a text that is in no file.
+        name: name of the file, in messages and for its form.
         version: the editor's number of the text.
         revision: a number that no other text has in this process.
     """
@@ -87,7 +87,7 @@ class Document:
         self.replace(text)
 
     def replace(self, text: str) -> None:
-        """Put another text in the place of the whole one."""
+        """Replace the whole text."""
         text = _valid(text)
         self.marked = text.startswith(_BOM)
         self.text = text[1:] if self.marked else text
@@ -95,7 +95,7 @@ class Document:
         self.revision = next(_REVISIONS)
 
     def change(self, range_: types.Range, text: str) -> None:
-        """Put a text in the place of a range. A range that ends before it begins is taken the other way round."""
+        """Replace a range by a text. A range that ends before it begins is reversed."""
         start, end = sorted((self.offset(range_.start), self.offset(range_.end)))
         text = _valid(text)
         starts = self.starts
@@ -112,33 +112,33 @@ class Document:
         self.revision = next(_REVISIONS)
 
     def as_file(self) -> bytes:
-        """The text as a file."""
+        """Return the text as the bytes of a file."""
         return self.text.encode()
 
     @property
     def is_long(self) -> bool:
-        """Whether the text is too long to be read between two keystrokes."""
+        """True if the text is too long to be read between two keystrokes."""
         return len(self.text) > LARGEST_AT_ONCE
 
     @property
     def is_too_large(self) -> bool:
-        """Whether nothing is said of the text."""
+        """True if the text is too long to be checked at all."""
         return len(self.text) > LARGEST_OPEN
 
     # ---------------------------------------------------------------------------------------------------- places
 
     def line_at(self, offset: int) -> int:
-        """The line of an offset, from 0."""
+        """Return the line of an offset, from 0."""
         return int(np.searchsorted(self.starts, offset, side="right")) - 1
 
     def line(self, number: int) -> str:
-        """The text of a line (from 0) without its end; "" beyond the last one."""
+        """Return the text of a line (from 0) without its end; "" beyond the last line."""
         if not 0 <= number < len(self.starts):
             return ""
         return self.text[slice(*self.line_span(number))]
 
     def line_span(self, number: int) -> Span:
-        """The place of a line (from 0) without its end."""
+        """Return the span of a line (from 0) without its end."""
         start = int(self.starts[number])
         end = int(self.starts[number + 1]) if number + 1 < len(self.starts) else len(self.text)
         while end > start and self.text[end - 1] in "\r\n":
@@ -146,7 +146,7 @@ class Document:
         return Span(start, end)
 
     def offset(self, position: types.Position) -> int:
-        """The offset of a position; one beyond a line or the text stands at its end."""
+        """Return the offset of a position; a position beyond a line or the text counts as its end."""
         if position.line >= len(self.starts):
             return len(self.text)
         span = self.line_span(position.line)
@@ -156,7 +156,7 @@ class Document:
         return span.start + characters_of(self.text[slice(*span)], units, self.encoding)
 
     def position(self, offset: int) -> types.Position:
-        """The position of an offset."""
+        """Return the position of an offset."""
         offset = min(max(offset, 0), len(self.text))
         line = self.line_at(offset)
         units = units_of(self.text[int(self.starts[line]) : offset], self.encoding)
@@ -165,18 +165,18 @@ class Document:
         return types.Position(line, units)
 
     def range(self, span: Span) -> types.Range:
-        """The range of a span."""
+        """Return the range of a span."""
         return types.Range(self.position(span.start), self.position(span.end))
 
     def point(self, line: int, column: int) -> int:
-        """The offset of a line and column from 1, in characters, as diagnostics have them."""
+        """Return the offset of a line and column from 1, in characters, as diagnostics have them."""
         number = min(max(line - 1, 0), len(self.starts) - 1)
         return min(int(self.starts[number]) + column - 1, len(self.text))
 
     # ----------------------------------------------------------------------------------------------------- edits
 
     def difference(self, content: bytes) -> list[types.TextEdit]:
-        """What makes the text that of a file's content, as one change from the first line that differs to the last."""
+        """Return the edit that gives a file's content: one change from the first to the last differing line."""
         old, new = _lines(self.text), _lines(content.decode("utf-8-sig"))
         first = _same(zip(old, new, strict=False))
         last = _same(zip(reversed(old[first:]), reversed(new[first:]), strict=False))
@@ -188,13 +188,13 @@ class Document:
 
 
 def _same(pairs: Iterable[tuple[str, str]]) -> int:
-    """How many pairs are of two equal lines, up to the first that is not."""
+    """Return the number of pairs of equal lines before the first unequal pair."""
     return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
 
 
 def _lines(text: str) -> list[str]:
-    """The lines of a text with their ends; `str.splitlines` knows more line ends than decks have."""
-    edges = [0, *(found.end() for found in _LINE_END.finditer(text)), len(text)]
+    """Return the lines of a text with their ends; `str.splitlines` knows more line ends than decks have."""
+    edges = [0, *(match.end() for match in _LINE_END.finditer(text)), len(text)]
     return [text[start:end] for start, end in pairwise(edges)]
 
 
@@ -202,7 +202,7 @@ def _lines(text: str) -> list[str]:
 
 
 def file_of(uri: str) -> Path | None:
-    """The file of an address; None for one that is not a file on this machine, or that cannot be read as an address."""
+    """Return the file of an address; None for an invalid address, or anything but a file on this machine."""
     if not uri.startswith("file:///") or "%00" in uri:
         return None
     try:
@@ -213,12 +213,12 @@ def file_of(uri: str) -> Path | None:
 
 
 def address_of(path: Path) -> str:
-    """The address of a file."""
+    """Return the address of a file."""
     whole = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
     return from_fs_path(whole) or Path(whole).as_uri()
 
 
 def _name_of(uri: str, language: str) -> str:
-    """A name for a text that is in no file; its suffix says of which form it is."""
+    """Return a name for a text that is in no file; its suffix gives the form."""
     name = uri.rpartition("/")[2].rpartition(":")[2][:100] or "untitled"
     return f"{name}.{language}" if language in ("json", "yaml") and not name.endswith(f".{language}") else name

@@ -1,4 +1,4 @@
-"""Findings as an editor shows them, and their fixes: one by one, or all that keep what the deck means."""
+"""Findings for an editor, and their fixes: one by one, or all safe fixes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mudline.checks.pages import page
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.diagnostics import Diagnostic, Fix, Severity, Span
 from mudline.tools.lsp.decks import Analysis
-from mudline.tools.lsp.documents import Document
+from mudline.tools.lsp.documents import OpenDocument
 
 SOURCE = "mudline"
 FIX_ALL = "source.fixAll.mudline"
@@ -26,30 +26,31 @@ _SEVERITIES = {
 }
 
 
-def span_of(document: Document, found: Diagnostic) -> Span:
-    """The place of a finding."""
-    start = document.point(found.line, found.column)
-    return Span(start, max(start, document.point(found.end_line, found.end_column)))
+def span_of(document: OpenDocument, finding: Diagnostic) -> Span:
+    """Return the place of a finding."""
+    start = document.point(finding.line, finding.column)
+    return Span(start, max(start, document.point(finding.end_line, finding.end_column)))
 
 
 def shown(analysis: Analysis) -> list[types.Diagnostic]:
-    """The findings of a deck."""
-    return [_shown(analysis.document, found) for found in analysis.found]
+    """Return the findings of a deck."""
+    return [_shown(analysis.document, finding) for finding in analysis.found]
 
 
-def _shown(document: Document, found: Diagnostic) -> types.Diagnostic:
-    address = page(found.code)
+def _shown(document: OpenDocument, finding: Diagnostic) -> types.Diagnostic:
+    address = page(finding.code)
     related = [
         types.DiagnosticRelatedInformation(
-            types.Location(document.uri, document.range(span_of(document, one))), f"{one.code} {one.message}"
+            types.Location(document.uri, document.range(span_of(document, consequence))),
+            f"{consequence.code} {consequence.message}",
         )
-        for one in found.following[:SHOWN_ROWS]
+        for consequence in finding.following[:SHOWN_ROWS]
     ]
     return types.Diagnostic(
-        range=document.range(span_of(document, found)),
-        message=found.message,
-        severity=_SEVERITIES[found.severity],
-        code=found.code,
+        range=document.range(span_of(document, finding)),
+        message=finding.message,
+        severity=_SEVERITIES[finding.severity],
+        code=finding.code,
         code_description=types.CodeDescription(address) if address else None,
         source=SOURCE,
         related_information=related or None,
@@ -62,38 +63,38 @@ def _shown(document: Document, found: Diagnostic) -> types.Diagnostic:
 def actions(
     analysis: Analysis, range_: types.Range, only: Iterable[str] | None, *, resolved: bool
 ) -> list[types.CodeAction]:
-    """The fixes for findings in a range, and one for all of the deck.
+    """Return the fixes for findings in a range, and an action that fixes the whole deck.
 
-    `only` are the kinds that the editor wants, None for any. The edits of the last one are left to `fix_all` where the
-    editor asks for them when it needs them (`resolved`): to find them takes as long as several checks.
+    `only` are the kinds that the editor requests, None for any. If the editor asks for edits later (`resolved`), those
+    of the last action are left to `fix_all`: they take as long as several checks.
     """
     document = analysis.document
-    wanted = list(only) if only is not None else None
-    found: list[types.CodeAction] = []
-    if _asked(types.CodeActionKind.QuickFix.value, wanted):
-        found += _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
-    if _asked(FIX_ALL, wanted) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
+    kinds = list(only) if only is not None else None
+    fixes: list[types.CodeAction] = []
+    if _asked(types.CodeActionKind.QuickFix.value, kinds):
+        fixes += _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
+    if _asked(FIX_ALL, kinds) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
         action = types.CodeAction("Fix all findings that have a safe fix", FIX_ALL, data={"uri": document.uri})
         if not resolved:
             action.edit = fix_all(analysis)
-        found.append(action)
-    return found
+        fixes.append(action)
+    return fixes
 
 
-def _asked(kind: str, wanted: list[str] | None) -> bool:
-    """Whether a kind of action is wanted: kinds are words with dots, of which a first part stands for all below it."""
-    return wanted is None or any(kind == one or kind.startswith(f"{one}.") or not one for one in wanted)
+def _asked(kind: str, kinds: list[str] | None) -> bool:
+    """Return True if a kind of action is requested; kinds have parts with dots, and `a` includes `a.b`."""
+    return kinds is None or any(kind == asked or kind.startswith(f"{asked}.") or not asked for asked in kinds)
 
 
 def _fixes(analysis: Analysis) -> Iterator[tuple[Diagnostic, Fix]]:
     unfixable = analysis.settings.unfixable
-    return ((one, one.fix) for one in analysis.found if one.fix is not None and one.code not in unfixable)
+    return ((each, each.fix) for each in analysis.found if each.fix is not None and each.code not in unfixable)
 
 
 def _quick_fixes(analysis: Analysis, asked: Span) -> Iterator[types.CodeAction]:
     document = analysis.document
-    for one, fix in _fixes(analysis):
-        span = span_of(document, one)
+    for finding, fix in _fixes(analysis):
+        span = span_of(document, finding)
         if span.start <= asked.end and asked.start <= span.end:
             unsafe = "" if fix.applicability == "safe" else " (may change what the deck means)"
             edits = [
@@ -104,16 +105,16 @@ def _quick_fixes(analysis: Analysis, asked: Span) -> Iterator[types.CodeAction]:
                 for edit in fix.edits
             ]
             yield types.CodeAction(
-                f"{one.code}: {fix.message}{unsafe}",
+                f"{finding.code}: {fix.message}{unsafe}",
                 types.CodeActionKind.QuickFix,
-                diagnostics=[_shown(document, one)],
+                diagnostics=[_shown(document, finding)],
                 is_preferred=not unsafe,
                 edit=types.WorkspaceEdit(changes={document.uri: edits}),
             )
 
 
 def fix_all(analysis: Analysis) -> types.WorkspaceEdit | None:
-    """What makes all safe fixes of a deck, as `mudline lint --fix` does; None where there is nothing to be done."""
+    """Return the edits of all safe fixes of a deck, as `mudline lint --fix` makes them; None if there are none."""
     document = analysis.document
     if form_of(document.name) != KEYWORD or document.is_too_large:
         return None

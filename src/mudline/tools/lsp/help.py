@@ -1,4 +1,4 @@
-"""Help on keywords, fields and values, on the things that they name, and values of equations between the lines."""
+"""Help on keywords, fields, values and names, and values of equations as inlay hints."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ from mudline.tools.lsp.sites import Site, Spot, site, spot
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
-    """Help on an offset, in Markdown; None where there is nothing to say."""
+    """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
     if origin is None:
         return None
-    found = spot(origin.tree, offset)
-    leaf = found.leaf
+    here = spot(origin.tree, offset)
+    leaf = here.leaf
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
-        return _hover(analysis, _head_help(found), trimmed(origin.source.unified, *leaf.span))
+        return _hover(analysis, _head_help(here), trimmed(origin.source.unified, *leaf.span))
     named = at(analysis.names, offset)
     if named is not None and named.thing.kind is Names.PARAMETER:
         return _hover(analysis, parameter_help(analysis, named), named.span)
@@ -57,14 +57,14 @@ def _hover(analysis: Analysis, text: str, span: Span) -> types.Hover | None:
 # ---------------------------------------------------------------------------------------------- keywords and sections
 
 
-def _head_help(found: Spot) -> str:
-    if found.raw is None:
-        return section_help(found.raw_section.name) if found.raw_section else ""
-    return keyword_help(found.raw.name, found.raw_section.name if found.raw_section else "")
+def _head_help(here: Spot) -> str:
+    if here.raw is None:
+        return section_help(here.raw_section.name) if here.raw_section else ""
+    return keyword_help(here.raw.name, here.raw_section.name if here.raw_section else "")
 
 
 def section_help(name: str) -> str:
-    """What belongs in a section."""
+    """Return the keywords that belong in a section."""
     if name not in catalogue.SECTIONS:
         return ""
     own = [f"`*{keyword}`" for keyword in catalogue.keywords() if name in (catalogue.sections_of(keyword) or ())]
@@ -72,7 +72,7 @@ def section_help(name: str) -> str:
 
 
 def keyword_help(name: str, section: str) -> str:
-    """What a keyword is for and how its lines are written."""
+    """Return the purpose of a keyword and the form of its lines."""
     declared = catalogue.block_class(section, name)
     if declared is None:
         kept = catalogue.opaque_keyword(section, name)
@@ -94,7 +94,7 @@ def keyword_help(name: str, section: str) -> str:
 
 
 def field_help(slot: FieldSpec, units: str) -> str:
-    """What a field means, its unit, default, range and usual values."""
+    """Return the meaning of a field, its unit, default, range and usual values."""
     about = slot.about
     facts = [
         f"takes {', '.join(slot.choices)}" if slot.choices else f"takes a {TAKES[slot.kind]}" if slot.kind else "",
@@ -111,16 +111,16 @@ def field_help(slot: FieldSpec, units: str) -> str:
     return "\n\n".join(filter(None, lines))
 
 
-def _value_help(analysis: Analysis, found: Site) -> Iterator[str]:
-    yield field_help(found.slot, analysis.units)
-    value = found.value
+def _value_help(analysis: Analysis, value_site: Site) -> Iterator[str]:
+    yield field_help(value_site.slot, analysis.units)
+    value = value_site.value
     if isinstance(value, Equation):
         yield f"`{value}` = {analysis.evaluated(value)}"
     elif isinstance(value, str):
-        yield named_help(analysis, found, value)
+        yield named_help(analysis, value_site, value)
     elif isinstance(value, int | float):
-        yield number_help(analysis, found, value)
-    if row := segment_help(analysis, found):
+        yield number_help(analysis, value_site, value)
+    if row := segment_help(analysis, value_site):
         yield row
 
 
@@ -128,7 +128,7 @@ _FEW = 10
 
 
 def listed(numbers: list[int]) -> str:
-    """The first of some numbers."""
+    """Return the first numbers, and the count of all if they are more."""
     more = f", ... ({len(numbers)} in all)" if len(numbers) > _FEW else ""
     return ", ".join(map(str, numbers[:_FEW])) + more
 
@@ -137,7 +137,7 @@ def listed(numbers: list[int]) -> str:
 
 
 def parameter_help(analysis: Analysis, named: Occurrence) -> str:
-    """The value of a parameter and how it is defined."""
+    """Return the value of a parameter and its definition."""
     parameters = analysis.parameters
     key = named.thing.key
     definition = parameters.definitions.get(key) if parameters else None
@@ -151,10 +151,10 @@ def parameter_help(analysis: Analysis, named: Occurrence) -> str:
 # ------------------------------------------------------------------------------------------------------ names in fields
 
 
-def named_help(analysis: Analysis, found: Site, name: str) -> str:
-    """What a name in a field stands for."""
+def named_help(analysis: Analysis, value_site: Site, name: str) -> str:
+    """Return the help on a name in a field."""
     scene = analysis.scene
-    kind = found.slot.about.names or found.slot.about.defines
+    kind = value_site.slot.about.names or value_site.slot.about.defines
     if scene is None or analysis.deck is None:
         return ""
     if kind in (Names.SET, Names.SUBSET):
@@ -163,37 +163,37 @@ def named_help(analysis: Analysis, found: Site, name: str) -> str:
         entry = next((each for each in scene.laws.curves if not each.embedment and _same(each.name, name)), None)
         return curve_help(scene, entry) if entry else ""
     if kind in CURVES:
-        return "\n\n".join(other_curve_help(one) for one in other_curves(scene.deck) if _same(one.name, name))
+        return "\n\n".join(other_curve_help(curve) for curve in other_curves(scene.deck) if _same(curve.name, name))
     if kind in (Names.FILE, Names.DECK):
         path = find_deck(analysis.deck, name) if kind is Names.DECK else find_file(analysis.deck.folder, name)
         return path.as_posix() if path else "this file was not found"
     return ""
 
 
-def _same(one: str, other: str) -> bool:
-    return name_key(one) == name_key(other)
+def _same(first: str, second: str) -> bool:
+    return name_key(first) == name_key(second)
 
 
 def set_help(scene: Scene, name: str) -> str:
-    """What a set holds."""
-    found = scene.set_table.find(name)
-    if found is None:
+    """Return the elements of a set, their number, length and diameters."""
+    named_set = scene.set_table.find(name)
+    if named_set is None:
         return ""
-    words = [f"set **{found.name}**: {counted(len(found.elements), 'element')}"]
-    if len(found.elements):
-        words.append(listed(scene.element_ids[found.elements].tolist()))
-        lengths = scene.length[found.elements]
+    words = [f"set **{named_set.name}**: {counted(len(named_set.elements), 'element')}"]
+    if len(named_set.elements):
+        words.append(listed(scene.element_ids[named_set.elements].tolist()))
+        lengths = scene.length[named_set.elements]
         words.append(_with_unit("total length", float(np.nansum(lengths)), unit_names(scene.units).length))
-    if diameters := _diameters(scene, scene.diameter[found.elements]):
+    if diameters := _diameters(scene, scene.diameter[named_set.elements]):
         words.append(diameters)
-    if found.open:
+    if named_set.open:
         words.append("it may have more elements, which this deck does not show")
     return "\n\n".join(words)
 
 
-def _diameters(scene: Scene, given: Floats) -> str:
-    """External diameters, as those of a set's elements, from the least to the largest; "" where none is known."""
-    sizes = np.unique(given[~np.isnan(given)])
+def _diameters(scene: Scene, diameters: Floats) -> str:
+    """Return the range of external diameters; "" if none is known."""
+    sizes = np.unique(diameters[~np.isnan(diameters)])
     if not len(sizes):
         return ""
     unit = unit_names(scene.units).length
@@ -209,13 +209,13 @@ def _with_unit(what: str, value: float, unit: str) -> str:
 # -------------------------------------------------------------------------------------------------------------- curves
 
 
-def segment_help(analysis: Analysis, found: Site) -> str:
-    """Slope and stiffness of a curve on both sides of the point that a value belongs to."""
-    path, scene = found.where.path, analysis.scene
+def segment_help(analysis: Analysis, value_site: Site) -> str:
+    """Return slope and stiffness of a curve on both sides of the point of a value."""
+    path, scene = value_site.where.path, analysis.scene
     if scene is None or len(path) < 4 or path[0] != "curves" or path[2] != "points":
         return ""
-    where, curves = found.where._replace(path=path[:2]), scene.laws.curves
-    index, entry = next(((at, one) for at, one in enumerate(curves) if one.where == where), (-1, None))
+    where, curves = value_site.where._replace(path=path[:2]), scene.laws.curves
+    index, entry = next(((at, curve) for at, curve in enumerate(curves) if curve.where == where), (-1, None))
     at = np.flatnonzero(entry.rows == int(path[3])) if entry else np.zeros(0)
     if entry is None or entry.curve is None or not at.size:
         return ""
@@ -232,7 +232,7 @@ def segment_help(analysis: Analysis, found: Site) -> str:
 
 
 def _slope_text(scene: Scene, slope: float, sizes: Floats) -> str:
-    """A slope and the stiffness that it is for the diameters of the elements which follow the curve."""
+    """Return a slope, and the stiffness for the diameters of the elements that follow the curve."""
     names = unit_names(scene.units)
     known = np.unique(sizes[~np.isnan(sizes)])
     text = _with_unit("slope", slope, names.line_force)
@@ -248,7 +248,7 @@ def _title(entry: SceneCurve) -> str:
 
 
 def other_curve_help(entry: DeckCurve) -> str:
-    """Points and range of a curve that is none of a seabed."""
+    """Return points and range of a curve that does not belong to a seabed."""
     curve = entry.made()
     head = f"{entry.kind} **{entry.name}** of `*{entry.keyword}`"
     if curve is None:
@@ -259,7 +259,7 @@ def other_curve_help(entry: DeckCurve) -> str:
 
 
 def curve_help(scene: Scene, entry: SceneCurve) -> str:
-    """Points, range and followers of a curve."""
+    """Return points, range and followers of a curve."""
     index = next(number for number, each in enumerate(scene.laws.curves) if each is entry)
     if entry.curve is None:
         return f"{_title(entry)} cannot be evaluated"
@@ -276,9 +276,9 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
 # --------------------------------------------------------------------------------------------------- nodes and elements
 
 
-def number_help(analysis: Analysis, found: Site, value: float) -> str:
-    """The node or element that a number in a field stands for."""
-    kind = found.slot.about.names or found.slot.about.defines
+def number_help(analysis: Analysis, value_site: Site, value: float) -> str:
+    """Return the help on the node or element whose number stands in a field."""
+    kind = value_site.slot.about.names or value_site.slot.about.defines
     scene = analysis.scene
     if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
         return ""
@@ -286,7 +286,7 @@ def number_help(analysis: Analysis, found: Site, value: float) -> str:
 
 
 def is_label(value: object) -> bool:
-    """Whether a value may be the number of a node or an element."""
+    """Return True if a value may be the number of a node or an element."""
     return isinstance(value, int | float) and float(value).is_integer() and abs(value) <= LARGEST_WHOLE
 
 
@@ -319,22 +319,22 @@ def _element(scene: Scene, number: int) -> Iterator[str]:
     yield f"in {', '.join(sets[:_FEW])}" + (" and more" if len(sets) > _FEW else "")
 
 
-def _contains(found: NamedSet, index: int) -> bool:
-    at = int(np.searchsorted(found.elements, index))
-    return at < len(found.elements) and int(found.elements[at]) == index
+def _contains(named_set: NamedSet, index: int) -> bool:
+    at = int(np.searchsorted(named_set.elements, index))
+    return at < len(named_set.elements) and int(named_set.elements[at]) == index
 
 
 # ---------------------------------------------------------------------------------------------------- between the lines
 
 
 def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
-    """The values of the equations in a range."""
+    """Return the values of the equations in a range."""
     document = analysis.document
     if analysis.origin is None or analysis.deck is None:
         return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
-    found = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
-    return [_hint(analysis, span) for span in islice(found, MOST_HINTS)]
+    spans = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
+    return [_hint(analysis, span) for span in islice(spans, MOST_HINTS)]
 
 
 def _hint(analysis: Analysis, equation: Span) -> types.InlayHint:

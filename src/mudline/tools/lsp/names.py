@@ -1,4 +1,4 @@
-"""Every place where a deck names or defines a set, a curve or a parameter."""
+"""Places where a deck names or defines a set, a curve or a parameter."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ KINDS = {
     Names.CURVE: Names.CURVE,
     Names.PARAMETER: Names.PARAMETER,
 }
-"""What is found by a name, for each way to name it."""
+"""Kind of the named object, for each way to name it."""
 WORDS = {Names.SET: "set", Names.CURVE: "curve", Names.PARAMETER: "parameter"}
 _SET = "SET"
 _EQUATION = re.compile(r"=\[(?:[^\[\]\r\n]|\[[^\[\]\r\n]*\])*\]")
@@ -32,14 +32,14 @@ _PLACEHOLDER = re.compile(r"%([^%\r\n]+)%")
 
 
 class Thing(NamedTuple):
-    """Something with a name; `key` is the name as names compare."""
+    """Something with a name; `key` is the name in the form in which names are compared."""
 
     kind: Names
     key: str
 
 
 class Occurrence(NamedTuple):
-    """A place where a thing is named; `composed` says that the name is put together there and not written as it is."""
+    """Place where an object is named; `composed` is True if the name is put together there from parts."""
 
     thing: Thing
     name: str
@@ -49,25 +49,25 @@ class Occurrence(NamedTuple):
 
 
 def thing(kind: Names, name: str) -> Thing:
-    """A thing by its name as it is written."""
+    """Return the object of a name as written."""
     return Thing(kind, name_key(name))
 
 
 def occurrences(deck: Deck) -> list[Occurrence]:
-    """Every occurrence in a deck of its own, in the order of the text; none in a deck that is no keyword text."""
+    """Return every occurrence in the deck itself, in the order of the text; none if it is not keyword text."""
     origin = deck.origin
     if not isinstance(origin, TextOrigin):
         return []
-    found = [*_given(deck, origin), *_in_equations(origin)]
-    known = {one.thing for one in found if one.defines}
-    found += [one for one in (*_placeholders(origin), *_passed_through(deck, origin)) if one.thing in known]
-    return sorted(found, key=lambda one: one.span)
+    listed = [*_given(deck, origin), *_in_equations(origin)]
+    known = {place.thing for place in listed if place.defines}
+    listed += [place for place in (*_placeholders(origin), *_passed_through(deck, origin)) if place.thing in known]
+    return sorted(listed, key=lambda place: place.span)
 
 
-def at(found: list[Occurrence], offset: int) -> Occurrence | None:
-    """The occurrence at an offset, or that ends there."""
-    here = [one for one in found if one.span.start <= offset <= one.span.end]
-    return min(here, key=lambda one: one.span.end - one.span.start, default=None)
+def at(listed: list[Occurrence], offset: int) -> Occurrence | None:
+    """Return the occurrence at an offset, or one that ends there; the shortest of several."""
+    here = [place for place in listed if place.span.start <= offset <= place.span.end]
+    return min(here, key=lambda place: place.span.end - place.span.start, default=None)
 
 
 # ------------------------------------------------------------------------------------------------- fields that name
@@ -86,7 +86,7 @@ def _given(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
 
 
 def _inner(origin: TextOrigin, span: Span) -> Span:
-    """The span of a name without quotes or braces around it."""
+    """Return the span of a name without quotes or braces."""
     text = origin.source.unified[slice(*span)]
     name = bare(text)
     start = span.start + text.find(name)
@@ -94,7 +94,7 @@ def _inner(origin: TextOrigin, span: Span) -> Span:
 
 
 def _parameters(origin: TextOrigin, where: Where, block: Block) -> Iterator[Occurrence]:
-    """The parameters that a line defines: one, or those of a list."""
+    """Yield the parameters that a line defines: one, or those of a list."""
     parameter = block.parameters[int(where.path[1])]  # type: ignore[attr-defined]
     name, value = cast("str", parameter.name), cast("object", parameter.value)
     places = origin.read[where.section, where.block].places
@@ -114,22 +114,22 @@ def _parameters(origin: TextOrigin, where: Where, block: Block) -> Iterator[Occu
 
 
 def _passed_through(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
-    """The sets that SET= names in blocks whose lines are not read."""
+    """Yield the sets that SET= names in blocks whose lines are not read."""
     text = origin.source.unified
     for section, raw_section in zip(deck.sections, origin.tree.sections, strict=False):
         for block, raw in zip(section.blocks, raw_section.blocks, strict=False):
             for leaf in raw.leaves if type(block) is Opaque else ():
                 if leaf.kind is Kind.SETTING and first_key(text, leaf.span) == _SET:
-                    given = read_line(text, leaf.span).groups[0].fields[0]
-                    span = _inner(origin, given.span)
-                    yield Occurrence(thing(Names.SET, given.text), given.text, span, defines=False)
+                    value = read_line(text, leaf.span).groups[0].fields[0]
+                    span = _inner(origin, value.span)
+                    yield Occurrence(thing(Names.SET, value.text), value.text, span, defines=False)
 
 
 # -------------------------------------------------------------------------------------------------------- equations
 
 
 def equation_spans(origin: TextOrigin) -> Iterator[Span]:
-    """The place of every equation of a text, comments left out."""
+    """Yield the place of every equation of a text, comments left out."""
     text = origin.source.unified
     for start, end in _data(origin):
         if text.find("=[", start, end) >= 0:
@@ -137,7 +137,7 @@ def equation_spans(origin: TextOrigin) -> Iterator[Span]:
 
 
 def _data(origin: TextOrigin) -> Iterator[Span]:
-    """The lines that may hold words: no comments, and no runs of numbers."""
+    """Yield the lines that may contain words: no comments, and no runs of numbers."""
     for leaf in origin.tree.leaves():
         read = leaf.kind in (Kind.TEXT, Kind.SETTING, Kind.RUN)
         if read or (leaf.kind is Kind.UNDECIDED and first_key(origin.source.unified, leaf.span)):
@@ -158,7 +158,7 @@ def _in_equations(origin: TextOrigin) -> Iterator[Occurrence]:
 
 
 def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
-    """The `%name%` in lines of data."""
+    """Yield the `%name%` in lines of data."""
     text = origin.source.unified
     for start, end in _data(origin):
         if text.find("%", start, end) >= 0:

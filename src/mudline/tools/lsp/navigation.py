@@ -1,4 +1,4 @@
-"""From a name or number to where it is defined and used, in all decks of a chain, and new names for what has one."""
+"""Navigation from a name or number to its definition and uses in a chain of decks, and renaming."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from mudline.model.scene.restart import decks_before, find_deck
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import names
 from mudline.tools.lsp.decks import Analysis, Decks, failed
-from mudline.tools.lsp.documents import Document, address_of
+from mudline.tools.lsp.documents import OpenDocument, address_of
 from mudline.tools.lsp.help import is_label
 from mudline.tools.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.tools.lsp.sites import Site, site
@@ -36,34 +36,34 @@ from mudline.tools.lsp.sites import Site, site
 class Linked(NamedTuple):
     """A deck of a chain with its text as a document, open or not."""
 
-    document: Document
+    document: OpenDocument
     deck: Deck
 
 
 def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
-    """A deck, those that it continues, and the open ones that continue it."""
+    """Return a deck, the decks that it continues, and the open decks that continue it."""
     if analysis.deck is None or analysis.scene is None:
         return []
-    found = [Linked(analysis.document, analysis.deck)]
+    linked = [Linked(analysis.document, analysis.deck)]
     for base in analysis.scene.deck.bases:
         if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
             path = base.deck.folder / Path(base.deck.file).name
-            found.append(
-                Linked(decks.at(path) or Document(address_of(path), base.deck.origin.source.text, 0), base.deck)
+            linked.append(
+                Linked(decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0), base.deck)
             )
     if analysis.document.path is not None:
-        found += _dependents(decks, analysis.document.path)
-    return found
+        linked += _dependents(decks, analysis.document.path)
+    return linked
 
 
 def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
-    """The open decks that continue a deck."""
+    """Yield the open decks that continue a deck."""
     for uri in list(decks.documents):
-        other = decks.analysis(uri)
-        if other is not None and other.deck is not None and other.document.path != path:
-            with other.reading():
-                if os.path.abspath(path) in map(os.path.abspath, decks_before(other.deck)):  # noqa: PTH100 - links stay
-                    yield Linked(other.document, other.deck)
+        analysis = decks.analysis(uri)
+        if analysis is not None and analysis.deck is not None and analysis.document.path != path:
+            with analysis.reading():
+                if os.path.abspath(path) in map(os.path.abspath, decks_before(analysis.deck)):  # noqa: PTH100 - links stay
+                    yield Linked(analysis.document, analysis.deck)
 
 
 # -------------------------------------------------------------------------------------------------------------- answers
@@ -81,33 +81,33 @@ class Navigator:
     # --------------------------------------------------------------------------------------------- definition and uses
 
     def definition(self, offset: int) -> list[types.Location]:
-        """Where the thing at an offset is defined; of a file, the file."""
+        """Return the places where the object at an offset is defined; for the name of a file, the file."""
         named = names.at(self.analysis.names, offset)
         if named is not None:
-            return [_location(each.document, one.span) for each, one in self._named(named.thing) if one.defines]
-        found = site(self.analysis, offset)
-        if found is not None and (file := self._file(found.slot.about.names, self.analysis.deck, found.value)):
+            return [_location(each.document, use.span) for each, use in self._named(named.thing) if use.defines]
+        value = site(self.analysis, offset)
+        if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
-        return self._numbered(found) if found else []
+        return self._numbered(value) if value else []
 
     def references(self, offset: int, *, declaration: bool) -> list[types.Location]:
-        """Every place where the thing at an offset is used, and, with `declaration`, where it is defined."""
+        """Return every place where the object at an offset is used; with `declaration`, also its definitions."""
         named = names.at(self.analysis.names, offset)
         if named is not None:
-            found = self._named(named.thing)
-            return [_location(each.document, one.span) for each, one in found if declaration or not one.defines]
+            uses = self._named(named.thing)
+            return [_location(each.document, use.span) for each, use in uses if declaration or not use.defines]
         value = site(self.analysis, offset)
         if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
             return list(self._named_file(file))
         return []
 
     def highlights(self, offset: int) -> list[types.DocumentHighlight]:
-        """The places in this deck alone."""
+        """Return the uses and definitions in this deck only."""
         places = self.references(offset, declaration=True)
         return [types.DocumentHighlight(place.range) for place in places if place.uri == self.analysis.document.uri]
 
     def _linked(self, thing: Thing | None = None) -> list[Linked]:
-        """The decks in which a thing is the same: a parameter belongs to its deck."""
+        """Return the decks in which an object is the same: a parameter belongs to its deck."""
         own = thing is not None and thing.kind is Names.PARAMETER
         if own and self.analysis.deck is not None:
             return [Linked(self.analysis.document, self.analysis.deck)]
@@ -116,17 +116,17 @@ class Navigator:
     def _named(self, thing: Thing) -> Iterator[tuple[Linked, Occurrence]]:
         for linked in self._linked(thing):
             own = linked.deck is self.analysis.deck
-            for one in self.analysis.names if own else occurrences(linked.deck):
-                if one.thing == thing:
-                    yield linked, one
+            for use in self.analysis.names if own else occurrences(linked.deck):
+                if use.thing == thing:
+                    yield linked, use
 
-    def _numbered(self, found: Site) -> list[types.Location]:
-        """Where the node or element is defined whose number stands in a field."""
-        scene, kind = self.analysis.scene, found.slot.about.names or found.slot.about.defines
-        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(found.value):
+    def _numbered(self, value: Site) -> list[types.Location]:
+        """Return the definition of the node or element whose number stands in a field."""
+        scene, kind = self.analysis.scene, value.slot.about.names or value.slot.about.defines
+        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value.value):
             return []
         table = scene.nodes if kind is Names.NODE else scene.table.numbered
-        index = int(table.indices(np.array([found.value], dtype=np.int64))[0])
+        index = int(table.indices(np.array([value.value], dtype=np.int64))[0])
         if index < 0:
             return []
         where = table.where(index)
@@ -139,7 +139,7 @@ class Navigator:
         return [_location(document, span)] if span else []
 
     def _named_file(self, file: Path) -> Iterator[types.Location]:
-        """Every place in the decks of the chain that names a file."""
+        """Yield every place in the decks of the chain that names a file."""
         for document, deck in self._linked():
             for kind, role, name, where in deck.names():
                 span = deck.origin.span(where) if isinstance(deck.origin, TextOrigin) else None
@@ -147,7 +147,7 @@ class Navigator:
                     yield _location(document, span)
 
     def _file(self, kind: Names | None, deck: Deck | None, name: object) -> Path | None:
-        """The file that a name of a kind in a deck stands for, if it is there."""
+        """Return the existing file that a name of a kind in a deck stands for, or None."""
         if deck is None or not isinstance(name, str):
             return None
         if kind is Names.DECK:
@@ -157,44 +157,44 @@ class Navigator:
     # ------------------------------------------------------------------------------------------------------ new names
 
     def renamed(self, offset: int) -> Occurrence:
-        """The name at an offset, if it can be changed; raises JsonRpcException."""
+        """Return the name at an offset if it can be changed; raises JsonRpcException."""
         named = names.at(self.analysis.names, offset)
         if named is None:
             raise failed("only sets, curves and parameters can be renamed")
         word = WORDS[named.thing.kind]
         if named.thing == Thing(Names.SET, ALL):
             raise failed("set ALL is predefined and cannot be renamed")
-        found = [one for _, one in self._named(named.thing)]
-        if not any(one.defines for one in found):
+        uses = [use for _, use in self._named(named.thing)]
+        if not any(use.defines for use in uses):
             where = "by lines that are not read, or nowhere" if word == "set" else "nowhere"
             raise failed(f"{word} {shown(named.name)} is defined {where}: rename it by hand")
-        if any(one.composed for one in found):
+        if any(use.composed for use in uses):
             raise failed(f"{word} {shown(named.name)} is an item of a list: rename it by hand")
         return named
 
     def prepared(self, offset: int) -> types.PrepareRenamePlaceholder:
-        """The same as the editor asks for it before it asks for a new name."""
+        """Return the present name for the editor, which asks for it before the new name."""
         named = self.renamed(offset)
         return types.PrepareRenamePlaceholder(self.analysis.document.range(named.span), named.name)
 
     def rename(self, offset: int, name: str) -> types.WorkspaceEdit:
-        """The changes that rename the thing at an offset in every deck of a chain; raises JsonRpcException."""
+        """Return the changes that rename the object at an offset in every deck of a chain; raises JsonRpcException."""
         named = self.renamed(offset)
         old, new = named.thing, names.thing(named.thing.kind, name)
         self._check(old, new, name)
         edits: dict[int, tuple[Linked, list[TextEdit]]] = {}
-        for linked, one in self._named(old):
-            edits.setdefault(id(linked.deck), (linked, []))[1].append(TextEdit(one.span, name))
+        for linked, use in self._named(old):
+            edits.setdefault(id(linked.deck), (linked, []))[1].append(TextEdit(use.span, name))
         for linked, changes in edits.values():
             text = apply_edits(linked.document.text, changes)
             again = occurrences(read_deck(text.encode(), linked.document.name))
-            if sum(one.thing == new for one in again) < len(changes):
-                raise failed(f"{shown(name)} would not be read as this name everywhere: choose another one")
-        found = {
+            if sum(use.thing == new for use in again) < len(changes):
+                raise failed(f"{shown(name)} would not be read as this name everywhere: choose another name")
+        edits_of_files = {
             linked.document.uri: [types.TextEdit(linked.document.range(edit.span), edit.text) for edit in changes]
             for linked, changes in edits.values()
         }
-        return types.WorkspaceEdit(changes=found)
+        return types.WorkspaceEdit(changes=edits_of_files)
 
     def _check(self, old: Thing, new: Thing, name: str) -> None:
         word = WORDS[old.kind]
@@ -211,7 +211,7 @@ class Navigator:
 
 
 def _is_parameter(name: str) -> bool:
-    """Whether an equation reads a text as the name of a parameter."""
+    """Return True if an equation reads a text as the name of a parameter."""
     try:
         read = parse(name)
     except ExpressionError:
@@ -219,5 +219,5 @@ def _is_parameter(name: str) -> bool:
     return read.names == (name,) and name.casefold() not in CONSTANTS
 
 
-def _location(document: Document, span: Span) -> types.Location:
+def _location(document: OpenDocument, span: Span) -> types.Location:
     return types.Location(document.uri, document.range(span))

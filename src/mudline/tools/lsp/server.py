@@ -1,4 +1,4 @@
-"""The server: its messages, open decks, and their checks when they or the decks that they depend on change."""
+"""Server: its messages, open decks, and their checks when they or the decks that they depend on change."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from mudline.basics.version import __version__
 from mudline.language.deck.forms import SUFFIXES
 from mudline.tools.lsp import findings
 from mudline.tools.lsp.decks import Analysis, Decks
-from mudline.tools.lsp.documents import Document, file_of
+from mudline.tools.lsp.documents import OpenDocument, file_of
 
 T = TypeVar("T")
 
 
 class DeckProtocol(LanguageServerProtocol):
-    """The protocol of pygls with our own documents."""
+    """Protocol of pygls with the documents of this package."""
 
     @property
     def documents(self) -> DeckServer:
@@ -32,7 +32,7 @@ class DeckProtocol(LanguageServerProtocol):
         return cast("DeckServer", self._server)
 
     def structure_message(self, data: dict[str, Any]) -> Any:  # noqa: ANN401 - as pygls
-        """Return the message of what was read; a request with wrong parameters is answered, which pygls leaves out."""
+        """Return the message; a request with wrong parameters gets an answer, which pygls does not send."""
         try:
             return super().structure_message(data)
         except JsonRpcException:
@@ -49,14 +49,14 @@ class DeckProtocol(LanguageServerProtocol):
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
-        """Begin: the position encoding is agreed."""
+        """Begin with the agreed position encoding."""
         result = yield from super().lsp_initialize(params)
         self.documents.begin(result.capabilities.position_encoding or types.PositionEncodingKind.Utf16)
         return result
 
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
-        """Take up a document."""
+        """Add a document."""
         self.documents.opened(params.text_document)
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
@@ -76,12 +76,12 @@ DELAY = 0.02
 """Seconds without a change after which a deck is checked."""
 
 CONFIGURATION = ".toml"
-"""The suffix of configurations, and of what they extend."""
+"""Suffix of configurations, and of the files that they extend."""
 _WATCHED = tuple(f"*{suffix}" for suffix in (*SUFFIXES, ".fcsbd", ".txt", CONFIGURATION))
 
 
 class DeckServer(LanguageServer):
-    """Open decks and their checks, the last one of each: they are made by one thread, one after the other."""
+    """Open decks and the latest check of each; checks are made one after the other in one thread."""
 
     def __init__(self) -> None:
         super().__init__("mudline", __version__, protocol_cls=DeckProtocol)
@@ -92,12 +92,12 @@ class DeckServer(LanguageServer):
     # ------------------------------------------------------------------------------------------------ documents
 
     def begin(self, encoding: types.PositionEncodingKind | str) -> None:
-        """Take note of what was agreed."""
+        """Record the agreed position encoding."""
         self.decks = Decks(encoding.value if isinstance(encoding, types.PositionEncodingKind) else encoding)
         asyncio.get_running_loop().set_exception_handler(self._unexpected)
 
     def opened(self, item: types.TextDocumentItem) -> None:
-        """Take up a document and check it at once."""
+        """Add a document and check it at once."""
         document = self.decks.open(item.uri, item.text, item.version, str(item.language_id))
         self._show_limits(document)
         self._schedule(document, 0.0)
@@ -121,7 +121,7 @@ class DeckServer(LanguageServer):
         self._touch(document)
 
     def closed(self, uri: str) -> None:
-        """Forget a document; its findings go with it, and other decks read its file again."""
+        """Forget a document; its findings are removed, and other decks read its file again."""
         document = self.decks.close(uri)
         if document is None:
             return
@@ -130,7 +130,7 @@ class DeckServer(LanguageServer):
         self._touch(document)
 
     def files_changed(self, changes: list[types.FileEvent]) -> None:
-        """Check again what depends on files that were changed by others."""
+        """Check the decks again that depend on files changed by other programs."""
         paths = [path for change in changes if (path := file_of(change.uri)) is not None]
         if any(path.suffix == CONFIGURATION for path in paths):
             self.decks.forget_configurations()
@@ -140,19 +140,19 @@ class DeckServer(LanguageServer):
         for path in paths:
             self._recheck(path)
 
-    def _touch(self, document: Document) -> None:
+    def _touch(self, document: OpenDocument) -> None:
         if document.path is not None:
             self._recheck(document.path, document.uri)
 
     def _recheck(self, path: Path, but: str = "") -> None:
-        """Check the decks that depend on a file, or of which this is not known yet."""
+        """Check the decks that depend on a file, and decks whose dependencies are not known yet."""
         for uri, document in self.decks.documents.items():
             if uri != but and (not self._checks[uri].done() or self.decks.depends(uri, path)):
                 self.decks.forget(uri)
                 self._schedule(document)
 
-    def _show_limits(self, document: Document) -> None:
-        """Say once, when a long deck is opened, what is not done for it."""
+    def _show_limits(self, document: OpenDocument) -> None:
+        """Tell the user, when a long deck is opened, what is not done for it."""
         size = f"{document.name.rpartition('/')[2]} has {len(document.text) / 1e6:.0f} million characters"
         if document.is_too_large:
             self._show(f"{size}, and more than {LARGEST_OPEN // 10**6} million are not checked here: use mudline lint")
@@ -164,20 +164,20 @@ class DeckServer(LanguageServer):
 
     @property
     def resolves_edits(self) -> bool:
-        """Whether the editor asks for the edits of an action when it needs them."""
+        """True if the editor requests the edits of an action only when it needs them."""
         document = self.client_capabilities.text_document
         support = document.code_action.resolve_support if document and document.code_action else None
         return support is not None and "edit" in support.properties
 
     @property
     def takes_snippets(self) -> bool:
-        """Whether the editor takes texts with places to fill in."""
+        """True if the editor supports snippets."""
         item = self._completion_items
         return bool(item and item.snippet_support)
 
     @property
     def _completion_items(self) -> types.ClientCompletionItemOptions | None:
-        """What the editor can do with items of a completion."""
+        """Abilities of the editor for items of a completion."""
         document = self.client_capabilities.text_document
         return document.completion.completion_item if document and document.completion else None
 
@@ -194,31 +194,31 @@ class DeckServer(LanguageServer):
 
     # --------------------------------------------------------------------------------------------------- checks
 
-    def _schedule(self, document: Document, delay: float = DELAY) -> None:
-        """Check a document when nothing has changed for some time; a check of an older text is dropped."""
+    def _schedule(self, document: OpenDocument, delay: float = DELAY) -> None:
+        """Check a document after some time without changes; a check of an older text is dropped."""
         if (older := self._checks.get(document.uri)) is not None:
             older.cancel()
         self._checks[document.uri] = check = asyncio.create_task(self._check(document, delay))
         check.add_done_callback(_failed)
 
-    async def _check(self, document: Document, delay: float) -> None:
+    async def _check(self, document: OpenDocument, delay: float) -> None:
         await asyncio.sleep(delay)
         begun = self.decks.begun(document)
         for message in self.decks.faults:
             self._show(message, types.MessageType.Warning)
         self.decks.faults.clear()
-        found = await self.aside(begun.checked)
-        self.decks.keep(found)
+        analysis = await self.aside(begun.checked)
+        self.decks.keep(analysis)
         self.text_document_publish_diagnostics(
-            types.PublishDiagnosticsParams(document.uri, findings.shown(found), found.document.version)
+            types.PublishDiagnosticsParams(document.uri, findings.shown(analysis), analysis.document.version)
         )
 
     async def aside(self, work: Callable[[], T]) -> T:
-        """What work comes to that takes long: while it is done, requests are answered."""
+        """Return the result of long work, during which requests are answered."""
         return await asyncio.get_running_loop().run_in_executor(self._worker, work)
 
     async def analysis(self, uri: str, *, checked: bool = False) -> Analysis | None:
-        """The analysis of a document as it is now; a `checked` one, and that of a long one, after its check."""
+        """Return the analysis of a document in its present state; after its check if `checked` or if it is long."""
         document = self.decks.documents.get(uri)
         waits = document is not None and (checked or document.is_long)
         while waits and uri in self._checks and not self._checks[uri].done():
@@ -226,12 +226,12 @@ class DeckServer(LanguageServer):
         return self.decks.analysis(uri)
 
     def shutdown(self) -> None:
-        """End, as soon as a check that runs has ended."""
+        """End as soon as the present check has ended."""
         self._worker.shutdown(cancel_futures=True)
         super().shutdown()  # type: ignore[no-untyped-call]
 
     def _unexpected(self, _: object, context: dict[str, Any]) -> None:
-        """Report a fault of the server itself, which goes on; an answer that could not be sent is none."""
+        """Report a fault of the server itself, which continues; an answer that could not be sent is not reported."""
         error = context.get("exception")
         if isinstance(error, JsonRpcException):
             return
@@ -240,12 +240,12 @@ class DeckServer(LanguageServer):
         self.window_log_message(types.LogMessageParams(types.MessageType.Error, message))
 
     def report_server_error(self, error: Exception, source: type[Exception]) -> None:
-        """Note what could not be handled in the editor's log; requests were answered with it already."""
+        """Record an unhandled message in the editor's log; requests have already been answered."""
         message = str(error)[:500] or type(error).__name__
         self.window_log_message(types.LogMessageParams(types.MessageType.Log, f"{source.__name__}: {message}"))
 
 
 def _failed(check: asyncio.Task[None]) -> None:
-    """Let the loop, and so `_unexpected`, have what a check has raised."""
+    """Pass the exception of a check to the loop, and so to `_unexpected`."""
     if not check.cancelled():
         check.result()

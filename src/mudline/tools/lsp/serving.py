@@ -1,4 +1,4 @@
-"""Serving an editor: each request of the protocol and the module that answers it, on standard input and output."""
+"""Serving an editor: each request of the protocol with the module that answers it, on standard input and output."""
 
 from __future__ import annotations
 
@@ -19,18 +19,21 @@ from mudline.tools.lsp.navigation import Navigator
 from mudline.tools.lsp.server import DeckServer
 
 Ask = Callable[[Analysis, Any], object]
-"""What answers a request about a deck, from its analysis and the parameters of the request."""
+"""Function that answers a request about a deck, from its analysis and the parameters of the request."""
 AskAt = Callable[[Navigator, int, Any], object]
-"""What answers one about a place of a deck, from its offset and the parameters."""
+"""Function that answers a request about a place in a deck, from its offset and the parameters."""
 
 _ABOUT_DECKS: dict[str, tuple[Ask, object]] = {
-    types.TEXT_DOCUMENT_HOVER: (lambda found, asked: hover(found, found.document.offset(asked.position)), None),
-    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda found, _: structure.outline(found), []),
-    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda found, _: structure.folding(found), []),
-    types.TEXT_DOCUMENT_FORMATTING: (lambda found, _: structure.formatting(found), []),
-    types.TEXT_DOCUMENT_INLAY_HINT: (lambda found, asked: hints(found, asked.range), []),
+    types.TEXT_DOCUMENT_HOVER: (
+        lambda analysis, asked: hover(analysis, analysis.document.offset(asked.position)),
+        None,
+    ),
+    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda analysis, _: structure.outline(analysis), []),
+    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda analysis, _: structure.folding(analysis), []),
+    types.TEXT_DOCUMENT_FORMATTING: (lambda analysis, _: structure.formatting(analysis), []),
+    types.TEXT_DOCUMENT_INLAY_HINT: (lambda analysis, asked: hints(analysis, asked.range), []),
 }
-"""The answers, and what is answered where no deck is open."""
+"""Answers about decks, and the answer if no deck is open."""
 _ABOUT_PLACES: dict[str, tuple[AskAt, object]] = {
     types.TEXT_DOCUMENT_DEFINITION: (lambda deck, at, _: deck.definition(at), []),
     types.TEXT_DOCUMENT_REFERENCES: (
@@ -41,7 +44,7 @@ _ABOUT_PLACES: dict[str, tuple[AskAt, object]] = {
     types.TEXT_DOCUMENT_PREPARE_RENAME: (lambda deck, at, _: deck.prepared(at), None),
     types.TEXT_DOCUMENT_RENAME: (lambda deck, at, asked: deck.rename(at, asked.new_name), None),
 }
-"""The same about places, of which nothing is said in a file that is no keyword text."""
+"""Answers about places, and the answer in a file that is not keyword text."""
 _OPTIONS = {types.TEXT_DOCUMENT_RENAME: types.RenameOptions(prepare_provider=True)}
 
 
@@ -57,21 +60,21 @@ def register(server: DeckServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, colours.LEGEND)
     async def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
-        document = copy(server.decks.documents.get(params.text_document.uri))  # as it is now
+        document = copy(server.decks.documents.get(params.text_document.uri))  # in its present state
         return await server.aside(lambda: colours.tokens(document)) if document else types.SemanticTokens([])
 
 
 def _answer(server: DeckServer, method: str, ask: Ask, nothing: object) -> None:
     @server.feature(method, _OPTIONS.get(method))
     async def answered(params: Any) -> object:  # noqa: ANN401 - of each request others
-        found = await server.analysis(params.text_document.uri)
-        return nothing if found is None else ask(found, params)
+        analysis = await server.analysis(params.text_document.uri)
+        return nothing if analysis is None else ask(analysis, params)
 
 
 def _at_place(server: DeckServer, ask: AskAt, nothing: object) -> Ask:
-    def answered(found: Analysis, params: Any) -> object:  # noqa: ANN401 - as above
-        at = found.document.offset(params.position)
-        return nothing if found.origin is None else ask(Navigator(server.decks, found), at, params)
+    def answered(analysis: Analysis, params: Any) -> object:  # noqa: ANN401 - as above
+        at = analysis.document.offset(params.position)
+        return nothing if analysis.origin is None else ask(Navigator(server.decks, analysis), at, params)
 
     return answered
 
@@ -95,18 +98,18 @@ def _fixes(server: DeckServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, options)
     async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
-        found = await server.analysis(params.text_document.uri, checked=True)
-        if found is None:
+        analysis = await server.analysis(params.text_document.uri, checked=True)
+        if analysis is None:
             return []
         context, resolved = params.context, server.resolves_edits
-        return await server.aside(lambda: findings.actions(found, params.range, context.only, resolved=resolved))
+        return await server.aside(lambda: findings.actions(analysis, params.range, context.only, resolved=resolved))
 
     @server.feature(types.CODE_ACTION_RESOLVE)
     async def resolve(action: types.CodeAction) -> types.CodeAction:
         uri = action.data.get("uri") if isinstance(action.data, dict) else None
-        found = await server.analysis(uri) if isinstance(uri, str) else None
-        if found is not None and action.kind == findings.FIX_ALL:
-            action.edit = await server.aside(lambda: findings.fix_all(found))
+        analysis = await server.analysis(uri) if isinstance(uri, str) else None
+        if analysis is not None and action.kind == findings.FIX_ALL:
+            action.edit = await server.aside(lambda: findings.fix_all(analysis))
         return action
 
 
@@ -115,11 +118,11 @@ def _completion(server: DeckServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, options)
     async def completed(params: types.CompletionParams) -> types.CompletionList:
-        found = await server.analysis(params.text_document.uri)
+        analysis = await server.analysis(params.text_document.uri)
         items: list[types.CompletionItem] = []
-        if found is not None:
-            offset = found.document.offset(params.position)
-            items = completion.completions(found, offset, snippets=server.takes_snippets)
+        if analysis is not None:
+            offset = analysis.document.offset(params.position)
+            items = completion.completions(analysis, offset, snippets=server.takes_snippets)
         return types.CompletionList(is_incomplete=False, items=items)
 
     @server.feature(types.COMPLETION_ITEM_RESOLVE)
@@ -131,11 +134,11 @@ def _completion(server: DeckServer) -> None:
 
 
 _SWITCH = 0.001
-"""Seconds after which a check lets the thread go on that answers requests; each answer needs several such turns."""
+"""Seconds after which a check lets the answering thread run; each answer needs several such turns."""
 
 
 def quiet_logs() -> None:
-    """Keep what pygls reports of messages that cannot be used, which may be of any length, off standard error."""
+    """Keep pygls' reports of unusable messages, which may be of any length, off standard error."""
     logging.getLogger("pygls").setLevel(logging.CRITICAL)
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
@@ -143,8 +146,8 @@ def quiet_logs() -> None:
 _NO_LENGTH = re.compile(rb"content-length:\s*[0-9]{12}", re.IGNORECASE)
 
 
-class _Input(io.BufferedReader):
-    """Standard input, in which a length that no memory holds is none: it would end the server."""
+class _GuardedInput(io.BufferedReader):
+    """Standard input that hides message lengths too large for memory, which would end the server."""
 
     def readline(self, size: int | None = -1, /) -> bytes:
         """Read a line of a header."""
@@ -153,14 +156,14 @@ class _Input(io.BufferedReader):
 
 
 def take_streams() -> tuple[BinaryIO, BinaryIO]:
-    """Standard input and output of the protocol; what else is printed goes to standard error from now on."""
-    streams = _Input(io.FileIO(sys.stdin.fileno(), closefd=False)), sys.stdout.buffer
+    """Return standard input and output for the protocol; other output goes to standard error from now on."""
+    streams = _GuardedInput(io.FileIO(sys.stdin.fileno(), closefd=False)), sys.stdout.buffer
     sys.stdout = sys.stderr
     return streams
 
 
 def serve() -> int:
-    """Serve until the editor ends it; returns 0 where that was announced before, as the protocol asks, else 1."""
+    """Serve until the editor ends it; return 0 if the editor announced the end, as the protocol requires, else 1."""
     quiet_logs()
     stdin, stdout = take_streams()
     sys.setswitchinterval(_SWITCH)

@@ -1,4 +1,4 @@
-"""What stands at a place of a deck: the section, the block, the field and its value."""
+"""Place in a deck: the section, the block, the field and its value."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mudline.tools.lsp.decks import Analysis
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """The section and block in whose lines an offset lies, with their numbers; -1 and None outside of any."""
+    """Section and block in whose lines an offset lies, with their numbers; -1 and None outside any section or block."""
 
     section: int = -1
     block: int = -1
@@ -47,7 +47,7 @@ class Spot:
 
 
 def spot(tree: SyntaxTree, offset: int) -> Spot:
-    """The section and block at an offset: what begins there counts, what ends there does not."""
+    """Return the section and block at an offset; a block begins at its first character, and ends before the next."""
     heads = [section.head.span.start if section.head else 0 for section in tree.sections]
     at = bisect_right(heads, offset) - 1
     if at < 0:
@@ -57,16 +57,16 @@ def spot(tree: SyntaxTree, offset: int) -> Spot:
     return Spot(at, number, section, section.blocks[number] if number >= 0 else None)
 
 
-def leaf_at(found: Spot, offset: int) -> Leaf | None:
-    """The line, or run of lines, of a block at an offset."""
-    leaves = [found.raw.head, *found.raw.leaves] if found.raw else []
+def leaf_at(here: Spot, offset: int) -> Leaf | None:
+    """Return the line, or run of lines, of a block at an offset."""
+    leaves = [here.raw.head, *here.raw.leaves] if here.raw else []
     at = bisect_right([leaf.span.start for leaf in leaves], offset) - 1
     return leaves[at] if at >= 0 else None
 
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """A value of a deck: where it stands, the field that it is of, and the value as read (None if it could not be)."""
+    """A value of a deck: its place, its field, and the value as read (None if it could not be read)."""
 
     where: Where
     span: Span
@@ -75,14 +75,14 @@ class Site:
 
 
 def site(analysis: Analysis, offset: int) -> Site | None:
-    """The value at an offset, or whose KEY= is there."""
+    """Return the value at an offset, also if its KEY= is there."""
     origin = analysis.origin
     if origin is None or analysis.deck is None:
         return None
-    found = spot(origin.tree, offset)
-    block = _model(analysis, found)
-    read = origin.read.get((found.section, found.block))
-    leaf = leaf_at(found, offset)
+    here = spot(origin.tree, offset)
+    block = _model(analysis, here)
+    read = origin.read.get((here.section, here.block))
+    leaf = leaf_at(here, offset)
     if block is None or read is None or leaf is None or leaf.kind is Kind.COMMENT:
         return None
     place = read.places.at(offset)
@@ -90,32 +90,32 @@ def site(analysis: Analysis, offset: int) -> Site | None:
         path, span = place
         slot, value = block.at(path)
         if slot is not None and not isinstance(value, Part | list):
-            return Site(found.where.inside(*path), span, slot, value)
-    return _of_key(origin, found, leaf, offset)
+            return Site(here.where.inside(*path), span, slot, value)
+    return _of_key(origin, here, leaf, offset)
 
 
-def _model(analysis: Analysis, found: Spot) -> Block | None:
-    if found.raw is None or analysis.deck is None or found.section >= len(analysis.deck.sections):
+def _model(analysis: Analysis, here: Spot) -> Block | None:
+    if here.raw is None or analysis.deck is None or here.section >= len(analysis.deck.sections):
         return None
-    blocks = analysis.deck.sections[found.section].blocks
-    block = blocks[found.block] if found.block < len(blocks) else None
+    blocks = analysis.deck.sections[here.section].blocks
+    block = blocks[here.block] if here.block < len(blocks) else None
     return None if block is None or type(block) is Opaque else cast("Block", block)
 
 
-def _of_key(origin: TextOrigin, found: Spot, leaf: Leaf, offset: int) -> Site | None:
-    """The setting whose KEY= is at an offset."""
-    declared = found.declared
+def _of_key(origin: TextOrigin, here: Spot, leaf: Leaf, offset: int) -> Site | None:
+    """Return the setting whose KEY= is at an offset."""
+    declared = here.declared
     if declared is None or leaf.kind not in (Kind.SETTING, Kind.UNDECIDED):
         return None
     for group in read_line(origin.source.unified, leaf.span, slashes=declared.slashes).groups:
         end = group.fields[0].span.start if group.fields else group.span.end
         if group.key and group.span.start <= offset <= end:
             slot = slot_of_key(declared, group.key)
-            return Site(found.where, Span(group.span.start, end), slot, None) if slot else None
+            return Site(here.where, Span(group.span.start, end), slot, None) if slot else None
     return None
 
 
 def slot_of_key(declared: type[Block], key: str) -> FieldSpec | None:
-    """The field that a KEY= of a keyword gives; of several records that have it, the first one's."""
+    """Return the field of a KEY= of a keyword; of several records with this key, that of the first."""
     name = canonical_key(key)
-    return next((found.keys[name] for found in schemas_of(declared) if name in found.keys), None)
+    return next((schema.keys[name] for schema in schemas_of(declared) if name in schema.keys), None)

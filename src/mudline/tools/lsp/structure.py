@@ -1,4 +1,4 @@
-"""The structure of a deck: its outline, what folds, and its canonical layout."""
+"""Structure of a deck: its outline, folding ranges, and its canonical layout."""
 
 from __future__ import annotations
 
@@ -25,28 +25,28 @@ from mudline.tools.lsp.decks import Analysis, failed
 
 
 def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
-    """Sections, the blocks in them, and in these what has a name: sets, curves, parameters."""
+    """Return sections, their blocks, and the named records in these: sets, curves, parameters."""
     origin = analysis.origin
     if origin is None:
         return []
-    found: list[types.DocumentSymbol] = []
+    symbols: list[types.DocumentSymbol] = []
     for index, section in enumerate(origin.tree.sections):
         if section.head is not None:
             lines = _extents(section, _end(origin, index))
             blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in enumerate(lines)]
             kind = types.SymbolKind.Module
-            found.append(_symbol(analysis, f"${section.name}", kind, section.head.span, _end(origin, index), blocks))
-    return found
+            symbols.append(_symbol(analysis, f"${section.name}", kind, section.head.span, _end(origin, index), blocks))
+    return symbols
 
 
 def _end(origin: TextOrigin, index: int) -> int:
-    """Where a section ends: where the next one begins, or with the text."""
+    """Return the end of a section: the start of the next section, or the end of the text."""
     following = origin.tree.sections[index + 1 : index + 2]
     return following[0].head.span.start if following and following[0].head else len(origin.source.unified)
 
 
 def _extents(section: RawSection, stop: int) -> Iterator[tuple[RawBlock, int]]:
-    """Every block of a section that ends at `stop`, and where it ends."""
+    """Return every block of a section that ends at `stop`, with the end of the block."""
     ends = [*(block.head.span.start for block in section.blocks[1:]), stop]
     return zip(section.blocks, ends, strict=False)
 
@@ -78,7 +78,7 @@ def _block(
 
 
 def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> Iterator[types.DocumentSymbol]:
-    """What has a name in a block."""
+    """Yield the named records of a block."""
     for slot in record_schema(type(block)).slots:
         records = getattr(block, slot.name, None) if slot.record else None
         named = [(index, _name(record)) for index, record in enumerate(records or ())]
@@ -93,7 +93,7 @@ def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> It
 
 
 def _name(record: Part) -> str:
-    """The name that a record gives or is found by."""
+    """Return the name that a record gives or is found by."""
     slots = [slot for slot in record_schema(type(record)).slots if _is_name(slot)]
     values = (getattr(record, slot.name, None) for slot in slots)
     return next((value for value in values if isinstance(value, str) and value), "")
@@ -109,7 +109,7 @@ def _is_name(slot: FieldSpec) -> bool:
 
 
 def folding(analysis: Analysis) -> list[types.FoldingRange]:
-    """Sections, blocks, and comments of more than one line."""
+    """Return the folding ranges: sections, blocks, and comments of more than one line."""
     origin = analysis.origin
     if origin is None:
         return []
@@ -119,7 +119,7 @@ def folding(analysis: Analysis) -> list[types.FoldingRange]:
 
 
 def _regions(origin: TextOrigin) -> Iterator[Span]:
-    """The lines of every section and block."""
+    """Yield the lines of every section and block."""
     for index, section in enumerate(origin.tree.sections):
         if section.head is not None:
             stop = _end(origin, index)
@@ -151,7 +151,7 @@ def _folded(analysis: Analysis, spans: list[tuple[Span, types.FoldingRangeKind]]
 
 
 def formatting(analysis: Analysis) -> list[types.TextEdit]:
-    """The change that brings a deck into canonical layout; raises JsonRpcException for one that cannot be formatted."""
+    """Return the change to canonical layout; raises JsonRpcException for a deck that cannot be formatted."""
     document = analysis.document
     if analysis.deck is None:
         return []

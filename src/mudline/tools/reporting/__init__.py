@@ -1,1 +1,1 @@
-"""A page about a deck that a checker signs: what it says, its pictures, and its HTML. The HTML needs jinja2."""
+"""Page about a deck that a checker signs: its content, its pictures, and its HTML, which needs jinja2."""

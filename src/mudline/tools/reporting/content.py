@@ -1,6 +1,7 @@
-"""What the page about a deck says, as JSON has it, and what its pictures are drawn from.
+"""Content of the page about a deck, as in JSON, and the data of its pictures.
 
-Only what a wanted section needs is computed. A part that a faulty deck does not allow is None, and `missing` says why.
+Only the data of requested sections are computed. A part that cannot be computed for a faulty deck is None; `missing`
+gives the reason.
 """
 
 from __future__ import annotations
@@ -48,21 +49,29 @@ from mudline.tools.touchdown_study.study import Study, study
 FORMAT = "mudline-report/1"
 SECTIONS = ("verdict", "findings", "inputs", "model", "curves", "contact", "study", "plan")
 BY_DEFAULT = tuple(name for name in SECTIONS if name != "study")
-"""A study takes seconds, and measures run times, which differ from run to run."""
+"""Sections by default; a study takes seconds and measures run times, which vary from run to run."""
 
 _NO_DECK = "the file holds no deck"
 
 
-class Given(NamedTuple):
-    """A file: its content, its name in messages, and where files are that it names."""
+class DeckFile(NamedTuple):
+    """A file: its content, its name in messages, and the folder of files that it names."""
 
     data: bytes
     name: str
     folder: Path | None
 
 
-class Document(NamedTuple):
-    """What a company calls a page: title (None for that of the deck), number, revision, date, and further fields."""
+class PageHead(NamedTuple):
+    """Head of a document.
+
+    Attributes:
+        title: title of the page; None for that of the deck.
+        number: number of the document.
+        revision: its revision.
+        date: its date.
+        fields: further names and values.
+    """
 
     title: str | None = None
     number: str | None = None
@@ -71,29 +80,31 @@ class Document(NamedTuple):
     fields: tuple[tuple[str, str], ...] = ()
 
 
-NO_DOCUMENT = Document()
+NO_DOCUMENT = PageHead()
 
 
 class Look(NamedTuple):
-    """What a company gives a page: a template instead of ours, and a logo."""
+    """Look of a page: a template in place of the default, and a logo."""
 
     template: Path | None = None
     logo: Path | None = None
 
 
 class LookError(ValueError):
-    """A template or a logo that cannot be used; the message names the file."""
+    """Fault of a template or a logo; the message names the file."""
 
 
 @dataclass
-class Report:
+class PageContent:
     """The content of a page.
 
     Attributes:
-        json: as it is printed; a section that is not wanted is not among its keys.
-        source: the text of the deck, of which lines are shown beside findings.
-        scene, drawn, doubt, study: what the pictures show, None where there is none; `doubt` goes below a title.
-        at_rest: whether contact is that of the resting shape.
+        json: the content as JSON; only requested sections are among its keys.
+        source: the text of the deck, whose lines are shown next to findings.
+        scene, drawn, study: data of the pictures, None if missing.
+        doubt: warning below the title of a picture.
+        sheet: the sheet of the elements.
+        at_rest: True if contact is evaluated at the resting shape.
     """
 
     json: dict[str, Any]
@@ -105,57 +116,57 @@ class Report:
     sheet: Sheet | None = None
     at_rest: bool = False
     named: dict[str, str] = field(default_factory=dict)
-    """The titles of the rules behind the findings, by code."""
+    """Titles of the rules behind the findings, by code."""
 
 
 def report_on(
-    given: Given,
+    given: DeckFile,
     settings: LintSettings,
-    wanted: Collection[str],
-    document: Document = NO_DOCUMENT,
+    requested: Collection[str],
+    document: PageHead = NO_DOCUMENT,
     *,
     rest_shape: bool = False,
-) -> Report:
-    """Read, judge and evaluate a deck as far as the wanted sections need it; `document` is written on the page.
+) -> PageContent:
+    """Read, judge and evaluate a deck as far as the requested sections need it; `document` is written on the page.
 
-    Never raises for content. With `rest_shape` contact is that of the resting shape, else of the deck's own
-    coordinates. Folders of this computer do not stand in it.
+    Never raises for content. Contact is evaluated at the resting shape with `rest_shape`, else at the deck's own
+    coordinates. The content names no folders of this computer.
     """
     verdict, deck, context = _judged(given, settings)
     head = _head(given, deck, verdict, document)
-    head["shown"] = [name for name in SECTIONS if name in wanted]
-    made = Report(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
-    found = head["sections"]
-    if "findings" in wanted:
-        found["findings"] = _findings(given, settings, context)
-        made.named = _titles([one["code"] for one in (*found["findings"]["reported"], *found["findings"]["hidden"])])
-    of_scene = [name for name in SECTIONS[2:] if name in wanted]
-    made.scene, missing = _scene(deck) if of_scene or "verdict" in wanted else (None, "")
-    if made.scene is not None:
-        head["continues"] = [base.deck.file for base in made.scene.deck.bases]
+    head["shown"] = [name for name in SECTIONS if name in requested]
+    content = PageContent(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
+    sections = head["sections"]
+    if "findings" in requested:
+        sections["findings"] = _findings(given, settings, context)
+        content.named = _titles([row["code"] for rows in sections["findings"].values() for row in rows])
+    of_scene = [name for name in SECTIONS[2:] if name in requested]
+    content.scene, missing = _scene(deck) if of_scene or "verdict" in requested else (None, "")
+    if content.scene is not None:
+        head["continues"] = [base.deck.file for base in content.scene.deck.bases]
     for name in of_scene:
         why = missing
         try:
-            found[name] = None if made.scene is None else as_json(_section(name, made.scene, made))
+            sections[name] = None if content.scene is None else as_json(_section(name, content.scene, content))
         except DeckError as error:
-            found[name], why = None, _reason(error)
+            sections[name], why = None, _reason(error)
         if why:
             head["missing"][name] = why
     head["inferred"] = [] if deck is None else inferences(deck)
-    for one in (found.get("plan") or {}).get("stages", ()):
-        if one["active"] and "(inferred)" in one["why"]:
-            head["inferred"].append({"keyword": "", "fields": [one["stage"]], "inferred": one["why"], "blocks": 1})
-    if "verdict" in wanted:
-        head["figures"] = _figures(made, found.get("contact"), missing)
-    made.json = _without_folders(head, given)
-    return made
+    for stage in (sections.get("plan") or {}).get("stages", ()):
+        if stage["active"] and "(inferred)" in stage["why"]:
+            head["inferred"].append({"keyword": "", "fields": [stage["stage"]], "inferred": stage["why"], "blocks": 1})
+    if "verdict" in requested:
+        head["figures"] = _figures(content, sections.get("contact"), missing)
+    content.json = _without_folders(head, given)
+    return content
 
 
-def _figures(made: Report, contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
-    """The five numbers of the contact that stand beside the verdict; `missing` says why there are none."""
-    if contact is None and made.scene is not None:
+def _figures(content: PageContent, contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
+    """Return the five numbers of the contact next to the verdict; without them, `missing` as the reason."""
+    if contact is None and content.scene is not None:
         try:
-            contact = as_json(_contact(made.scene, made))
+            contact = as_json(_contact(content.scene, content))
         except DeckError as error:
             missing = _reason(error)
     if contact is None:
@@ -170,45 +181,45 @@ def _figures(made: Report, contact: dict[str, Any] | None, missing: str) -> dict
         "ratio": contact["ratio"],
         "positions": contact["positions"],
         "weights_without": contact["weights_without"],
-        "warnings": sorted({one["code"] for one in contact["warnings"]}),
+        "warnings": sorted({warning["code"] for warning in contact["warnings"]}),
         "missing": "",
     }
 
 
-def _without_folders(value: Any, given: Given) -> Any:  # noqa: ANN401 - whatever JSON holds
-    """A value in which files stand by their names alone: where they are differs from computer to computer."""
+def _without_folders(value: Any, given: DeckFile) -> Any:  # noqa: ANN401 - whatever JSON holds
+    """Return a value in which files have their names only: folders differ from computer to computer."""
     words = {given.name: PurePath(given.name).name}
     if given.folder is not None and given.folder.name:
         whole = given.folder.absolute().as_posix()
         words |= {f"{whole}/": "", whole: "the folder of the deck", f"{given.folder.as_posix()}/": ""}
-    longest_first = sorted(words.items(), key=lambda one: -len(one[0]))
+    longest_first = sorted(words.items(), key=lambda pair: -len(pair[0]))
 
     def plain(each: Any) -> Any:  # noqa: ANN401 - as above
         if isinstance(each, dict):
-            return {key: plain(one) for key, one in each.items()}
+            return {key: plain(item) for key, item in each.items()}
         if isinstance(each, list):
-            return [plain(one) for one in each]
+            return [plain(item) for item in each]
         if isinstance(each, str):
-            return reduce(lambda text, one: text.replace(*one), longest_first, each)
+            return reduce(lambda text, pair: text.replace(*pair), longest_first, each)
         return each
 
     return plain(value)
 
 
-def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:
+def _section(name: str, scene: Scene, content: PageContent) -> dict[str, Any]:
     if name == "contact":
-        return _contact(scene, made)
+        return _contact(scene, content)
     if name == "study":
-        made.study = study(scene)
-        return made.study.json() | {"notes": made.study.notes}
+        content.study = study(scene)
+        return content.study.json() | {"notes": content.study.notes}
     if name == "inputs":
-        made.sheet = sheet_of(scene)
-        rows, without = list(made.sheet.rows), list(made.sheet.left_out)
+        content.sheet = sheet_of(scene)
+        rows, without = list(content.sheet.rows), list(content.sheet.left_out)
         return {"inputs": inputs_of(scene), "sheet": rows, "weights_without": without}
     return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
 
 
-def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None, LintContext | None]:
+def _judged(given: DeckFile, settings: LintSettings) -> tuple[Verdict, Deck | None, LintContext | None]:
     try:
         deck = load_bytes(given.data, given.name, units=settings.units, folder=given.folder)
     except DeckError as error:
@@ -217,8 +228,8 @@ def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None,
     return judge(context).verdict, deck, context
 
 
-def _head(given: Given, deck: Deck | None, verdict: Verdict, document: Document) -> dict[str, Any]:
-    """Which deck, in which state, by which program."""
+def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHead) -> dict[str, Any]:
+    """Return the head of the content: deck, state, program."""
     return {
         "format": FORMAT,
         "deck": given.name,
@@ -240,14 +251,14 @@ def _head(given: Given, deck: Deck | None, verdict: Verdict, document: Document)
 
 
 def _title(deck: Deck) -> str:
-    """The first line of a `*TITLE`; "" without one."""
+    """Return the first line of a `*TITLE`; "" without a title."""
     blocks = (block for section in deck.own_sections for block in section.blocks if block.keyword == "TITLE")
     lines = (line.strip() for block in blocks for line in getattr(block, "lines", ()))
     return next(filter(None, lines), "")
 
 
 def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
-    """The scene of a deck that can be evaluated, or why there is none."""
+    """Return the scene of a deck that can be evaluated, or the reason why there is none."""
     if deck is None:
         return None, _NO_DECK
     try:
@@ -264,27 +275,27 @@ def _reason(error: DeckError) -> str:
 # ------------------------------------------------------------------------------------------------------------- findings
 
 
-def _findings(given: Given, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
-    """What `mudline lint` reports, and what comments hide, each with the section of the deck that it lies in."""
-    found = lint_one(given.name, given.data, settings, given.folder).found
+def _findings(given: DeckFile, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
+    """Return the findings of `mudline lint`, and those hidden by comments, each with its section of the deck."""
+    findings = lint_one(given.name, given.data, settings, given.folder).found
     sections = _section_lines(context)
-    reported = [_finding(one, sections) for one in found]
+    reported = [_finding(finding, sections) for finding in findings]
     hidden = [] if context is None else _hidden(context, settings, sections)
     return {"reported": reported, "hidden": hidden}
 
 
 def _section_lines(context: LintContext | None) -> list[tuple[int, str]]:
-    """The first line of each section of a text, with its name."""
+    """Return the first line of each section of a text, with its name."""
     origin = None if context is None else context.deck.origin
     if context is None or not isinstance(origin, TextOrigin):
         return []
-    places = (origin.source.position(one.head.span.start)[0] for one in origin.tree.sections if one.head)
-    return list(zip(places, (f"${one.name}" for one in context.deck.own_sections), strict=False))
+    places = (origin.source.position(section.head.span.start)[0] for section in origin.tree.sections if section.head)
+    return list(zip(places, (f"${section.name}" for section in context.deck.own_sections), strict=False))
 
 
-def _finding(found: Diagnostic, sections: Sequence[tuple[int, str]]) -> dict[str, Any]:
-    section = next((name for line, name in reversed(sections) if line <= found.line), "")
-    row = as_object(found) | {"section": section}
+def _finding(finding: Diagnostic, sections: Sequence[tuple[int, str]]) -> dict[str, Any]:
+    section = next((name for line, name in reversed(sections) if line <= finding.line), "")
+    row = as_object(finding) | {"section": section}
     del row["url"], row["file"]
     return row
 
@@ -296,35 +307,35 @@ def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[i
     rows = []
     for problem in comments.split(joined_problems(context, settings.rules, suppress=False), ())[1]:
         comment = comments.hiding(problem)
-        (found,) = context.deck.diagnose([problem])
-        rows.append(_finding(found, sections) | {"reason": "" if comment is None else comment.reason})
+        (finding,) = context.deck.diagnose([problem])
+        rows.append(_finding(finding, sections) | {"reason": "" if comment is None else comment.reason})
     return rows
 
 
 def _titles(codes: Collection[str]) -> dict[str, str]:
-    found = {rule.code.code: rule for rule in rules()} if codes else {}
-    return {code: found[code].page.title if code in found else "" for code in sorted(set(codes))}
+    rules_by_code = {rule.code.code: rule for rule in rules()} if codes else {}
+    return {code: rules_by_code[code].page.title if code in rules_by_code else "" for code in sorted(set(codes))}
 
 
 # ----------------------------------------------------------------------------------------------------- model and curves
 
 
 def _model(scene: Scene) -> dict[str, Any]:
-    found = summarise(scene)
+    summary = summarise(scene)
     names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions")
-    return {name: found[name] for name in (*names, "weights_without")} | {"keywords": found["sections"]}
+    return {name: summary[name] for name in (*names, "weights_without")} | {"keywords": summary["sections"]}
 
 
 def _curves(scene: Scene) -> dict[str, Any]:
-    """Every curve as it is evaluated; what each set of elements follows, with the lines of the deck that give it."""
+    """Return every curve as evaluated, and the laws of each set of elements with their lines in the deck."""
     laws = []
     for index, grant in enumerate(scene.laws.set_laws):
         values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
         laws.append(
             _law(scene, scene.law_name(grant), grant.set_.name, values, scene.laws.of_element == index, grant.where)
         )
-    for index, (given, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
-        values = {key.replace("_", " "): read for key, one in given._asdict().items() if (read := _given(one))}
+    for index, (resistance, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
+        values = {key.replace("_", " "): read for key, value in resistance._asdict().items() if (read := _given(value))}
         entry: Any = scene.deck.sections[where.section].blocks[where.block]
         name: str | None = entry.sets[where.path[1]].set_name if where.path[0] == "sets" else None
         if values:
@@ -340,41 +351,41 @@ def _curves(scene: Scene) -> dict[str, Any]:
 def _law(
     scene: Scene, law: str, set_name: str | None, values: dict[str, Any], follow: Mask, where: Where
 ) -> dict[str, Any]:
-    (found,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
+    (place,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
     name = set_name or "ALL"
     known = scene.set_table.find(name)
     counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
-    place = {"file": found.file, "line": found.line}
-    return {"law": law, "set": name} | counts | {"values": values} | place
+    location = {"file": place.file, "line": place.line}
+    return {"law": law, "set": name} | counts | {"values": values} | location
 
 
 def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction
-    """What the deck gives of a value; None for nothing."""
+    """Return the value that the deck gives, or None."""
     if isinstance(value, tuple):
-        numbers = [finite(float(one)) for one in value]
-        return None if all(one is None for one in numbers) else numbers
+        numbers = [finite(float(component)) for component in value]
+        return None if all(number is None for number in numbers) else numbers
     return finite(float(value))
 
 
 # ------------------------------------------------------------------------------------------ contact, study and plan
 
 
-def _contact(scene: Scene, made: Report) -> dict[str, Any]:
-    """The contact of the deck's own coordinates, or of its resting shape."""
-    if made.at_rest:
+def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
+    """Return the contact at the deck's own coordinates, or at its resting shape."""
+    if content.at_rest:
         shape = rest_shape(scene)
         evaluation = evaluate_scene(scene, shape.positions, _tension(scene), at_rest=shape.sentences(scene.units))
     else:
         evaluation = evaluate_scene(scene, tension=_tension(scene))
-    made.drawn = PlotData.of_evaluation(evaluation)
+    content.drawn = PlotData.of_evaluation(evaluation)
     watch = ContactWatch.of(evaluation)
     (part,) = evaluation.parts()
-    for one in (made.drawn, watch):
-        one.take(part)
+    for consumer in (content.drawn, watch):
+        consumer.take(part)
     warnings = watch.warnings()
-    made.doubt = caption(warnings)
+    content.doubt = caption(warnings)
     result = part.result.step(0)
-    lying = scene.law != LawKind.NONE  # others may be held in soil
+    lying = scene.law != LawKind.NONE  # elements without a law may be held in soil
     lying = lying if lying.any() else ~lying
     depth = np.where(lying & result.evaluated & ~np.isnan(result.depth), result.depth, -np.inf)
     deepest = int(depth.argmax()) if depth.size else -1
@@ -391,7 +402,7 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "notes": [*evaluation.notes, *filter(None, [watch.note()])],
         "lines": [row.row() for row in line_steps(evaluation, part)],
         "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
-        "warnings": [one.row() for one in warnings],
+        "warnings": [warning.row() for warning in warnings],
     }
 
 
@@ -401,5 +412,5 @@ def _plan(scene: Scene) -> dict[str, Any]:
 
 
 def _tension(scene: Scene) -> Tension:
-    """Curves that pull are cut where the deck could not be evaluated otherwise."""
+    """Return "cut" if the tension of curves prevents evaluation, else "keep"."""
     return "cut" if scene.blocking("keep") else "keep"

@@ -1,4 +1,4 @@
-"""What no public page says of the keywords of a deck: the deductions of their declarations that touch it."""
+"""Deductions in the declarations of a deck's keywords: statements that no public page makes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from mudline.language.keywords.table import Table
 
 
 def inferences(deck: Deck) -> list[dict[str, Any]]:
-    """Each deduction once, with its keyword, the fields that it is about, and how many blocks have these."""
-    found: dict[tuple[str, str], tuple[list[str], int]] = {}
+    """Return each deduction once, with its keyword, its fields, and the number of blocks with these fields."""
+    deductions: dict[tuple[str, str], tuple[list[str], int]] = {}
     for section in deck.own_sections:
         for block in section.blocks:
             touched: dict[str, list[str]] = {}
@@ -21,16 +21,16 @@ def inferences(deck: Deck) -> list[dict[str, Any]]:
                 labels = touched.setdefault(text, [])
                 labels += [label] * (label not in labels)
             for text, labels in touched.items():
-                known, count = found.get((block.keyword, text), ([], 0))
-                found[block.keyword, text] = list(dict.fromkeys([*known, *labels])), count + 1
+                known, count = deductions.get((block.keyword, text), ([], 0))
+                deductions[block.keyword, text] = list(dict.fromkeys([*known, *labels])), count + 1
     return [
-        {"keyword": keyword, "fields": [one for one in labels if one], "inferred": text, "blocks": count}
-        for (keyword, text), (labels, count) in found.items()
+        {"keyword": keyword, "fields": [label for label in labels if label], "inferred": text, "blocks": count}
+        for (keyword, text), (labels, count) in deductions.items()
     ]
 
 
 def _of_block(section: str, block: Part | Opaque) -> Iterator[tuple[str, str]]:
-    """The name of each field with a deduction, and that."""
+    """Yield the name of each field with a deduction, and the deduction."""
     if isinstance(block, Opaque):
         kept = opaque_keyword(section, block.keyword)
         if kept is not None and kept.inferred:
@@ -39,6 +39,6 @@ def _of_block(section: str, block: Part | Opaque) -> Iterator[tuple[str, str]]:
     for _, slot, value in block.walk():
         if slot.about.inferred:
             yield slot.label, slot.about.inferred
-        if isinstance(value, Table):  # rows of a table are alike: what its columns are is known without them
+        if isinstance(value, Table):  # rows of a table are alike: its columns are enough
             columns = record_schema(slot.row).slots if slot.row else ()
-            yield from ((one.label, one.about.inferred) for one in columns if one.about.inferred)
+            yield from ((column.label, column.about.inferred) for column in columns if column.about.inferred)

@@ -1,4 +1,4 @@
-"""What a deck gives beside its lines of pipe: water, conditions, waves, current, vessels and times, with units."""
+"""Inputs of a deck next to its lines of pipe: water, conditions, waves, current, vessels and times, with units."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from mudline.language.keywords.table import Table
 from mudline.model.scene.model import Scene
 
 _MODEL = ("OCEAN", "MASS", "DRAG CHAIN", "NODE SPRING")
-"""Keywords of `$MODEL` that are inputs, beside those of vessels."""
+"""Keywords of `$MODEL` that are inputs, in addition to those of vessels."""
 _MOST = 12
 """Rows of a table, and parts of a block, that are written out."""
 
@@ -44,7 +44,7 @@ def _is_of_vessel(section: str, keyword: str) -> bool:
 
 
 def _values(part: Part, units: str) -> Iterator[str]:
-    """The values of a block or a part of it in words, with labels and units; lines that are not read as they are."""
+    """Yield the values of a block or part in words, with labels and units; unread lines are unchanged."""
     if isinstance(part, Opaque):
         yield from _not_read(part.lines)
         return
@@ -81,9 +81,9 @@ def _unit(slot: FieldSpec, units: str) -> str:
 
 
 def _table(slot: FieldSpec, table: Table, units: str) -> str:
-    """The columns of a table with their units, and its first rows."""
+    """Return the columns of a table with their units, and its first rows."""
     columns = record_schema(slot.row).slots if slot.row else ()
-    heads = ", ".join(labelled(one.label, _unit(one, units)) for one in columns[: table.values.shape[1]])
+    heads = ", ".join(labelled(column.label, _unit(column, units)) for column in columns[: table.values.shape[1]])
     rows = [", ".join(shown(value) for value in row) for row in table.values[:_MOST].tolist()]
     more = f", {len(table) - _MOST} more" if len(table) > _MOST else ""
     return f"{heads}: {' / '.join(rows)}{more}"

@@ -1,4 +1,4 @@
-"""The HTML of a page, from its content: tables of it, and jinja2 templates, which escape every text. Needs jinja2."""
+"""HTML of a page, from tables of its content and jinja2 templates, which escape every text. Needs jinja2."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
-from mudline.tools.reporting.content import SECTIONS, Look, LookError, Report
+from mudline.tools.reporting.content import SECTIONS, Look, LookError, PageContent
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
     LONGEST,
     TABLES,
-    Table,
+    PageTable,
     figure_table,
     four_digits,
     input_tables,
@@ -34,44 +34,44 @@ from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
 MOST_BEFORE_APPENDIX = {"rows": 8, "inputs": 16, "findings": 6, "inferred": 20}
-"""Rows of a table, of that of the inputs, findings and deductions that stand before the appendix, which has all."""
+"""Rows before the appendix, which has all: of a table, of the inputs, of findings and of deductions."""
 _LONGEST_LINE = 160
 """Characters of a line of the deck that a page shows."""
 _AROUND = 1
-"""Lines of the deck above and below that of a finding."""
+"""Lines of the deck shown above and below that of a finding."""
 
 
-def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
+def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
     """Return the page about a deck. Raises LookError."""
-    given = report.json
-    sections = given["sections"]
-    names = unit_names(given["units"])
+    content = report.json
+    sections = content["sections"]
+    names = unit_names(content["units"])
     tables, details = (
         {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
         for each in (TABLES, DETAILS)
     )
-    if found := sections.get("inputs"):
-        tables["inputs"] = list(input_tables(found, report.sheet, given["deck"], given["units"]))
-    figures = given.get("figures")
+    if inputs := sections.get("inputs"):
+        tables["inputs"] = list(input_tables(inputs, report.sheet, content["deck"], content["units"]))
+    figures = content.get("figures")
     findings = _groups(report, "reported", lambda severity: severity != "info")
     hidden = _groups(report, "hidden")
     for name in [name for name in SECTIONS if name in tables]:
-        kinds = ["inputs" if name == "inputs" and one == tables[name][0] else "rows" for one in tables[name]]
-        parted = [(one, MOST_BEFORE_APPENDIX[kind]) for one, kind in zip(tables[name], kinds, strict=True)]
-        if long := [one for one, most in parted if len(one.rows) > most]:
+        kinds = ["inputs" if name == "inputs" and table == tables[name][0] else "rows" for table in tables[name]]
+        parted = [(table, MOST_BEFORE_APPENDIX[kind]) for table, kind in zip(tables[name], kinds, strict=True)]
+        if long := [table for table, most in parted if len(table.rows) > most]:
             details[name] = [*long, *details.get(name, ())]
-        tables[name] = [one.first(most, f"more-{name}") if len(one.rows) > most else one for one, most in parted]
+        tables[name] = [each.first(most, f"more-{name}") if len(each.rows) > most else each for each, most in parted]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(
         look,
         "page.html",
-        report=given,
+        report=content,
         tables=tables,
         details=details,
         figures=figure_table(figures, names) if figures and not figures["missing"] else None,
-        head=_css_text(_head_words(given)),
-        hash=_css_text(f"SHA-256 {given['sha256'][:_SHORT_HASH]}"),
+        head=_css_text(_head_words(content)),
+        hash=_css_text(f"SHA-256 {content['sha256'][:_SHORT_HASH]}"),
         study_texts=_study_texts(report),
         findings=findings,
         infos=_groups(report, "reported", lambda severity: severity == "info"),
@@ -79,7 +79,7 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
         by_rule={"findings": _by_rule(report, findings), "hidden": _by_rule(report, hidden)},
         most_inferred=MOST_BEFORE_APPENDIX["inferred"],
         rules=report.named,
-        pictures=[one._replace(markup=Markup(one.markup)) for one in pictures],  # noqa: S704 - made from our figures
+        pictures=[picture._replace(markup=Markup(picture.markup)) for picture in pictures],  # noqa: S704 - made from our figures
         pictures_left=left_out,
         most=MOST_FINDINGS,
     )
@@ -88,26 +88,26 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
 _SHORT_HASH = 16
 
 
-def _head_words(given: dict[str, Any]) -> str:
-    """Document, revision and deck, as they stand at the head of every page in print."""
-    document = given["document"]
+def _head_words(content: dict[str, Any]) -> str:
+    """Return document, revision and deck, as printed at the head of every page."""
+    document = content["document"]
     revision = f"revision {document['revision']}" if document["revision"] else None
-    return ", ".join(filter(None, [document["number"], revision, given["deck"]]))
+    return ", ".join(filter(None, [document["number"], revision, content["deck"]]))
 
 
 def _css_text(text: str) -> Markup:
-    """A text in quotes for the style of a page, in which only letters and digits stand for themselves."""
-    plain = (one if one.isascii() and one.isalnum() else f"\\{ord(one):x} " for one in visible(text))
-    return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and numbers of others
+    """Return a text in quotes for the style of a page; all but letters and digits are escaped."""
+    plain = (letter if letter.isascii() and letter.isalnum() else f"\\{ord(letter):x} " for letter in visible(text))
+    return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and character numbers
 
 
-def _study_texts(report: Report) -> list[str]:
-    """What a study says beside its tables."""
-    found = report.study
-    if found is None:
+def _study_texts(report: PageContent) -> list[str]:
+    """Return the sentences of a study, next to its tables."""
+    study = report.study
+    if study is None:
         return []
-    said = [text for part in found.parts for text in sentences(found, part)]
-    return [text for text in (description(found), *said) if text]
+    remarks = [text for part in study.parts for text in sentences(study, part)]
+    return [text for text in (description(study), *remarks) if text]
 
 
 def index_page(rows: Sequence[dict[str, Any]], version: str, look: Look) -> str:
@@ -120,7 +120,7 @@ def _rendered(look: Look, name: str, **values: object) -> str:
     if look.template is not None:
         loaders.insert(0, jinja2.FileSystemLoader(look.template.parent))
         name = look.template.name
-    # A text of a deck goes through `visible` wherever it stands, and is escaped behind it.
+    # Every text of a deck passes `visible`, and is escaped after it.
     environment = SandboxedEnvironment(
         loader=jinja2.ChoiceLoader(loaders),
         autoescape=True,
@@ -153,7 +153,7 @@ _LARGEST_LOGO = 300_000
 
 
 def _logo(path: Path | None) -> str:
-    """The logo as an address of data, in which nothing can act."""
+    """Return the logo as a data URL, in which nothing can be executed."""
     if path is None:
         return ""
     if path.suffix.lower() not in _LOGOS:
@@ -179,24 +179,26 @@ class Shown(NamedTuple):
     lines: Sequence[tuple[int, str]]
 
 
-def _groups(report: Report, kind: str, wanted: Callable[[str], bool] = lambda _: True) -> list[tuple[str, list[Shown]]]:
-    """The first findings by section of the deck, of the severities that are wanted."""
-    found = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
+def _groups(
+    report: PageContent, kind: str, wanted: Callable[[str], bool] = lambda _: True
+) -> list[tuple[str, list[Shown]]]:
+    """Return the first findings by section of the deck, of the severities that `wanted` accepts."""
+    findings = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
     rows = [
-        Shown(number, one | {"message": cut(one["message"], LONGEST)}, _lines(report, one["line"]))
-        for number, one in enumerate(found, 1)
-        if wanted(one["severity"])
+        Shown(number, finding | {"message": cut(finding["message"], LONGEST)}, _lines(report, finding["line"]))
+        for number, finding in enumerate(findings, 1)
+        if wanted(finding["severity"])
     ]
-    return [(name, list(group)) for name, group in groupby(rows, key=lambda one: str(one.found["section"]))]
+    return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row.found["section"]))]
 
 
-def _by_rule(report: Report, groups: Sequence[tuple[str, Sequence[Shown]]]) -> Table | None:
-    """Many findings as a table of the rules behind them, errors first; None for findings that are few."""
-    found = [one.found for _, group in groups for one in group]
-    if len(found) <= MOST_BEFORE_APPENDIX["findings"]:
+def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> PageTable | None:
+    """Return many findings as a table of the rules behind them, errors first; None for few findings."""
+    findings = [shown.found for _, group in groups for shown in group]
+    if len(findings) <= MOST_BEFORE_APPENDIX["findings"]:
         return None
-    codes = sorted({(SEVERITIES.index(one["severity"]), one["code"]) for one in found})
-    lines = [(at, code, [one["line"] for one in found if one["code"] == code]) for at, code in codes]
+    codes = sorted({(SEVERITIES.index(finding["severity"]), finding["code"]) for finding in findings})
+    lines = [(at, code, [finding["line"] for finding in findings if finding["code"] == code]) for at, code in codes]
     columns = (
         text("severity", lambda row: SEVERITIES[row[0]]),
         text("code", 1),
@@ -208,10 +210,10 @@ def _by_rule(report: Report, groups: Sequence[tuple[str, Sequence[Shown]]]) -> T
 
 
 _FEW = 4
-"""Lines of findings that are named."""
+"""Lines of findings that are listed."""
 
 
-def _lines(report: Report, line: int) -> list[tuple[int, str]]:
+def _lines(report: PageContent, line: int) -> list[tuple[int, str]]:
     last = len(report.source.line_starts)
     around = range(max(1, line - _AROUND), min(last, line + _AROUND) + 1)
     return [(number, cut(report.source.line(number), _LONGEST_LINE)) for number in around]

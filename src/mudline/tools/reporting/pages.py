@@ -1,4 +1,4 @@
-"""The pages about decks: what goes on each, in which file it is, and the index of many."""
+"""Pages about decks: their content, their files, and the index of many."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from typing import Any, NamedTuple
 from mudline.basics.paths import relative_path
 from mudline.basics.version import __version__
 from mudline.checks.engine import LintSettings
-from mudline.tools.reporting.content import Document, Given, Look, LookError, report_on
+from mudline.tools.reporting.content import DeckFile, Look, LookError, PageHead, report_on
 
 
 class Made(NamedTuple):
-    """The content of a page, the page, None where it is not wanted, and why it could not be made."""
+    """Result of making a page: its content, its HTML (None if not requested), and the reason for a failure."""
 
     content: dict[str, Any]
     html: str | None
     fault: str = ""
 
 
-Wanted = tuple[tuple[str, ...], Document, Look | None, bool]
-"""The sections of a page, what it is called, how it looks (None for JSON), and whether contact is that at rest."""
+Wanted = tuple[tuple[str, ...], PageHead, Look | None, bool]
+"""Sections of a page, its head, its look (None for JSON), and True for contact at the resting shape."""
 
 
-def make_page(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
+def make_page(given: DeckFile, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
     sections, document, look, rest_shape = wanted
     report = report_on(given, settings, sections, document, rest_shape=rest_shape)
@@ -42,9 +42,9 @@ def make_page(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
 
 
 class Pages:
-    """Where pages go: one file, or the `index` with a folder beside it, which has its name without the suffix.
+    """Files of pages: one file, or the `index` with a folder next to it, which has its name without the suffix.
 
-    `rows` are those of the index, a deck each. Without a path no page is written.
+    `rows` are those of the index, one for each deck. Without a path no page is written.
     """
 
     def __init__(self, path: Path | None, write: Callable[[Path, str], None], *, several: bool) -> None:
@@ -61,14 +61,14 @@ class Pages:
         """Number of decks with errors."""
         return sum(row["errors"] > 0 for row in self.rows)
 
-    def add(self, made: Made, name: str) -> None:
+    def add(self, result: Made, name: str) -> None:
         """Write the page about a deck; raises LookError."""
-        if made.fault:
-            raise LookError(made.fault)
-        page = None if made.html is None else self._page(name)
-        if page is not None and made.html is not None:
-            self._write(page, made.html)
-        self.rows.append(self._row(made.content, name, page))
+        if result.fault:
+            raise LookError(result.fault)
+        page = None if result.html is None else self._page(name)
+        if page is not None and result.html is not None:
+            self._write(page, result.html)
+        self.rows.append(self._row(result.content, name, page))
 
     def finish(self, look: Look) -> None:
         """Write the index, if there is one; raises LookError."""
@@ -78,7 +78,7 @@ class Pages:
             self._write(self.index, index_page(self.rows, __version__, look))
 
     def _page(self, deck: str) -> Path | None:
-        """The file of the page about a deck; no two of a run are the same."""
+        """Return the file of the page about a deck, different for each page of a run."""
         if self.folder is None:
             return self.index
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -91,7 +91,7 @@ class Pages:
         return self.folder / name
 
     def _row(self, content: dict[str, Any], name: str, page: Path | None) -> dict[str, Any]:
-        """A row of the index; decks of the folder that the run was started in have their paths from there."""
+        """Return a row of the index; decks below the working folder have paths relative to it."""
         verdict = content["verdict"]
         words = verdict["verdict"].partition(" (")[0]
         kind = "errors" if verdict["errors"] else words

@@ -1,4 +1,4 @@
-"""The pictures of a page: SVG that stands in it, or PNG where that is smaller. Needs matplotlib."""
+"""Pictures of a page: inline SVG, or PNG if that is smaller. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -16,59 +16,59 @@ from matplotlib.figure import Figure
 from mudline.checks.output import visible
 from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
 from mudline.model.scene.curves import OF_SEABED
-from mudline.tools.reporting.content import Report
+from mudline.tools.reporting.content import PageContent
 
 MOST_PICTURES = 20
 MOST_SINGLE, _MOST_TOGETHER = 2, 12
-"""Curves of the seabed that have pictures of their own before the appendix; curves of the one picture of more."""
+"""Numbers of seabed curves with a picture of their own before the appendix, and in the one picture of more curves."""
 MOST_BYTES = 600_000
-"""Of all pictures of a page, which is to be sent by mail."""
+"""Bytes of all pictures of a page, which is to be sent by mail."""
 _LARGEST_SVG = 120_000
 
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 
 
 class Picture(NamedTuple):
-    """A picture: which section it is in, what it shows in words, and its markup."""
+    """A picture: its section, its description in words, and its markup."""
 
     section: str
     alternative: str
     markup: str
 
 
-def pictures_of(report: Report) -> tuple[list[Picture], int]:
-    """Return the pictures of a page, and how many were left out of it."""
-    made: list[Picture] = []
+def pictures_of(report: PageContent) -> tuple[list[Picture], int]:
+    """Return the pictures of a page, and the number of those left out."""
+    pictures: list[Picture] = []
     size = left = 0
     for number, (section, alternative, draw) in enumerate(_drawings(report)):
-        if len(made) == MOST_PICTURES or size > MOST_BYTES:
+        if len(pictures) == MOST_PICTURES or size > MOST_BYTES:
             left += 1
             continue
         markup = _markup(draw(), f"p{number}", alternative)
         size += len(markup)
-        made.append(Picture(section, alternative, markup))
-    return made, left
+        pictures.append(Picture(section, alternative, markup))
+    return pictures, left
 
 
-def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
-    """Yield each picture that the sections have, the most telling first, and what draws it."""
-    scene, found, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
+def _drawings(report: PageContent) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
+    """Yield each picture of the sections, the most important first, and the function that draws it."""
+    scene, sections, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
     if scene is None:
         return
-    if found.get("model") and can_draw(scene):
+    if sections.get("model") and can_draw(scene):
         shape = "at its resting shape" if report.at_rest and drawn is not None else "in the deck's own coordinates"
         words = f"Elevation and plan of the line {shape}, by set, over the seabed"
         yield "model", words, partial(model_figure, scene, drawn)
-    if found.get("contact") and drawn is not None:
+    if sections.get("contact") and drawn is not None:
         words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"
         yield "contact", words, partial(evaluation_figure, drawn, report.doubt)
     if study is not None and study.drawable:
         words = "Error of the touchdown zone against run time, with the deck's own time step"
         yield "study", words, study.figure
-    rows = (found.get("curves") or {}).get("curves", ())
+    rows = (sections.get("curves") or {}).get("curves", ())
     of_seabed = [row for row in rows if row["kind"] == OF_SEABED]
     if several := len(of_seabed) > MOST_SINGLE:
-        followed = {law["law"] for law in found["curves"]["laws"] if law["elements"]}
+        followed = {law["law"] for law in sections["curves"]["laws"] if law["elements"]}
         of_seabed.sort(key=lambda row: f"curve:{row['name']}" not in followed)
         words = f"{min(_MOST_TOGETHER, len(of_seabed))} of {len(of_seabed)} force-embedment curves"
         yield "curves", words, partial(curves_figure, of_seabed[:_MOST_TOGETHER], scene.units)
@@ -79,7 +79,7 @@ def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]
 
 
 def _markup(figure: Figure, prefix: str, alternative: str) -> str:
-    """Return SVG without what it does not need inside a page; a large one as PNG, whose size has a bound."""
+    """Return SVG without the parts that a page does not need; a large picture as PNG, whose size is bounded."""
     stream = BytesIO()
     with mpl.rc_context({"svg.fonttype": "none"}):  # texts stay texts
         save(figure, "svg", stream)
@@ -98,7 +98,7 @@ def _markup(figure: Figure, prefix: str, alternative: str) -> str:
 
 
 def _strip(root: ET.Element, prefix: str) -> None:
-    """Drop namespaces and metadata, and make ids differ from those of other pictures."""
+    """Remove namespaces and metadata, and make ids differ from those of other pictures."""
     for element in list(root.iter()):
         element.tag = element.tag.rpartition("}")[2]
         for child in element.findall("{*}metadata"):

@@ -1,4 +1,4 @@
-"""The sections of a page as tables, from their content."""
+"""Sections of a page as tables."""
 
 from __future__ import annotations
 
@@ -32,11 +32,19 @@ LONGEST, LONGEST_NAME = 600, 80
 """Characters of a message and of a name that a page shows."""
 
 
-class Table(NamedTuple):
-    """A table on a page: its caption, heads and rows; a note; anchors.
+class PageTable(NamedTuple):
+    """A table on a page.
 
-    Columns of which `numeric` has the place are set to the right. `more` says how many
-    rows are not on the page, `whole` is the anchor of the section with those that are not here.
+    Attributes:
+        caption: the caption.
+        heads: headings of the columns.
+        rows: the rows.
+        note: text below the table.
+        anchors: anchors of the rows.
+        anchor: anchor of the table.
+        numeric: places of columns that are aligned right.
+        more: sentence on rows that are not on the page.
+        whole: anchor of the section with the whole table.
     """
 
     caption: str
@@ -49,8 +57,8 @@ class Table(NamedTuple):
     more: str = ""
     whole: str = ""
 
-    def first(self, most: int, whole: str) -> Table:
-        """The first rows, without their anchors; `whole` is the anchor of the section with more of them."""
+    def first(self, most: int, whole: str) -> PageTable:
+        """Return the first rows, without their anchors; `whole` is the anchor of the section with the whole table."""
         return self._replace(rows=self.rows[:most], anchors=(), more="", whole=whole)
 
 
@@ -59,15 +67,15 @@ def on_page(
     most: int = SHOWN_ROWS,
     anchors: str = "",
     longest: int = LONGEST_NAME,
-) -> Table:
-    """Return a table of at most so many rows, of which each has an anchor if wanted; longer texts are cut."""
+) -> PageTable:
+    """Return a table of at most `most` rows, with an anchor for each if `anchors` is given; longer texts are cut."""
     table = table.filled()
     rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
     more = _more(len(rows) - most, "row")
-    numeric = [at for at, one in enumerate(table.columns) if not one.left]
+    numeric = [at for at, column in enumerate(table.columns) if not column.left]
     names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
-    heads = [one.head.replace("\n", " ") for one in table.columns]
-    return Table(table.title, heads, rows[:most], table.note, names, numeric=numeric, more=more)
+    heads = [column.head.replace("\n", " ") for column in table.columns]
+    return PageTable(table.title, heads, rows[:most], table.note, names, numeric=numeric, more=more)
 
 
 def _more(count: int, what: str) -> str:
@@ -75,25 +83,25 @@ def _more(count: int, what: str) -> str:
 
 
 _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shape"}
-"""Where the line is in the numbers of a page, by the source of its positions."""
+"""Description of the shape of the line, by the source of its positions."""
 
 
-def figure_table(found: dict[str, Any], names: UnitNames) -> Table:
-    """Return the five numbers beside the verdict as a table of one row."""
-    words = _touchdown(found["touchdown"], found["contact_length"], found["length"])
-    doubt = f"warnings about these numbers: {', '.join(found['warnings'])}" if found["warnings"] else ""
+def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
+    """Return the five numbers next to the verdict as a table of one row."""
+    words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
+    doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
     notes = filter(
         None,
-        [f"at {_SHAPES[found['positions']]}; no load case is solved", weight_note(found["weights_without"]), doubt],
+        [f"at {_SHAPES[content['positions']]}; no load case is solved", weight_note(content["weights_without"]), doubt],
     )
     columns = (
         number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest penetration", "depth", names.length),
-        number("total reaction", lambda _: _known(found["reaction"]), names.force),
+        number("total reaction", lambda _: _known(content["reaction"]), names.force),
         number("reaction over submerged weight", "ratio"),
     )
-    table = DisplayTable("Contact in five numbers", columns, [found], "; ".join(notes))
+    table = DisplayTable("Contact in five numbers", columns, [content], "; ".join(notes))
     return on_page(table)
 
 
@@ -106,16 +114,16 @@ def four_digits(value: float | None) -> str:
 _PLAIN = 1e7
 
 
-def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[Table]:
-    """Yield the inputs of a deck and of those that it continues, and the sheet of the elements."""
+def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[PageTable]:
+    """Yield the inputs of a deck and of the decks that it continues, and the sheet of the elements."""
     columns = (
         text("section", "section"),
-        text("keyword", lambda one: f"*{one['keyword']}"),
+        text("keyword", lambda row: f"*{row['keyword']}"),
         text("values", "values"),
-        text("line", lambda one: str(one["line"]) if one["file"] == deck else f"{one['line']} of {one['file']}"),
+        text("line", lambda row: str(row["line"]) if row["file"] == deck else f"{row['line']} of {row['file']}"),
     )
     yield on_page(
-        DisplayTable("Water, conditions, loads, vessels and times", columns, found["inputs"]),
+        DisplayTable("Water, conditions, loads, vessels and times", columns, content["inputs"]),
         MOST_CURVES,
         longest=LONGEST,
     )
@@ -123,21 +131,21 @@ def input_tables(found: dict[str, Any], sheet: Sheet | None, deck: str, units: s
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
-def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+def _model(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     rows = sorted(
-        found["static_embedment"], key=lambda row: int(row["element"])
+        content["static_embedment"], key=lambda row: int(row["element"])
     )  # empty and with contents side by side
-    yield on_page(static_table(rows, names, found["weights_without"], first=False))
+    yield on_page(static_table(rows, names, content["weights_without"], first=False))
 
 
-def _model_details(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
-    counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
-    counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
+def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+    more = "+" if content["sets"][0]["open"] else ""  # of ALL, which comes first
+    counts = [(name, f"{content[name]}{more}") for name in ("nodes", "elements")]
+    counts += [("seabed", content["floor"]["kind"]), (labelled("length of line", names.length), content["length"])]
     yield on_page(DisplayTable("Size", _FIGURES, counts))
-    yield on_page(set_table(found["sets"], names), MOST_CURVES)
-    yield on_page(diameter_table(found["diameters"], names))
-    keywords = [(section["name"], one) for section in found["keywords"] for one in section["keywords"]]
+    yield on_page(set_table(content["sets"], names), MOST_CURVES)
+    yield on_page(diameter_table(content["diameters"], names))
+    keywords = [(section["name"], keyword) for section in content["keywords"] for keyword in section["keywords"]]
     columns = (
         text("section", lambda row: f"${row[0]}"),
         text("keyword", lambda row: f"*{row[1]['keyword']}"),
@@ -153,34 +161,34 @@ def _extent(keyword: dict[str, Any]) -> str:
     return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
 
 
-def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
     columns = (
-        text("law", lambda one: cut(one["law"], LONGEST_NAME)),
-        text("set", lambda one: cut(one["set"], LONGEST_NAME)),
+        text("law", lambda row: cut(row["law"], LONGEST_NAME)),
+        text("set", lambda row: cut(row["set"], LONGEST_NAME)),
         number("elements", elements_of),
-        text("values", lambda one: _values(one["values"])),
-        text("deck line", lambda one: f"line {one['line']} of {one['file']}"),
+        text("values", lambda row: _values(row["values"])),
+        text("deck line", lambda row: f"line {row['line']} of {row['file']}"),
     )
-    note = OPEN if any(one["open"] for one in found["laws"]) else ""
-    laws = DisplayTable("Laws and resistance by set", columns, found["laws"], note)
+    note = OPEN if any(row["open"] for row in content["laws"]) else ""
+    laws = DisplayTable("Laws and resistance by set", columns, content["laws"], note)
     yield on_page(laws, MOST_CURVES, "law", LONGEST)
 
 
-def _curve_points(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    for place, row in enumerate(found["curves"][:MOST_CURVES], 1):
+def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+    for place, row in enumerate(content["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
-        slopes = [one["slope"] for one in row["segments"]]
+        slopes = [segment["slope"] for segment in row["segments"]]
         points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
         caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
         of_seabed = row["kind"] == OF_SEABED
         ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
-        own = ["", names.line_force] if of_seabed else [one.replace("-", "") for one in row.get("units", ["", ""])]
+        own = ["", names.line_force] if of_seabed else [unit.replace("-", "") for unit in row.get("units", ["", ""])]
         slope = [number("slope to the next", 2, own[1])] if of_seabed else []
         of_points = (number(over, 0, own[0]), number(value, 1, own[1]), *slope)
         yield on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
             anchor=f"curve-{place}"
         )
-    yield Table("", (), (), more=_more(len(found["curves"]) - MOST_CURVES, "curve"))
+    yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
 
 
 def _values(values: dict[str, Any]) -> str:
@@ -189,53 +197,55 @@ def _values(values: dict[str, Any]) -> str:
 
 def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
     if isinstance(value, dict):
-        return ", ".join(_value(one) for one in value.values())
+        return ", ".join(_value(item) for item in value.values())
     if isinstance(value, list):
-        between = " / " if any(isinstance(one, list) for one in value) else ", "
-        return between.join("-" if one is None else _value(one) for one in value)
+        between = " / " if any(isinstance(item, list) for item in value) else ", "
+        return between.join("-" if item is None else _value(item) for item in value)
     return shown(value) if isinstance(value, float) else str(value)
 
 
-def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    masses = "" if any(one.startswith("*MASS") for one in found["weights_without"]) else " and masses"
+def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+    masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     figures = [
-        (labelled("total reaction", names.force), _known(found["reaction"])),
+        (labelled("total reaction", names.force), _known(content["reaction"])),
         (
             labelled(f"submerged weight of the elements in contact, with contents{masses}", names.force),
-            found["weight"],
+            content["weight"],
         ),
-        (labelled("the same, empty", names.force), found["empty_weight"]),
-        ("reaction over weight with contents", found["ratio"]),
+        (labelled("the same, empty", names.force), content["empty_weight"]),
+        ("reaction over weight with contents", content["ratio"]),
     ]
-    if deepest := found["deepest"]:
+    if deepest := content["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    notes = [weight_note(found["weights_without"]), *found["notes"]]
+    notes = [weight_note(content["weights_without"]), *content["notes"]]
     yield on_page(
-        DisplayTable(f"Equilibrium of {_SHAPES[found['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes)))
+        DisplayTable(
+            f"Equilibrium of {_SHAPES[content['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes))
+        )
     )
-    yield on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
+    yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
-        text("elements", lambda one: f"{one['first_element']} to {one['last_element']}"),
+        text("elements", lambda row: f"{row['first_element']} to {row['last_element']}"),
         number("touchdown at arc length", _touchdown_of_line, names.length),
         number("length in contact", "contact_length", names.length),
-        number("largest force", lambda one: (one["largest_force"] or {}).get("force"), names.line_force),
-        number("reaction", lambda one: _known(one["reaction"]), names.force),
+        number("largest force", lambda row: (row["largest_force"] or {}).get("force"), names.line_force),
+        number("reaction", lambda row: _known(row["reaction"]), names.force),
         number("weight", "submerged_weight", names.force),
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
     ]
-    touchdown = DisplayTable("Touchdown", columns, found["lines"], weight_note(found["weights_without"]))
+    touchdown = DisplayTable("Touchdown", columns, content["lines"], weight_note(content["weights_without"]))
     yield on_page(touchdown)
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
-    warnings = found["warnings"][:SHOWN_ROWS]
+    warnings = content["warnings"][:SHOWN_ROWS]
     yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
-def _states(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
-    yield on_page(DisplayTable("States", columns, found["states"]))
+    yield on_page(DisplayTable("States", columns, content["states"]))
 
 
 def _known(reaction: float | None) -> float | str:
@@ -251,29 +261,29 @@ def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str
     return touchdown_words([float(four_digits(each)) for each in places], in_contact, length, _MOST_TOUCHDOWNS)
 
 
-def study_tables(found: Study) -> list[Table]:
-    """Return the tables of the screen of a study."""
-    return [on_page(table, longest=LONGEST) for part in found.parts if (table := STUDY_TABLES[part](found))]
+def study_tables(result: Study) -> list[PageTable]:
+    """Return the tables of a study as on the terminal."""
+    return [on_page(table, longest=LONGEST) for part in result.parts if (table := STUDY_TABLES[part](result))]
 
 
-def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
-    stages = found["stages"]
-    columns = (text("stage", "stage"), text("in or out", lambda one: "in" if one["active"] else "left out"))
-    table = DisplayTable(f"Stages of the evaluation, {found['steps']}", [*columns, text("why", "why")], stages)
+def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
+    stages = content["stages"]
+    columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
+    table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
     yield on_page(table, len(stages), longest=LONGEST)
 
 
-TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[PageTable]]] = {
     "model": _model,
     "curves": _curves,
     "contact": _contact,
 }
-"""What makes the tables of a section."""
+"""Functions that make the tables of a section."""
 
-DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[PageTable]]] = {
     "model": _model_details,
     "curves": _curve_points,
     "contact": _states,
     "plan": _plan,
 }
-"""What makes the tables of a section that stand in the appendix."""
+"""Functions that make the tables of a section in the appendix."""

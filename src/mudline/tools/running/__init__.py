@@ -1,7 +1,7 @@
 """Many items on the processes of this machine or the workers of a Dask scheduler, and remembered results.
 
-`executors` has work done for items and gives the results in order, `remembered` keeps results from run to run. What
-the items are is not known here.
+`executors` applies a function to items and returns the results in order. `remembered` keeps results from run to run.
+Neither knows what the items are.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Functions over many items: here while that is quickest, then in other processes, or by the workers of a scheduler.
+"""Functions over many items: in this process while that is fastest, then in others, or by workers of a scheduler.
 
-A scheduler and its workers are Dask's own, and so are retries, heartbeats and TLS, by Dask's configuration.
+Scheduler, workers, retries, heartbeats and TLS are Dask's own, with Dask's configuration.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
 from mudline.basics.installed import install_hint
 from mudline.basics.outside import refusing_outside
-from mudline.basics.overwriting import Outputs, OverwriteError, continue_run, outputs
+from mudline.basics.overwriting import ClaimedOutputs, OverwriteError, continue_run, outputs
 from mudline.basics.version import __version__
 from mudline.language.diagnostics import PluginError
 
@@ -34,32 +34,32 @@ if TYPE_CHECKING:  # imported by runs that are large enough
     from distributed import Client
 
 PAYS = {"fork": 0.1, "forkserver": 1.5, "spawn": 1.5}
-"""Seconds of remaining work from which on other processes are started, by the way in which they are.
+"""Seconds of remaining work from which on other processes are started, by start method.
 
-A copy of this process is there at once; the others take a part of a second to import everything.
+A fork is available at once; other processes take a fraction of a second to import everything.
 """
 TRIED = 0.05
-"""Seconds of work in this process by which the remaining work is estimated."""
+"""Seconds of work in this process from which the remaining work is estimated."""
 
 CONNECTING = 10.0
 """Seconds to wait for a scheduler, and for its first worker."""
 
 _AHEAD = 3
-"""Parts for each process or thread of a worker that are sent ahead."""
+"""Parts sent ahead for each process or worker thread."""
 _SECONDS = {False: 0.2, True: 1.0}
-"""Seconds that the items should take that are sent together: to a process, and to a worker on another machine."""
+"""Target seconds for items sent together: to a process, and to a worker on another machine."""
 _FIRST = 4
 _TOGETHER = 500
-"""Items that are sent together: before their pace is known, and at most."""
+"""Number of items sent together, before their pace is known and at most."""
 _COUNTED = 5.0
-"""Seconds after which the workers of a scheduler are counted again: they come and go."""
+"""Seconds after which the workers of a scheduler are counted again: their number changes."""
 _MOST_ON_WINDOWS = 61
-"""Processes that one process can wait for there."""
+"""Processes that one process can wait for on Windows."""
 
 _SAFE_PATH = "PYTHONSAFEPATH"
 
 _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
-"""Strict: what Dask takes apart in another way would not be checked."""
+"""Strict pattern of addresses: a form that Dask parses differently would escape the check."""
 
 _ENDED = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
 
@@ -69,7 +69,7 @@ _Made = TypeVar("_Made")
 
 
 class RunError(Exception):
-    """Items cannot be done elsewhere, or no longer; the message says why and what to do."""
+    """Reason why items cannot be processed elsewhere, with advice."""
 
 
 # -------------------------------------------------------------------------------------------------------- what to use
@@ -77,7 +77,7 @@ class RunError(Exception):
 
 @dataclass(eq=False)
 class Pool:
-    """At most so many processes (0: one for each processor), or the workers of a scheduler, once they are used."""
+    """Processes, at most `jobs` (0: one for each processor), or the workers of a scheduler; started on first use."""
 
     jobs: int
     scheduler: str | None
@@ -89,7 +89,7 @@ class Pool:
 
     @property
     def size(self) -> int:
-        """The number of items that may be under way at a time."""
+        """Number of items that may be in progress at a time."""
         if self.scheduler is None:
             return processors(self.jobs)
         if self._client is not None and time.monotonic() - self._counted > _COUNTED:
@@ -100,7 +100,7 @@ class Pool:
     def submit(
         self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
     ) -> Future[tuple[float, list[_Made | Crash]]]:
-        """Have the work done for each order; what comes back are seconds and results. Raises RunError."""
+        """Submit work for each order; the future has seconds and results. Raises RunError."""
         if self._executor is None:
             if self.scheduler is None:
                 self._executor = self._stack.enter_context(_processes(self.size, work.__module__))
@@ -113,11 +113,11 @@ class Pool:
         try:
             with interrupt_deferred():
                 return self._executor.submit(_done, __version__, work, orders)
-        except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also of what starts the processes
+        except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also from the forkserver
             raise RunError(_ENDED) from error
 
     def result(self, future: Future[_Made]) -> _Made:
-        """What came back; raises RunError, and whatever the function raised."""
+        """Return the result of a future; raises RunError, and any exception of the function."""
         from concurrent.futures import CancelledError  # noqa: PLC0415 - most runs are too small for it
         from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - as above
 
@@ -146,31 +146,31 @@ def many(
     jobs: int = 0,
     scheduler: str | None = None,
 ) -> Generator[tuple[_Item, _Made | Crash | None], None, None]:
-    """Each of about `count` items with what the work makes of it, in order; only so many are taken ahead as needed.
+    """Yield each of about `count` items with the result of the work, in order; few items are taken ahead.
 
-    An item comes with what the work is given, which is pickled; with None there is nothing to do and its result is
-    None. The work is a function of a module, by whose name others find it. Where it fails of an item, that comes with
-    a Crash. Raises RunError, and whatever else is in NO_CRASH.
+    An item comes with the arguments of the work, which are pickled. With None there is no work and its result is None.
+    The work is a function of a module, which other processes find by its name. If it fails for an item, the result is a
+    Crash. Raises RunError, and the other exceptions in NO_CRASH.
 
-    Processes are started, and a scheduler is reached, when that is needed. Close what this gives: then processes end
-    at once, and what a scheduler still has to do is cancelled.
+    Processes are started, and a scheduler is connected, when needed. Close the generator to end processes at once and
+    to cancel the remaining work of a scheduler.
     """
     rest = iter(items)
     spent, done, number = 0.0, 0, 0
     with ExitStack() as stack:
         pool = Pool(jobs, scheduler, stack)
         for item, given in rest if scheduler is None else ():
-            seconds, made = _timed(work, [] if given is None else [given])
-            spent, done, number = spent + seconds, done + len(made), number + 1
-            yield item, made[0] if made else None
+            seconds, results = _timed(work, [] if given is None else [given])
+            spent, done, number = spent + seconds, done + len(results), number + 1
+            yield item, results[0] if results else None
             if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
                 break
         waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
         under_way = 0
         while True:
-            wanted = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
+            pace = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
             share = (count - number) / (2 * pool.size)
-            part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
+            part = list(islice(rest, max(1, min(int(pace), int(share), _TOGETHER))))
             number += len(part)
             if part:
                 orders = [given for _, given in part if given is not None]
@@ -182,21 +182,21 @@ def many(
                 seconds, results = (0.0, []) if future is None else pool.result(future)
                 under_way -= future is not None
                 spent, done = spent + seconds, done + len(results)
-                found = iter(results)
-                yield from ((item, next(found) if is_sent else None) for item, is_sent in sent)
+                in_order = iter(results)
+                yield from ((item, next(in_order) if is_sent else None) for item, is_sent in sent)
             if not part:
                 return
 
 
 class Crash(NamedTuple):
-    """A fault of the program itself: what was raised and where, on one line, and its traceback."""
+    """Fault of the program itself: exception and place on one line, and its traceback."""
 
     summary: str
     traceback: str
 
     @classmethod
     def of(cls, error: Exception) -> Crash:
-        """Return what is known of an exception."""
+        """Return the crash of an exception."""
         *_, last = traceback.extract_tb(error.__traceback__)
         text = "".join(traceback.format_exception(error))
         what = " ".join("".join(traceback.format_exception_only(error)).split())
@@ -208,23 +208,23 @@ NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
 
 
 def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tuple[float, list[_Made | Crash]]:
-    """The seconds that the work takes, and what it makes of each order, or how it fails."""
+    """Return the seconds of the work, and for each order its result or its crash."""
     start = time.perf_counter()
-    made: list[_Made | Crash] = []
+    results: list[_Made | Crash] = []
     for given in orders:
         try:
-            made.append(work(*given))
+            results.append(work(*given))
         except NO_CRASH:
             raise
         except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
-            made.append(Crash.of(error))
-    return time.perf_counter() - start, made
+            results.append(Crash.of(error))
+    return time.perf_counter() - start, results
 
 
 def _done(
     version: str, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
 ) -> tuple[float, list[_Made | Crash]]:
-    """What a process or a worker does, and the seconds that it took."""
+    """Do the work in a process or a worker, and return the seconds and the results."""
     if version != __version__:
         raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
     from mudline.checks.configuration import refuses_outside  # noqa: PLC0415 - only where there are workers
@@ -237,22 +237,22 @@ def _done(
 
 
 def processors(jobs: int) -> int:
-    """The number of processes that may be used."""
+    """Return the number of processes that may be used."""
     if jobs:
-        wanted = jobs
+        count = jobs
     elif hasattr(os, "sched_getaffinity"):
-        wanted = len(os.sched_getaffinity(0))
+        count = len(os.sched_getaffinity(0))
     else:
-        wanted = os.cpu_count() or 1
-    return min(wanted, _MOST_ON_WINDOWS) if sys.platform == "win32" else wanted
+        count = os.cpu_count() or 1
+    return min(count, _MOST_ON_WINDOWS) if sys.platform == "win32" else count
 
 
 def start_method() -> str:
-    """How processes are started: as copies of this one on Linux, unless it has threads, which copies would lack."""
+    """Return the start method of processes: fork on Linux, unless this process has threads, which forks would lack."""
     if sys.platform in ("win32", "darwin"):
         return "spawn"
     try:
-        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - those of libraries, too
+        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - including threads of libraries
     except OSError:
         return "forkserver"
     return "fork" if threads == 1 else "forkserver"
@@ -260,7 +260,7 @@ def start_method() -> str:
 
 @contextmanager
 def _processes(count: int, module: str) -> Iterator[Executor]:
-    """Processes, which import a module before they start; they end at once when not all is done."""
+    """Start processes that import a module first; they end at once if the block is left by an exception."""
     import multiprocessing  # noqa: PLC0415 - most runs are too small to start processes
     from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - as above
 
@@ -269,21 +269,21 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([module])
-    found = ProcessPoolExecutor(count, context, _begin, (outputs(),))
+    executor = ProcessPoolExecutor(count, context, _begin, (outputs(),))
     try:
         with _safe_path():
-            yield found
+            yield executor
     except BaseException:
         for child in set(multiprocessing.active_children()) - before:
             child.kill()
         raise
     finally:
-        found.shutdown(cancel_futures=True)
+        executor.shutdown(cancel_futures=True)
 
 
 @contextmanager
 def _safe_path() -> Iterator[None]:
-    """Keep Python that is started until the block ends from importing modules of the working folder."""
+    """Keep Python processes started in the block from importing modules of the working folder."""
     before = os.environ.get(_SAFE_PATH)
     os.environ[_SAFE_PATH] = "1"
     try:
@@ -295,8 +295,8 @@ def _safe_path() -> Iterator[None]:
             os.environ[_SAFE_PATH] = before
 
 
-def _begin(known: Outputs) -> None:
-    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch.
+def _begin(known: ClaimedOutputs) -> None:
+    """Prepare a process: ignore Ctrl-C and a closed terminal, which reach all processes, and watch the parent.
 
     `known` are the outputs of the run, none of which the process may read.
     """
@@ -309,7 +309,7 @@ def _begin(known: Outputs) -> None:
 
 
 def _end_with_parent() -> None:
-    """End this process as soon as the one that started it has ended, by whatever it was killed."""
+    """End this process as soon as its parent has ended for any reason."""
     from multiprocessing import parent_process  # noqa: PLC0415 - other processes have loaded it
     from multiprocessing.connection import wait  # noqa: PLC0415 - as above
 
@@ -321,7 +321,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def interrupt_deferred() -> Iterator[None]:
-    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
+    """Defer Ctrl-C until the block ends; processes started in the block do not receive it until they ignore it."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -342,16 +342,16 @@ def interrupt_deferred() -> Iterator[None]:
 
 
 def check_address(address: str) -> None:
-    """Raise RunError for an address that is none, that is not safe to use, or where Dask is not installed.
+    """Raise RunError for an address that is invalid or not safe to use, or if Dask is not installed.
 
-    A scheduler runs whatever code it is sent, and so do its workers: one that others can reach needs TLS.
+    A scheduler and its workers run any code that they receive: a scheduler that others can reach needs TLS.
     """
-    found = re.fullmatch(_ADDRESS, address)
-    if found is None or not 0 < int(found["port"]) < 1 << 16:
+    match = re.fullmatch(_ADDRESS, address)
+    if match is None or not 0 < int(match["port"]) < 1 << 16:
         raise RunError(f"--scheduler {address}: expected tcp://HOST:PORT or tls://HOST:PORT")
     if find_spec("distributed") is None:
         raise RunError(f"--scheduler needs dask.distributed: {install_hint('cluster')}")
-    if found["protocol"] == "tls" or _is_loopback(found["host"].strip("[]")):
+    if match["protocol"] == "tls" or _is_loopback(match["host"].strip("[]")):
         return
 
     import dask.config  # noqa: PLC0415 - as above
@@ -370,22 +370,22 @@ def _is_loopback(host: str) -> bool:
         return True
     try:
         return ip_address(host).is_loopback
-    except ValueError:  # a name, whoever it belongs to
+    except ValueError:  # a name, which may belong to anybody
         return False
 
 
 @contextmanager
 def _connected(address: str) -> Iterator[Client]:
-    """A client of the scheduler, which has a worker; raises RunError."""
+    """Connect to the scheduler, and wait until it has a worker; raises RunError."""
     import logging  # noqa: PLC0415 - few runs have a scheduler
 
     import dask.config  # noqa: PLC0415 - as above
     from distributed import Client  # noqa: PLC0415 - as above
 
-    for name in ("asyncio", *logging.root.manager.loggerDict):  # what goes wrong is reported once, by the command
+    for name in ("asyncio", *logging.root.manager.loggerDict):  # the command reports errors once
         if name.partition(".")[0] in {"asyncio", "distributed", "tornado"}:
             logging.getLogger(name).setLevel(logging.CRITICAL)
-    dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # files are sent, and may be large
+    dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # files may be large
     try:
         client = Client(address, timeout=CONNECTING, set_as_default=False)
     except (OSError, TimeoutError, ValueError, RuntimeError, TypeError) as error:

@@ -1,8 +1,8 @@
-"""Results kept from run to run: what was found for the same content under the same settings by the same program.
+"""Results kept from run to run, for the same content under the same settings by the same program.
 
-A memory is one file, whole or not at all, bounded in number and size: a head line with a digest of the rest, then a
-line for each result: its key, and the result with the files that it depends on. What is damaged is as good as none.
-Nothing here imports what makes results: a run in which nothing has changed ends without it.
+A memory is one file, written as a whole and bounded in number and size. Its first line has a digest of the other lines;
+each of these has a key, and a result with the files that it depends on. A damaged file counts as missing. Nothing here
+imports the code that makes results: a run without changes ends without it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from mudline.basics.overwriting import reading
 from mudline.basics.resources import grammar_file
 
 PLACE = "MUDLINE_CACHE_DIR"
-"""The variable that says where the user's folder for caches is."""
+"""Variable with the path of the user's cache folder."""
 _KEY = 40
 _MAGIC = b"mudline-remembered/1 "
 _COARSE = 0.02
@@ -34,9 +34,9 @@ _COARSE = 0.02
 
 
 class Memory:
-    """The results in a file, of which those of other `settings` or another program are not found.
+    """The results in a file; those of other `settings` or another version of the program are not found.
 
-    A file that is `shared` lies among others in the user's folder for caches.
+    A `shared` file lies in the user's cache folder, next to others.
     """
 
     def __init__(self, path: Path, settings: str = "", *, shared: bool = False) -> None:
@@ -48,11 +48,11 @@ class Memory:
         self._changed = False
 
     def __bool__(self) -> bool:
-        """Whether anything is remembered."""
+        """Return True if anything is remembered."""
         return bool(self._entries)
 
     def key(self, *parts: str | bytes) -> str:
-        """The key of what a result is made from; two lists of parts share it only if they are equal."""
+        """Return the key of a result from its inputs; two lists of parts have the same key only if they are equal."""
         digest = blake2b(self._start, digest_size=_KEY // 2)
         for part in parts:
             data = part.encode("utf-8", "surrogatepass") if isinstance(part, str) else part
@@ -61,7 +61,7 @@ class Memory:
         return digest.hexdigest()
 
     def get(self, key: str) -> Any:  # noqa: ANN401 - what JSON holds
-        """The result, or None where none is known or a file that it depends on has changed."""
+        """Return the result; None if it is unknown, or if a file that it depends on has changed."""
         held = self._entries.get(key)
         if not held:
             return held if held is None else []
@@ -76,9 +76,9 @@ class Memory:
         return result if holds else None
 
     def put(self, key: str, result: list[Any] | dict[str, Any], files: Iterable[str] = ()) -> None:
-        """Keep a result, which JSON holds and which depends on what is at some paths.
+        """Keep a result that JSON can hold and that depends on the content at some paths.
 
-        It is not kept where one of them has changed since the run began: what was read of it is not certain.
+        It is not kept if a path has changed since the run began: its content at the time of reading is then uncertain.
         """
         self._changed |= self._entries.pop(key, None) is not None
         states = {}
@@ -92,7 +92,7 @@ class Memory:
             self._changed = True
 
     def save(self) -> None:
-        """Write what has changed, if anything has; does nothing where that is not possible."""
+        """Write the results if any has changed; does nothing where writing is not possible."""
         if not self._changed:
             return
         lines = [f"{key} {held}\n".encode("ascii") for key, held in list(self._entries.items())[-MOST_REMEMBERED:]]
@@ -111,12 +111,12 @@ class Memory:
 
 
 def cache_folder() -> Path | None:
-    """Return the folder: as the variable says, or the user's folder for caches on this system; None without one."""
-    if given := os.environ.get(PLACE):
-        return Path(given)
-    given = os.environ.get("XDG_CACHE_HOME", "")
-    if os.path.isabs(given):  # noqa: PTH117 - a text that may be empty
-        return Path(given, "mudline")
+    """Return the cache folder: from the variable, else that of the user on this system; None if there is none."""
+    if folder := os.environ.get(PLACE):
+        return Path(folder)
+    folder = os.environ.get("XDG_CACHE_HOME", "")
+    if os.path.isabs(folder):  # noqa: PTH117 - a text that may be empty
+        return Path(folder, "mudline")
     if sys.platform == "win32":
         local = os.environ.get("LOCALAPPDATA")
         return Path(local, "mudline", "Cache") if local else None
@@ -128,7 +128,7 @@ def cache_folder() -> Path | None:
 
 
 def of_working_folder(name: str, settings: str) -> Memory | None:
-    """The memory of the working folder in the user's folder for caches; None where there is no place for one."""
+    """Return the memory of the working folder, which lies in the user's cache folder; None without such a folder."""
     folder = cache_folder()
     if folder is None:
         return None
@@ -143,7 +143,7 @@ def of_working_folder(name: str, settings: str) -> Memory | None:
 
 
 def program() -> str:
-    """What the program is: its version and files, and the packages beside it, which bring libraries and rules."""
+    """Return the identity of the program: version, files, and the installed packages with libraries and rules."""
     words = [sys.version]
     for root in {Path(__file__).parents[2], grammar_file("deck.lark").parent}:
         for folder, folders, names in os.walk(root):
@@ -156,28 +156,29 @@ def program() -> str:
 
 
 def _version(path: str) -> str:
-    """A file as far as its name, size and date tell what is in it."""
+    """Return the identity of a file from its name, size and date."""
     try:
-        found = os.stat(path)  # noqa: PTH116 - hundreds of files
+        status = os.stat(path)  # noqa: PTH116 - hundreds of files
     except OSError:  # not there, or inside an archive
         return path
-    return f"{path} {found.st_size} {found.st_mtime_ns}"
+    return f"{path} {status.st_size} {status.st_mtime_ns}"
 
 
 def state(path: str) -> str:
-    """What is at a path: a digest of a file's content or of the names in a folder; "" for nothing that can be read.
+    """Return a digest of a file's content or of the names in a folder; "" for anything that cannot be read.
 
-    What is neither, such as a pipe, is not opened: no deck is read from it. Very large files go by size and date.
+    Other objects, such as pipes, are not opened: no deck is read from them. Very large files are identified by size and
+    date.
     """
     digest = blake2b(digest_size=16)
     try:
-        found = os.stat(path)  # noqa: PTH116 - as above
-        if stat.S_ISDIR(found.st_mode):
+        status = os.stat(path)  # noqa: PTH116 - as above
+        if stat.S_ISDIR(status.st_mode):
             names = "\0".join(["", *sorted(os.listdir(path))])  # noqa: PTH208 - as above
             digest.update(names.encode("utf-8", "surrogateescape"))
-        elif not stat.S_ISREG(found.st_mode):
+        elif not stat.S_ISREG(status.st_mode):
             return ""
-        elif found.st_size > LARGEST_NEIGHBOUR:
+        elif status.st_size > LARGEST_NEIGHBOUR:
             digest.update(_version(path).encode("utf-8", "surrogateescape"))
         else:
             with open(path, "rb") as stream:  # noqa: PTH123 - as above
@@ -189,21 +190,21 @@ def state(path: str) -> str:
 
 
 def changed_since(moment: float, path: str) -> bool:
-    """Whether a file may have changed since a moment."""
+    """Return True if a file may have changed since a moment."""
     try:
-        found = os.stat(path)  # noqa: PTH116 - as above
+        status = os.stat(path)  # noqa: PTH116 - as above
     except (OSError, ValueError):  # still not there
         return False
-    return max(found.st_mtime, found.st_ctime) > moment - _COARSE
+    return max(status.st_mtime, status.st_ctime) > moment - _COARSE
 
 
 # ------------------------------------------------------------------------------------------------------------ the file
 
 
 def _read(path: Path, *, own: bool) -> dict[str, str]:
-    """Keys and results; nothing for a file that is missing, damaged, too large or no memory.
+    """Return keys and results; an empty dict if the file is missing, damaged, too large or not a memory.
 
-    Nor for one of another user where only this user's `own` counts: nobody else says what was found.
+    Where only this user's `own` files count, files of another user are ignored: nobody else may supply results.
     """
     try:
         if not path.is_file() or path.stat().st_size > LARGEST_MEMORY:
@@ -223,7 +224,7 @@ def _head(body: bytes) -> bytes:
 
 
 def _drop_old(written: Path) -> None:
-    """Keep the memories of one name that were written last."""
+    """Keep the most recently written memories of one name, and delete the others."""
     start = f"{written.name.partition('-')[0]}-"
     with os.scandir(written.parent) as entries:
         files = [(entry.stat().st_mtime, entry.path) for entry in entries if entry.name.startswith(start)]

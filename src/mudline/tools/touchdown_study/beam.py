@@ -1,7 +1,8 @@
 """Tensioned beam on the seabed of a deck: the touchdown zone in its plane, at rest and in motion.
 
-Small slopes, constant tension T, heights w and rotations theta of the nodes; Hermite elements, consistent mass, load
--q, drag at nodes. The left end lies; the right one is moved, turns freely, and has the catenary's moment EI q / T.
+Small slopes, constant tension T, heights w and rotations theta of the nodes. Hermite elements with consistent mass,
+load -q, drag at nodes. The left end lies on the seabed. The right end is moved, rotates freely, and has the catenary's
+moment EI q / T.
 """
 
 from __future__ import annotations
@@ -15,21 +16,21 @@ import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.scene.time_stepping import Scheme
-from mudline.tools.touchdown_study.soil import Reaction, Soil
+from mudline.tools.touchdown_study.soil import BeamSoil, Reaction
 
 _ITERATIONS, _CUTS, _STATIC_ITERATIONS = 25, 6, 200
 _LEAST_SHARE = 0.001
-"""Of a correction that is tried where the residual does not fall."""
+"""Smallest share of a correction that is tried if the residual does not fall."""
 _REFINED, _REFINEMENTS = 1e-7, 6
-"""Share of a force that may be left when a linear system counts as solved; more steps than that are eliminations."""
+"""Residual share of a force at which a linear system counts as solved, and refinements before elimination."""
 _ENOUGH, _A_STEP = 500, 40
-"""Evaluations of the equations that a run may take before it is given up: to begin with, and for each step."""
+"""Evaluations of the equations after which a run is given up: initially, and for each step."""
 _TOLERANCE = 1e-6
 """Residual of a node over the weight of the shortest element."""
 
 
 class NotConvergedError(Exception):
-    """A step, or the state at rest, was not found."""
+    """Failure to find a step, or the state at rest."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +38,14 @@ class Beam:
     """The touchdown zone.
 
     Attributes:
-        lengths: (m,) of the elements, from the lying end to the hanging one.
-        bending, tension: EI and T.
-        weight, mass, drag: per length; drag is the force at a velocity of 1.
-        left, right: heights of the ends above the mudline at rest; the right end moves by `amplitude` in `period`.
-        end_moment: at the right end.
+        lengths: lengths (m,) of the elements, from the lying end to the hanging end.
+        bending: EI.
+        tension: T.
+        weight, mass: per length.
+        drag: force per length at a velocity of 1.
+        left, right: heights of the ends above the mudline at rest.
+        end_moment: moment at the right end.
+        amplitude, period: motion of the right end.
     """
 
     lengths: FloatArray
@@ -67,7 +71,7 @@ class Beam:
         return float(self.lengths.min())
 
     def largest(self, residual: FloatArray) -> float:
-        """The largest force of a residual (2 n,) where the line is free; moments count over the shortest length."""
+        """Return the largest free force of a residual (2 n,); moments are divided by the shortest length."""
         return float(max(np.abs(residual[2:-2:2]).max(), np.abs(residual[3::2]).max() / self.shortest))
 
     @cached_property
@@ -85,30 +89,30 @@ class Beam:
         return _assembled(self._turned(np.array(rows) * self.mass * self.lengths[:, None, None] / 420.0))
 
     def _turned(self, matrices: FloatArray) -> FloatArray:
-        """Matrices for w and theta from those for w and l theta."""
+        """Return matrices for w and theta from those for w and l theta."""
         size = np.ones((len(self.lengths), 4))
         size[:, 1::2] = self.lengths[:, None]
-        found: FloatArray = matrices * size[:, :, None] * size[:, None, :]
-        return found
+        scaled: FloatArray = matrices * size[:, :, None] * size[:, None, :]
+        return scaled
 
     @cached_property
     def load(self) -> FloatArray:
         """Load (2 n,) of the weight, with the moment at the right end."""
         force, moment = -0.5 * self.weight * self.lengths, -self.weight * self.lengths**2 / 12.0
-        found = np.zeros((len(self.lengths) + 1, 2))
-        found[:-1] += np.column_stack([force, moment])
-        found[1:] += np.column_stack([force, -moment])
-        found[-1, 1] += self.end_moment
-        return found.ravel()
+        load = np.zeros((len(self.lengths) + 1, 2))
+        load[:-1] += np.column_stack([force, moment])
+        load[1:] += np.column_stack([force, -moment])
+        load[-1, 1] += self.end_moment
+        return load.ravel()
 
     @cached_property
     def drag_at_nodes(self) -> FloatArray:
         """Drag (n,) of half of the elements of each node, at a velocity of 1."""
-        found: FloatArray = 0.5 * self.drag * (np.append(self.lengths, 0.0) + np.append(0.0, self.lengths))
-        return found
+        drag: FloatArray = 0.5 * self.drag * (np.append(self.lengths, 0.0) + np.append(0.0, self.lengths))
+        return drag
 
     def end(self, time: float) -> tuple[float, float, float]:
-        """Height, velocity and acceleration of the right end: the motion grows over the first period."""
+        """Return height, velocity and acceleration of the right end; the motion grows over the first period."""
         share = min(time / self.period, 1.0)
         ramp = share**3 * (10.0 + share * (6.0 * share - 15.0))
         rising = 30.0 * share**2 * (1.0 - share) ** 2 / self.period if share < 1.0 else 0.0
@@ -122,32 +126,32 @@ class Beam:
         )
 
     def moments(self, turned: FloatArray) -> FloatArray:
-        """Bending moments (..., m) of the elements from the rotations (..., n) of the nodes."""
-        found: FloatArray = self.bending * np.diff(turned, axis=-1) / self.lengths
-        return found
+        """Return bending moments (..., m) of the elements from the rotations (..., n) of the nodes."""
+        moments: FloatArray = self.bending * np.diff(turned, axis=-1) / self.lengths
+        return moments
 
     def touchdown(self, heights: FloatArray) -> FloatArray:
-        """Touchdown points (...), from the left end: the first change of sign of w (..., n) from the right."""
+        """Return touchdown points (...), from the left end: the first change of sign of w (..., n) from the right."""
         above = heights >= 0.0
         last = above.shape[-1] - 1 - np.argmax(~above[..., ::-1], axis=-1)  # the last node below the mudline
         last = np.minimum(last, above.shape[-1] - 2)
         low = np.take_along_axis(heights, last[..., None], -1)[..., 0]
         high = np.take_along_axis(heights, last[..., None] + 1, -1)[..., 0]
-        found = self.places[last] + self.lengths[last] * low / np.where(low < high, low - high, -1.0)
-        return np.where(above.all(axis=-1), np.nan, found)
+        touchdown = self.places[last] + self.lengths[last] * low / np.where(low < high, low - high, -1.0)
+        return np.where(above.all(axis=-1), np.nan, touchdown)
 
 
 def _assembled(matrices: FloatArray) -> FloatArray:
-    """Matrix (2 n, 2 n) that element matrices (m, 4, 4) make."""
+    """Return the matrix (2 n, 2 n) assembled from element matrices (m, 4, 4)."""
     size = 2 * len(matrices) + 2
-    found = np.zeros((size, size))
+    matrix = np.zeros((size, size))
     for at, each in enumerate(matrices):
-        found[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
-    return found
+        matrix[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
+    return matrix
 
 
 class _Condensed:
-    """A linear system for the changes of w and theta, with theta eliminated once."""
+    """Linear system for the changes of w and theta, with theta eliminated once."""
 
     def __init__(self, matrix: FloatArray) -> None:
         """Take a matrix (2 n, 2 n); w is held at both ends, theta at the left end."""
@@ -163,7 +167,7 @@ class _Condensed:
         self._diagonal, self._upper, self._lower = flat[:: width + 1], flat[1 :: width + 1], flat[width :: width + 1]
 
     def solve(self, residual: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
-        """Return the change (2 n,) that takes a residual (2 n,) away, with a diagonal (n,) and its neighbours added."""
+        """Return the change (2 n,) that cancels a residual (2 n,), with a diagonal (n,) and its neighbours added."""
         force, moment = residual[2:-2:2], residual[3::2]
         change = np.zeros(len(residual))
         w = self._refined(self._down @ moment - force, diagonal[1:-1], beside[1:-1])
@@ -172,21 +176,21 @@ class _Condensed:
         return change
 
     def _refined(self, force: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
-        """The w (n - 2,) of a force, by the inverse of the first system and refinement, else by elimination."""
+        """Return w (n - 2,) under a force, by the inverse of the first system and refinement, else by elimination."""
         if self._held is None:
             self._held = diagonal.copy(), beside.copy()
             self._solution = np.asarray(np.linalg.inv(self._added(diagonal, beside)), np.float64)
         more, more_beside = diagonal - self._held[0], beside - self._held[1]
-        found, left = np.zeros(len(force)), force.copy()
+        solution, left = np.zeros(len(force)), force.copy()
         least = _REFINED * np.abs(force).max()
         for _ in range(_REFINEMENTS):
             part = self._solution @ left
-            found += part
+            solution += part
             np.multiply(-more, part, out=left)
             left[:-1] -= more_beside * part[1:]
             left[1:] -= more_beside * part[:-1]
             if np.abs(left).max() <= least:
-                return found
+                return solution
         return np.asarray(np.linalg.solve(self._added(diagonal, beside), force), np.float64)
 
     def _added(self, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
@@ -198,7 +202,14 @@ class _Condensed:
 
 
 class _Equations(NamedTuple):
-    """Residual (2 n,) of a trial, what the soil and the drag add to the three diagonals, and the reaction."""
+    """Equations of a trial state.
+
+    Attributes:
+        residual: residual (2 n,).
+        diagonal: terms (n,) of soil and drag on the diagonal.
+        beside: terms (n - 1,) next to the diagonal.
+        reaction: seabed reaction.
+    """
 
     residual: FloatArray
     diagonal: FloatArray
@@ -207,7 +218,14 @@ class _Equations(NamedTuple):
 
 
 class Solved(NamedTuple):
-    """State (2 n,) of a beam, w and theta of its nodes; its reaction; systems solved; halvings of corrections."""
+    """Solution of a beam.
+
+    Attributes:
+        state: w and theta (2 n,) of its nodes.
+        reaction: seabed reaction.
+        iterations: systems solved.
+        searches: halvings of corrections.
+    """
 
     state: FloatArray
     reaction: Reaction
@@ -222,7 +240,7 @@ def _solved(
     equations: Callable[[FloatArray], _Equations],
     most: int,
 ) -> Solved:
-    """Newton's method with halving of a correction while the residual does not fall. Raises NotConvergedError."""
+    """Solve by Newton's method, halving a correction while the residual does not fall. Raises NotConvergedError."""
     tolerance = _TOLERANCE * beam.weight * beam.shortest
     now = equations(state)
     size, searches, stalls = beam.largest(now.residual), 0, 0
@@ -242,8 +260,10 @@ def _solved(
             whole = whole or (trial, reached)
             if reached < size:
                 break
-            if share < _LEAST_SHARE:  # no share lowers the residual: every other time the whole correction is taken,
-                stalls += 1  # as it may find at once what touches and what lets go; small ones alone take long
+            if share < _LEAST_SHARE:  # no share lowers the residual: every second time take the whole correction,
+                stalls += (
+                    1  # which may find at once the elements that touch down and lift off; small corrections take long
+                )
                 if stalls % 2 == 0:
                     share, (trial, reached) = 1.0, whole
                 break
@@ -253,8 +273,8 @@ def _solved(
     raise NotConvergedError("no equilibrium was found")
 
 
-def at_rest(beam: Beam, soil: Soil) -> Solved:
-    """Return the beam at rest, by Newton's method from the parabola that hangs behind its touchdown.
+def at_rest(beam: Beam, soil: BeamSoil) -> Solved:
+    """Return the beam at rest, by Newton's method from a parabola that hangs beyond its touchdown.
 
     Raises NotConvergedError.
     """
@@ -272,16 +292,23 @@ def at_rest(beam: Beam, soil: Soil) -> Solved:
         residual[::2] -= reaction.nodal
         return _Equations(residual, -reaction.diagonal, -reaction.beside, reaction)
 
-    found = _solved(beam, _Condensed(beam.stiffness), state, equations, _STATIC_ITERATIONS)
+    solved = _solved(beam, _Condensed(beam.stiffness), state, equations, _STATIC_ITERATIONS)
     soil.keep()
-    return found
+    return solved
 
 
-class Run(NamedTuple):
-    """A run of equal steps; its last period in arrays.
+class BeamRun(NamedTuple):
+    """A run of equal steps, with its last period in arrays.
 
-    times: (k,) of the last period. heights, turned: (k, n) w and theta. forces: (k, m) reaction per length.
-    iterations: systems solved in a step. searches, cuts: halvings of corrections, and of steps. landings: of elements.
+    Attributes:
+        times: times (k,) of the last period.
+        heights: w (k, n).
+        turned: theta (k, n).
+        forces: reaction per length (k, m).
+        mean_iterations, most_iterations: systems solved in a step.
+        searches: halvings of corrections.
+        cuts: halvings of steps.
+        landings: number of times that an element touches down.
     """
 
     times: FloatArray
@@ -296,9 +323,9 @@ class Run(NamedTuple):
 
 
 class _Marching:
-    """The state of a run, and one step of it."""
+    """State of a run, and the advance by one step."""
 
-    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Solved) -> None:
+    def __init__(self, beam: Beam, soil: BeamSoil, scheme: Scheme, begin: Solved) -> None:
         self.beam, self.soil, self.scheme = beam, soil, scheme
         self.state, self.velocity = begin.state, np.zeros_like(begin.state)
         self.acceleration = np.zeros_like(begin.state)
@@ -310,7 +337,7 @@ class _Marching:
         self.most = _ENOUGH
 
     def _system(self, step: float) -> _Condensed:
-        """The linear part of the equations of a step."""
+        """Return the linear part of the equations of a step."""
         if step not in self._systems:
             scheme, beam = self.scheme, self.beam
             matrix = (1.0 - scheme.alpha_m) / (scheme.beta * step * step) * beam.inertia
@@ -318,14 +345,14 @@ class _Marching:
         return self._systems[step]
 
     def _resistance(self, state: FloatArray, velocity: FloatArray, reaction: Reaction) -> FloatArray:
-        """R (2 n,): stiffness and drag less load and reaction."""
-        found = self.beam.stiffness @ state - self.beam.load
+        """Return R (2 n,): stiffness and drag less load and reaction."""
+        resistance = self.beam.stiffness @ state - self.beam.load
         v = velocity[::2]
-        found[::2] += self.beam.drag_at_nodes * np.abs(v) * v - reaction.nodal
-        return found
+        resistance[::2] += self.beam.drag_at_nodes * np.abs(v) * v - reaction.nodal
+        return resistance
 
     def advance(self, step: float, time: float, cuts: int = 0) -> None:
-        """Go on by a step that ends at a time, in halves where it does not converge. Raises NotConvergedError."""
+        """Advance by a step that ends at `time`, in halves if it does not converge. Raises NotConvergedError."""
         try:
             self._try(step, time)
         except NotConvergedError:
@@ -366,16 +393,16 @@ class _Marching:
                 beside = beside + reaction.damping[1] * by_velocity
             return _Equations(residual, of_force * diagonal, of_force * beside, reaction)
 
-        found = _solved(beam, self._system(step), state, equations, _ITERATIONS)
-        self.state, self.reaction, self._resisted, self.time = found.state, found.reaction, self._behind, time
-        self.velocity, self.acceleration = rates(found.state)
-        self.iterations.append(found.iterations)
-        self.searches += found.searches
+        solved = _solved(beam, self._system(step), state, equations, _ITERATIONS)
+        self.state, self.reaction, self._resisted, self.time = solved.state, solved.reaction, self._behind, time
+        self.velocity, self.acceleration = rates(solved.state)
+        self.iterations.append(solved.iterations)
+        self.searches += solved.searches
         self.soil.keep()
 
 
-def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Solved, steps: int, periods: int = 3) -> Run:
-    """Return a run of so many equal steps over some periods, from rest. Raises NotConvergedError."""
+def march(beam: Beam, soil: BeamSoil, scheme: Scheme, begin: Solved, steps: int, periods: int = 3) -> BeamRun:
+    """Return a run of `steps` equal steps over `periods`, from rest. Raises NotConvergedError."""
     moving, step = _Marching(beam, soil, scheme, begin), periods * beam.period / steps
     first = steps - round(steps / periods)
     kept: list[tuple[FloatArray, Reaction]] = []
@@ -389,7 +416,7 @@ def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Solved, steps: int, per
         if number > first:
             kept.append((moving.state, moving.reaction))
     states = np.array([state for state, _ in kept])
-    return Run(
+    return BeamRun(
         step * np.arange(first + 1.0, steps + 1.0),
         states[:, ::2],
         states[:, 1::2],

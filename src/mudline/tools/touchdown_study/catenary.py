@@ -1,9 +1,9 @@
-"""Catenary of a line between its two ends: its tension, and how much of it lies on the seabed.
+"""Catenary of a line between its two ends: its tension, and its length on the seabed.
 
-The line is inextensible and has no bending stiffness; its elements have lengths and weights per length. Where V = 0 it
-leaves the seabed, and from there an element of weight q and length l takes V to V + q l, adds T/q (asinh(V1/T) -
-asinh(V/T)) to the distance and (sqrt(T^2 + V1^2) - sqrt(T^2 + V^2))/q to the height, with the same horizontal tension T
-everywhere. On a seabed that rises by `slope` it leaves with V = T slope. Buoyant elements have q < 0.
+The line is inextensible and has no bending stiffness; its elements have lengths and weights per length. It leaves the
+seabed where V = 0. From there an element of weight q and length l increases V to V1 = V + q l. It adds T/q (asinh(V1/T)
+- asinh(V/T)) to the distance and (sqrt(T^2 + V1^2) - sqrt(T^2 + V^2))/q to the height. The horizontal tension T is
+constant. On a seabed that rises by `slope` the line leaves with V = T slope. Buoyant elements have q < 0.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ import numpy as np
 from mudline.model.scene.numbering import Floats
 
 _STEPS = 80
-"""Halvings of an interval, after which its ends are neighbours among floats for all that decks hold."""
+"""Halvings of an interval, after which its ends are adjacent floats."""
 _CLOSE = 1e-13
 _LEAST = 1e-6
-"""Of the weight of a line: the least tension that is tried; the largest is that weight over it."""
+"""Share of the weight of a line: the least tension tried; the largest is the weight divided by it."""
 _MET, _DIP = 1e-6, 1e-9
-"""Of the length: how near the ends come to where they stand, and how far rounding puts a node below the seabed."""
+"""Shares of the length: accuracy of the ends, and depth below the seabed that rounding may cause."""
 _STRAIGHT = 1e-9
 """Change of V/T along an element below which it is straight to rounding."""
 
 
 class NoRestShapeError(Exception):
-    """A line has no resting shape; the text says why in a sentence."""
+    """Reason, in a sentence, why a line has no resting shape."""
 
 
 class Catenary(NamedTuple):
@@ -37,9 +37,10 @@ class Catenary(NamedTuple):
 
     Attributes:
         tension: horizontal tension.
-        lying: (first, last) arc lengths of the parts that lie on the seabed, along the line.
-        distance, height: (n,) of the nodes, from its first end; the height is that above the seabed below the node.
-        vertical: (n,) vertical force of the line at the nodes on what follows, 0 on a part that lies.
+        lying: (first, last) arc lengths of the parts on the seabed, along the line.
+        distance: distances (n,) of the nodes from the first end.
+        height: heights (n,) of the nodes above the seabed below them.
+        vertical: vertical force (n,) of the line at each node on the next element; 0 on the seabed.
     """
 
     tension: float
@@ -49,8 +50,8 @@ class Catenary(NamedTuple):
     vertical: Floats
 
 
-class Line:
-    """The elements between two held ends, from the lower to the upper one.
+class HangingLine:
+    """The elements between two held ends, from the lower to the upper end.
 
     Args:
         lengths, weights: (m,) of the elements.
@@ -63,18 +64,18 @@ class Line:
         self.carried = np.append(0.0, np.cumsum(lengths * weights))
         self.length = float(self.arcs[-1])
 
-    def reversed(self) -> Line:
+    def reversed(self) -> HangingLine:
         """Return the line from its other end."""
-        return Line(self.lengths[::-1], self.weights[::-1], -self.slope)
+        return HangingLine(self.lengths[::-1], self.weights[::-1], -self.slope)
 
     def weight_to(self, arc: float) -> float:
         """Return the weight from the first end to an arc length."""
         return float(np.interp(arc, self.arcs, self.carried))
 
     def lifted(self, tension: float, start: float, stop: float) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return arc lengths, distances, heights and vertical forces (k,) along what hangs between two arc lengths.
+        """Return arc lengths, distances, heights and vertical forces (k,) of the hanging part between two arc lengths.
 
-        Distances and heights are those from `start`, where V = T slope; heights are above the seabed.
+        Distances and heights are relative to `start`, where V = T slope; heights are above the seabed.
         """
         inner = (self.arcs > start) & (self.arcs < stop)
         arcs = np.concatenate([[start], self.arcs[inner], [stop]])
@@ -85,23 +86,23 @@ class Line:
         root, next_root = np.hypot(1.0, before), np.hypot(1.0, behind)
         rise = weights * steps / tension
         curved = np.abs(rise) > _STRAIGHT
-        # a difference of two asinh in one, which keeps the digits of a small one
+        # a difference of two asinh by one asinh, which keeps the digits of a small difference
         along = np.arcsinh(behind * root - before * next_root) / np.where(curved, rise, 1.0)
         distance = np.append(0.0, np.cumsum(steps * np.where(curved, along, 1.0 / root)))
         height = np.append(0.0, np.cumsum(steps * (before + behind) / (root + next_root)))
         return arcs, distance, height - self.slope * distance, force
 
     def carrying_parts(self) -> list[tuple[float, float]]:
-        """Return the stretches (first, last arc length) of elements that sink, between those that float."""
+        """Return the stretches (first, last arc length) of elements that sink, between buoyant stretches."""
         sinks = np.concatenate([[False], self.weights > 0.0, [False]])
         first, last = np.flatnonzero(~sinks[:-1] & sinks[1:]), np.flatnonzero(sinks[:-1] & ~sinks[1:])
         return [(float(self.arcs[a]), float(self.arcs[b])) for a, b in zip(first, last, strict=True)]
 
 
-def rest(line: Line, distance: float, heights: tuple[float, float]) -> Catenary:
+def rest(line: HangingLine, distance: float, heights: tuple[float, float]) -> Catenary:
     """Return the shape of a line whose ends are `distance` apart, at `heights` above the seabed.
 
-    A first height that is not above 0 is that of an end that lies; the last one is above 0. Raises NoRestShapeError for
+    A first height of 0 or less belongs to an end on the seabed; the last height is above 0. Raises NoRestShapeError for
     a line without a shape.
     """
     parts = line.carrying_parts()
@@ -112,19 +113,21 @@ def rest(line: Line, distance: float, heights: tuple[float, float]) -> Catenary:
         apart = f"its ends are {math.hypot(distance, rise):.6g} apart, and it is {line.length:.6g} long"
         raise NoRestShapeError(f"the line is taut: {apart}")
     used = parts[:1]
-    found = _tensioned(line, distance, heights, used)
+    shape = _tensioned(line, distance, heights, used)
     for part in parts[1:]:
         inside = (line.arcs >= part[0]) & (line.arcs <= part[1])
-        if (found.height[inside] < -_DIP * line.length).any():
+        if (shape.height[inside] < -_DIP * line.length).any():
             used = [*used, part]
-            found = _tensioned(line, distance, heights, used)
-    if (found.height < -_DIP * line.length).any():
+            shape = _tensioned(line, distance, heights, used)
+    if (shape.height < -_DIP * line.length).any():
         raise NoRestShapeError("the line would sink below the seabed where it hangs")
-    return found
+    return shape
 
 
-def _tensioned(line: Line, distance: float, heights: tuple[float, float], used: list[tuple[float, float]]) -> Catenary:
-    """The shape whose ends are as far apart as asked, with lying parts in `used`; found by its tension."""
+def _tensioned(
+    line: HangingLine, distance: float, heights: tuple[float, float], used: list[tuple[float, float]]
+) -> Catenary:
+    """Return the shape with the required distance of the ends and lying parts in `used`, by varying the tension."""
     low, high = (float(np.abs(line.carried).max()) * share for share in (_LEAST, 1.0 / _LEAST))
     shape = _hanging(line, low, heights, used)
     if shape is None or _extent(line, low, shape) > distance:
@@ -148,34 +151,34 @@ def _tensioned(line: Line, distance: float, heights: tuple[float, float], used: 
 
 
 _Spans = list[tuple[float, float]]
-"""First and last arc lengths of what hangs."""
+"""First and last arc lengths of hanging parts."""
 
 
-def _hanging(line: Line, tension: float, heights: tuple[float, float], used: _Spans) -> _Spans | None:
-    """What hangs under a tension: at the ends that are above the seabed, and between parts that lie.
+def _hanging(line: HangingLine, tension: float, heights: tuple[float, float], used: _Spans) -> _Spans | None:
+    """Return the hanging parts under a tension: at the ends above the seabed, and between lying parts.
 
-    None where the tension is too large for one of them to leave the seabed.
+    None if the tension is too large for a part to leave the seabed.
     """
-    found: _Spans = []
+    spans: _Spans = []
     if heights[0] > 0.0:
         back = line.reversed()
         start = _leaves(back, tension, (line.length - used[0][1], line.length - used[0][0]), heights[0])
         if start is None:
             return None
-        found.append((0.0, line.length - start))
+        spans.append((0.0, line.length - start))
     for before, behind in pairwise(used):
         arch = _arch(line, tension, before, behind)
         if arch is None:
             return None
-        found.append(arch)
+        spans.append(arch)
     start = _leaves(line, tension, used[-1], heights[1])
-    if start is None or any(a[1] > b[0] for a, b in pairwise([*found, (start, line.length)])):
+    if start is None or any(a[1] > b[0] for a, b in pairwise([*spans, (start, line.length)])):
         return None
-    return [*found, (start, line.length)]
+    return [*spans, (start, line.length)]
 
 
-def _leaves(line: Line, tension: float, part: tuple[float, float], height: float) -> float | None:
-    """Where a line leaves the seabed in one of its parts, so that its last end is at a height; None if nowhere."""
+def _leaves(line: HangingLine, tension: float, part: tuple[float, float], height: float) -> float | None:
+    """Return the arc length at which a line leaves the seabed within a part to end at a height, or None."""
 
     def missing(start: float) -> float:
         return height - float(line.lifted(tension, start, line.length)[2][-1])
@@ -186,9 +189,9 @@ def _leaves(line: Line, tension: float, part: tuple[float, float], height: float
 
 
 def _arch(
-    line: Line, tension: float, before: tuple[float, float], behind: tuple[float, float]
+    line: HangingLine, tension: float, before: tuple[float, float], behind: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Where a buoyant arch leaves the seabed in one part and comes down in the next; None if nowhere."""
+    """Return the arc lengths at which a buoyant arch leaves the seabed and comes down in the next part, or None."""
 
     def lands(start: float) -> float:
         inner = (line.arcs >= behind[0]) & (line.arcs <= behind[1])
@@ -204,7 +207,7 @@ def _arch(
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where an ascending function that is not above 0 at `low`, and not below it at `high`, is 0."""
+    """Return the root of an ascending function, not above 0 at `low` and not below 0 at `high`."""
     at_low, at_high, last = function(low), function(high), 0
     for step in range(_STEPS):
         if not at_high > at_low or high - low <= _CLOSE * max(abs(low), abs(high)):
@@ -218,15 +221,15 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
-def _extent(line: Line, tension: float, shape: _Spans) -> float:
-    """Distance of the ends of a line of which some parts hang."""
+def _extent(line: HangingLine, tension: float, shape: _Spans) -> float:
+    """Return the distance between the ends of a line with hanging parts."""
     lying = line.length - sum(last - first for first, last in shape)
     cosine = 1.0 / math.hypot(1.0, line.slope)
     return lying * cosine + sum(float(_span(line, tension, each)[1][-1]) for each in shape)
 
 
-def _span(line: Line, tension: float, span: tuple[float, float]) -> tuple[Floats, Floats, Floats, Floats]:
-    """Arc lengths, distances, heights and forces of what hangs, from its end that leaves the seabed."""
+def _span(line: HangingLine, tension: float, span: tuple[float, float]) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return arc lengths, distances, heights and forces of a hanging part, from its end on the seabed."""
     first, last = span
     if first > 0.0 or last >= line.length:
         return line.lifted(tension, first, last)
@@ -235,8 +238,8 @@ def _span(line: Line, tension: float, span: tuple[float, float]) -> tuple[Floats
     return line.length - arcs, distance[0] - distance, height, -force
 
 
-def _assembled(line: Line, tension: float, shape: _Spans) -> Catenary:
-    """Distance, height and vertical force of all nodes."""
+def _assembled(line: HangingLine, tension: float, shape: _Spans) -> Catenary:
+    """Return the catenary of all nodes from its hanging parts."""
     cosine = 1.0 / math.hypot(1.0, line.slope)
     steps, height, vertical = np.diff(line.arcs) * cosine, np.zeros(len(line.arcs)), np.zeros(len(line.arcs))
     distance = np.append(0.0, np.cumsum(steps))

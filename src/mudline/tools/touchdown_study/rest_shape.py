@@ -1,8 +1,8 @@
-"""Resting shape of the lines of a deck: catenaries of their own weight, and a beam on the seabed where they touch down.
+"""Resting shape of the lines of a deck: catenaries under their own weight, with a beam on the seabed at touchdown.
 
-No load case is solved: the elements have their lengths and submerged weights with contents, nothing else. A line
-stands in the vertical plane of its two held ends, the upper one moved by the `*OFFSET` of its vessel. What lies is
-straight, at static embedment.
+No load case is solved: the elements have their lengths and submerged weights with contents, nothing else. A line lies
+in the vertical plane of its two held ends; the upper end is moved by the `*OFFSET` of its vessel. The part on the
+seabed is straight, at static embedment.
 """
 
 from __future__ import annotations
@@ -26,40 +26,46 @@ from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedLine, elevations, plane_below
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
-from mudline.tools.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
+from mudline.tools.touchdown_study.catenary import Catenary, HangingLine, NoRestShapeError, rest
 from mudline.tools.touchdown_study.soil import soil_of
 
 LEFT, RIGHT = 10.0, 6.0
-"""Lengths sqrt(EI/T) of the beam on either side of a touchdown."""
+"""Extent of the beam on either side of a touchdown, in lengths sqrt(EI/T)."""
 MOST_LEFT, MOST_RIGHT = 60, 40
-"""Elements of it."""
+"""Largest number of elements of the beam on either side."""
 _ROUNDED, _LEAST = 1e-6, 1e-300
 _CORRECTIONS, _BALANCES = 3, 8
 _STEEP = 0.3
-"""Largest sqrt(EI/T) q/T, the slope of the line at that length behind its touchdown."""
+"""Largest slope sqrt(EI/T) q/T, that of the line at this length beyond its touchdown."""
 _LIFTED = 5.0
-"""EI q / T^2 and diameters by which a beam may lift what hangs: half of the first is what it does on a rigid seabed."""
+"""Largest lift by a beam, in EI q / T^2 plus diameters; on a rigid seabed the lift is half of EI q / T^2."""
 _SUNK = 3.0
-"""Diameters below the seabed at which an end is still one that lies on it."""
+"""Diameters below the seabed down to which an end counts as lying on it."""
 
 
 @dataclass(frozen=True)
 class LineAtRest:
-    """A line between two held ends, from the lower one to the upper one.
+    """A line between two held ends, from the lower end to the upper end.
 
     Attributes:
-        number: of the line in the deck, from 1.
-        elements, nodes: (m,) and (m + 1,) indices.
-        model: lengths and weights. start: Y and Z of the first end. direction: unit vector (2,) to the other one.
-        distance, heights: of the ends; heights above the seabed.
-        seabed: what is below. catenary: the shape; None for a line that lies. vessel: which moves the upper end, or "".
-        depth: (m,) static embedment of each element.
+        number: number of the line in the deck, from 1.
+        elements: indices (m,).
+        nodes: indices (m + 1,).
+        model: lengths and weights.
+        start: Y and Z of the first end.
+        direction: unit vector (2,) to the last end.
+        distance: horizontal distance of the ends.
+        heights: heights of the ends above the seabed.
+        seabed: the seabed below the line.
+        catenary: the shape; None for a line that lies on the seabed.
+        vessel: vessel that moves the upper end, or "".
+        depth: static embedment (m,) of each element.
     """
 
     number: int
     elements: Indices
     nodes: Indices
-    model: Line
+    model: HangingLine
     start: Floats
     direction: Floats
     distance: float
@@ -72,7 +78,7 @@ class LineAtRest:
     __repr__ = short_repr
 
     def moved(self, surge: float, heave: float) -> Catenary:
-        """Return the shape with the upper end moved away from the lower one, and up. Raises NoRestShapeError."""
+        """Return the shape with the upper end moved away from the lower end, and up. Raises NoRestShapeError."""
         height = self.heights[1] + heave - self.seabed.slope * surge
         return rest(self.model, self.distance + surge, (self.heights[0], height))
 
@@ -82,8 +88,9 @@ class RestShape:
     """The resting shape of a deck.
 
     Attributes:
-        positions: of all nodes; those of lines without a shape are not present.
-        lines: with a shape. refused: number of a line, and why it has none, in a sentence.
+        positions: positions of all nodes; those of lines without a shape are not present.
+        lines: lines with a shape.
+        refused: number of each other line, and the reason in a sentence.
     """
 
     positions: Positions
@@ -93,12 +100,12 @@ class RestShape:
     __repr__ = short_repr
 
     def places(self, scene: Scene) -> Floats:
-        """Return the positions (n, 3) of all nodes, those of the deck for lines that have no shape."""
+        """Return the positions (n, 3) of all nodes; lines without a shape keep the deck's coordinates."""
         return np.where(self.positions.present[:, None], self.positions.values[0], scene.coordinates)
 
     def sentences(self, units: str) -> list[str]:
-        """Return what holds of each line: tension and length on the seabed, or why it has no shape."""
-        names, found = unit_names(units), []
+        """Return a sentence on each line: tension and length on the seabed, or why it has no shape."""
+        names, listed = unit_names(units), []
         for line in self.lines:
             if line.catenary is None:
                 words = "lies on the seabed from end to end"
@@ -106,49 +113,50 @@ class RestShape:
                 lying = sum(last - first for first, last in line.catenary.lying)
                 tension = f"{line.catenary.tension:.6g}{names.behind('force')}"
                 words = f"horizontal tension {tension}, {lying:.6g}{names.behind('length')} lie on the seabed"
-            found.append(f"resting shape of line {line.number}: {words}; no load case is solved")
-        return [*found, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
+            listed.append(f"resting shape of line {line.number}: {words}; no load case is solved")
+        return [*listed, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
 
 
 def rest_shape(scene: Scene) -> RestShape:
     """Return the resting shape of a scene that can be evaluated.
 
-    Raises DeckError: no line has one, with the reason of the first; the seabed or the weight of the pipe is not known.
+    Raises DeckError if no line has a shape (with the reason of the first), or if the seabed or the weight of the pipe
+    is not known.
     """
     require_elements(scene)
     given, pipe = scene.contact_input("cut" if scene.blocking("keep") else "keep"), pipe_of(scene)
     hung, refused = lines_at_rest(scene, given, pipe)
-    values, found = np.full((len(scene.node_ids), 3), np.nan), list[LineAtRest]()
+    values, shaped = np.full((len(scene.node_ids), 3), np.nan), list[LineAtRest]()
     for line in hung:
         try:
             values[line.nodes] = _places(given, pipe, line)
-            found.append(line)
+            shaped.append(line)
         except NoRestShapeError as error:
             refused.append((line.number, str(error)))
-    if not found:
+    if not shaped:
         why = refused[0][1] if refused else "the deck has no line"
         raise scene.refusal(f"no resting shape: {why}; give a solved shape with --positions")
     present = np.isfinite(values).all(axis=1)
-    return RestShape(Positions(values[np.newaxis], present, None), found, refused)
+    return RestShape(Positions(values[np.newaxis], present, None), shaped, refused)
 
 
 def lines_at_rest(scene: Scene, given: ContactInput, pipe: Pipe) -> tuple[list[LineAtRest], list[tuple[int, str]]]:
-    """Return the lines that have a resting shape, and number of each other line with the reason why it has none."""
-    found: list[LineAtRest] = []
+    """Return the lines that have a resting shape, and the number of each other line with the reason."""
+    shaped: list[LineAtRest] = []
     refused: list[tuple[int, str]] = []
     for each in lines_between(scene):
         try:
-            found.append(_line(scene, given, pipe, each))
+            shaped.append(_line(scene, given, pipe, each))
         except NoRestShapeError as error:
             refused.append((each.number, str(error)))
-    return found, refused
+    return shaped, refused
 
 
 # ----------------------------------------------------------------------------------------------------------------- line
 
 
 def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: HeldLine) -> LineAtRest:
-    """The line with its catenary. Raises NoRestShapeError."""
+    """Return a line with its catenary. Raises NoRestShapeError."""
     places = scene.coordinates[each.nodes[[0, -1]]] + [vessel_offset(scene, vessel) for vessel in each.vessels]
     if not np.isfinite(places).all() or not np.isfinite(scene.length[each.elements]).all():
         raise NoRestShapeError("its ends have no coordinates, or an element no length")
@@ -173,7 +181,7 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: HeldLine) -> Line
     seabed = plane_below(scene.seabed, places[0, 1:], direction, distance)
     if seabed is None:
         raise NoRestShapeError("the seabed below the line is not one plane")
-    model = Line(length, weight, seabed.slope)
+    model = HangingLine(length, weight, seabed.slope)
     ends = (float(heights[0]) if heights[0] > size else 0.0, float(heights[1]))
     lies = heights[1] <= size
     if lies and (weight <= 0.0).any():
@@ -192,9 +200,9 @@ def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: HeldLine) -> Line
 
 
 def _require_held(scene: Scene, nodes: Indices, held: tuple[frozenset[int], ...], heights: Floats, size: float) -> None:
-    """Raise NoRestShapeError for a line that hangs from an end which `*BOUNDARY` does not hold in any way."""
+    """Raise NoRestShapeError for a line that hangs from an end that `*BOUNDARY` does not hold at all."""
     for at, name in ((0, "lower"), (1, "upper")):
-        if not held[at] and heights[1] > size:  # what lies from end to end is held by the seabed
+        if not held[at] and heights[1] > size:  # the seabed holds a line that lies from end to end
             node = int(scene.node_ids[nodes[-at]])
             place = "at the top" if heights[at] > size else "at the seabed"
             raise NoRestShapeError(f"no held end {place}: nothing in *BOUNDARY holds node {node}, the {name} end")
@@ -206,10 +214,10 @@ def _require_held(scene: Scene, nodes: Indices, held: tuple[frozenset[int], ...]
 
 
 def _places(given: ContactInput, pipe: Pipe, line: LineAtRest) -> Floats:
-    """Positions (m + 1, 3) of the nodes of a line, from its lower end."""
+    """Return the positions (m + 1, 3) of the nodes of a line, from its lower end."""
     depth, arcs = np.nan_to_num(line.depth) / line.seabed.upright, line.model.arcs
     lying = -0.5 * (np.append(depth[:1], depth) + np.append(depth, depth[-1:]))
-    if line.catenary is None:  # it lies from end to end, between its ends as they stand
+    if line.catenary is None:  # lies from end to end, between its ends in their positions
         along, height = arcs * (line.distance / max(float(arcs[-1]), _LEAST)), lying
     else:
         along, height = _hung(given, pipe, line, lying)
@@ -218,15 +226,15 @@ def _places(given: ContactInput, pipe: Pipe, line: LineAtRest) -> Floats:
     return np.column_stack([level + height, at])
 
 
-class _Touchdown(NamedTuple):
-    """A point where a line leaves the seabed: its arc length, and whether it hangs beyond it or before it."""
+class _LiftOff(NamedTuple):
+    """A point where a line leaves the seabed: its arc length, and True if the hanging part is beyond it."""
 
     arc: float
     beyond: bool
 
 
 class _Bend(NamedTuple):
-    """A beam at a touchdown: indices along the line and heights of its nodes, and how far it lifts what hangs."""
+    """A beam at a touchdown: indices along the line and heights of its nodes, and its lift of the hanging part."""
 
     at: Indices
     heights: Floats
@@ -237,9 +245,9 @@ _NO_BEND = _Bend(np.zeros(0, np.intp), np.zeros(0), 0.0)
 
 
 def _hung(given: ContactInput, pipe: Pipe, line: LineAtRest, lying: Floats) -> tuple[Floats, Floats]:
-    """Distances and heights (m + 1,) with a beam at each touchdown, which lifts what hangs a little.
+    """Return distances and heights (m + 1,) with a beam at each touchdown, which lifts the hanging part a little.
 
-    The catenary hangs between ends that are lower by that lift.
+    The ends of the catenary are lowered by this lift.
     """
     arcs, (low, high) = line.model.arcs, line.heights
     lifts = [0.0, 0.0]
@@ -261,18 +269,16 @@ def _hung(given: ContactInput, pipe: Pipe, line: LineAtRest, lying: Floats) -> t
     return trial.distance, height
 
 
-def touchdowns(catenary: Catenary, length: float) -> list[_Touchdown]:
+def touchdowns(catenary: Catenary, length: float) -> list[_LiftOff]:
     """Return the points where a line of some length leaves the seabed, along it."""
-    points = [
-        _Touchdown(arc, beyond) for part in catenary.lying for arc, beyond in zip(part, (False, True), strict=True)
-    ]
+    points = [_LiftOff(arc, beyond) for part in catenary.lying for arc, beyond in zip(part, (False, True), strict=True)]
     return [point for point in points if 0.0 < point.arc < length]
 
 
 def window(arcs: Floats, node: int, left: float, right: float) -> tuple[int, int]:
-    """Return the first element about a node that ends behind `-left`, and the first that ends at or beyond `right`.
+    """Return the first element about a node that ends beyond `-left`, and the first that ends at or beyond `right`.
 
-    At most `MOST_LEFT` and `MOST_RIGHT` elements on either side; the node is where two of them meet.
+    At most `MOST_LEFT` and `MOST_RIGHT` elements on either side; two of them meet at the node.
     """
     x = arcs[1:] - arcs[node]
     first = max(int(np.searchsorted(x, -left, side="right")), node - MOST_LEFT, 0)
@@ -280,8 +286,8 @@ def window(arcs: Floats, node: int, left: float, right: float) -> tuple[int, int
     return min(first, node - 1), max(last, node)
 
 
-def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, point: _Touchdown) -> _Bend:
-    """The static beam at a touchdown, whose right end has the vertical force of the catenary there."""
+def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, point: _LiftOff) -> _Bend:
+    """Return the static beam at a touchdown, whose right end has the vertical force of the catenary there."""
     step = 1 if point.beyond else -1
     elements, nodes, depth = line.elements[::step], line.nodes[::step], line.depth[::step]
     arcs = line.model.arcs if point.beyond else line.model.length - line.model.arcs[::-1]
@@ -305,7 +311,7 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
         first += 1
     while last > node and arcs[last + 1] > 0.5 * (arc + behind):
         last -= 1
-    if not (depth[first : last + 1] > 0.0).all() or not weight > 0.0:  # a rigid seabed, or one that does not carry
+    if not (depth[first : last + 1] > 0.0).all() or not weight > 0.0:  # rigid seabed, or the pipe is not carried
         return _NO_BEND
     stretch = cut_out(given, elements[first : last + 1], nodes[first : last + 2])
     moment = bending * weight / tension
@@ -313,23 +319,23 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     drawn = _parabola(arcs[inside] - arc, vertical[inside] / tension)
     end = float(drawn[-1])
     beam = Beam(stretch.length, bending, tension, weight, 0.0, 0.0, -float(depth[first]), end, moment)
-    found = _balanced(beam, stretch, float(vertical[last + 1]))
-    if found is None or abs(found[-2] - end) > _LIFTED * (bending * weight / tension**2 + given.diameter[own]):
+    balanced = _balanced(beam, stretch, float(vertical[last + 1]))
+    if balanced is None or abs(balanced[-2] - end) > _LIFTED * (bending * weight / tension**2 + given.diameter[own]):
         return _NO_BEND
     at = np.arange(first, last + 2) if point.beyond else len(nodes) - 1 - np.arange(first, last + 2)
-    bent = height[inside] + found[::2] - drawn  # the catenary goes on from the beam, whose slopes are small
-    return _Bend(at, bent / upright, (float(found[-2]) - end) / upright)
+    bent = height[inside] + balanced[::2] - drawn  # the catenary continues the beam, whose slopes are small
+    return _Bend(at, bent / upright, (float(balanced[-2]) - end) / upright)
 
 
 def _parabola(s: Floats, slope: Floats) -> Floats:
-    """Heights (k,) of a line without bending stiffness, from its slopes V/T at nodes `s` behind its touchdown."""
+    """Return heights (k,) of a line without bending stiffness, from slopes V/T at nodes `s` beyond its touchdown."""
     rising = np.where(s > 0.0, slope, 0.0)
     steps = np.diff(np.maximum(s, 0.0))
     return np.append(0.0, np.cumsum(0.5 * (rising[:-1] + rising[1:]) * steps))
 
 
 def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | None:
-    """The beam at rest (2 n,) with its right end at the height where it carries a vertical force; None if not found."""
+    """Return the beam at rest (2 n,), its right end at the height where it carries a vertical force; or None."""
     trials: list[tuple[float, float, Floats]] = []
     height = beam.right
     for _ in range(_BALANCES):
@@ -345,8 +351,8 @@ def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | No
         if len(trials) == 1:
             height += 0.5 * beam.bending * beam.weight / beam.tension**2
         else:
-            (one, at_one, _), (two, at_two, _) = trials[-2:]
-            if at_one == at_two:
+            (before, at_before, _), (last, at_last, _) = trials[-2:]
+            if at_before == at_last:
                 break
-            height = two - at_two * (two - one) / (at_two - at_one)
+            height = last - at_last * (last - before) / (at_last - at_before)
     return min(trials, key=lambda trial: abs(trial[1]))[2]

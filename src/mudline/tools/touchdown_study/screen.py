@@ -1,4 +1,4 @@
-"""The study of a deck as people read it: sentences and tables for a terminal and a page, and its diagram."""
+"""Study of a deck for people: sentences and tables for a terminal and a page."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from mudline.tools.touchdown_study.zone import Zone
 
 LIMITS = "One plane, small slopes, constant tension; loads are those of this model, only their errors are of use."
 _NAME, _WHY = 44, 90
-"""Columns of a case, and of the reason of a stage, which is folded."""
+"""Columns of a case, and of the reason of a stage, which is wrapped."""
 _DIGITS = 3
 _MASS = {"metric": "kg/m", "imperial": "slug/ft"}
 _KILO = 1e3
 
 
-def description(found: Study) -> str:
-    """Return what was laid down and lifted, and how; "" without a touchdown zone."""
-    zone = found.zone
-    if zone is None or "accuracy" not in found.parts:
+def description(result: Study) -> str:
+    """Return a sentence on the zone, its motion, time integration, weight and mass; "" without a touchdown zone."""
+    zone = result.zone
+    if zone is None or "accuracy" not in result.parts:
         return ""
-    units, length = unit_names(found.units), float(zone.beam.places[-1])
+    units, length = unit_names(result.units), float(zone.beam.places[-1])
     law = zone.scene.law_names[zone.own].removeprefix("curve:")
-    force = {"metric": f"{zone.beam.tension / _KILO:.3g} kN"}.get(found.units)
+    force = {"metric": f"{zone.beam.tension / _KILO:.3g} kN"}.get(result.units)
     force = force or f"{zone.beam.tension:,.0f}{units.behind('force')}"
     scheme, given = zone.scheme, f"line {zone.scheme_line}" if zone.scheme_line else "the program's default"
     own = scheme.alpha if scheme.rho is None else scheme.rho
@@ -39,8 +39,8 @@ def description(found: Study) -> str:
     parts = ", ".join(
         f"{name} {_short(mass)}" for name, mass in zip(("pipe", "contents", "water"), masses, strict=True)
     )
-    mass_unit = f" {_MASS[found.units]}" if found.units in _MASS else ""
-    reference = "" if found.reference is None else f" Errors against {found.milliseconds(found.reference.step)}."
+    mass_unit = f" {_MASS[result.units]}" if result.units in _MASS else ""
+    reference = "" if result.reference is None else f" Errors against {result.milliseconds(result.reference.step)}."
     assumed = "" if zone.pipe.has_coefficients[zone.own] else " (Cd and Ca 1, assumed)"
     return (
         f"Touchdown zone laid down and lifted: {length:.3g}{units.behind('length')} on {law} at {force}, "
@@ -51,7 +51,7 @@ def description(found: Study) -> str:
 
 
 def _weight(zone: Zone, unit: str) -> str:
-    """Submerged weight with contents, and empty where that differs."""
+    """Return the submerged weight with contents, and empty if it differs."""
     filled, empty = (f"{shown(each, 4)}{unit}" for each in zone.weights[:2])
     weights = filled if filled == empty else f"{filled} with contents, {empty} empty"
     note = weight_note(zone.weights.without)
@@ -70,12 +70,12 @@ def _short(value: float) -> str:
     return f"{value:.0f}" if value >= 100.0 or value == 0.0 else f"{value:.3g}"
 
 
-def steps_table(found: Study) -> DisplayTable | None:
+def steps_table(result: Study) -> DisplayTable | None:
     """Return a row for each step, and one for the mesh; None without any."""
-    if not found.steps:
+    if not result.steps:
         return None
-    seconds = "ms" if found.milliseconds(1.0).endswith("ms") else ""
-    length = unit_names(found.units).length
+    seconds = "ms" if result.milliseconds(1.0).endswith("ms") else ""
+    length = unit_names(result.units).length
     columns = (
         text("step", 0, seconds),
         number("touch-\ndown rms", 1, length),
@@ -86,20 +86,20 @@ def steps_table(found: Study) -> DisplayTable | None:
         number("\nmost", 6),
         number("run time", 7, f"{seconds} per s".strip()),
     )
-    rows = [_step_cells(found, row) for row in found.steps]
-    if found.mesh is not None:
-        unit = unit_names(found.units).behind("length")
-        own, half = found.mesh.element_length
-        even = found.zone is None or bool(np.allclose(found.zone.beam.lengths[found.zone.landing], own, rtol=0.01))
+    rows = [_step_cells(result, row) for row in result.steps]
+    if result.mesh is not None:
+        unit = unit_names(result.units).behind("length")
+        own, half = result.mesh.element_length
+        even = result.zone is None or bool(np.allclose(result.zone.beam.lengths[result.zone.landing], own, rtol=0.01))
         row = f"{own:.3g}{unit} -> {half:.3g}{unit}" if even else "elements halved"
-        shares = found.mesh.changes or (None, None, None)
+        shares = result.mesh.changes or (None, None, None)
         rows.append([row, "", *(_share(each) for each in shares), "", "", ""])
     title = "Errors of the time step, and of the elements"
-    return DisplayTable(title, columns, rows, _mesh_note(found))
+    return DisplayTable(title, columns, rows, _mesh_note(result))
 
 
-def _step_cells(found: Study, row: StepRow) -> list[str]:
-    step = found.milliseconds(row.step).removesuffix(" ms") + (" (the deck)" if row.own else "")
+def _step_cells(result: Study, row: StepRow) -> list[str]:
+    step = result.milliseconds(row.step).removesuffix(" ms") + (" (the deck)" if row.own else "")
     if row.errors is None:
         return [step, row.state, *[""] * 6]
     run_time = 0.0 if row.run_time is None else row.run_time * _KILO
@@ -111,24 +111,24 @@ def _step_cells(found: Study, row: StepRow) -> list[str]:
 
 
 def _share(value: float | None) -> str:
-    """A share in percent with its sign, to two digits above one percent and one below."""
+    """Return a share in percent with its sign, to two digits above one percent and one below."""
     if value is None:
         return ""
     percent = 100.0 * value
     return f"{shown(float(f'{percent:.1g}' if abs(percent) < 1.0 else f'{percent:.2g}'))} %"
 
 
-def _mesh_note(found: Study) -> str:
-    """That the verdict is another one with a consistent matrix."""
-    verdict = None if found.mesh is None else found.mesh.consistent_verdict
-    if verdict is None or verdict == found.advice.verdict:
+def _mesh_note(result: Study) -> str:
+    """Return a note if the verdict differs with a consistent matrix, else ""."""
+    verdict = None if result.mesh is None else result.mesh.consistent_verdict
+    if verdict is None or verdict == result.advice.verdict:
         return ""
     return f"With the resistance integrated along each element the verdict is: {verdict}."
 
 
-def extremes_table(found: Study) -> DisplayTable | None:
+def extremes_table(result: Study) -> DisplayTable | None:
     """Return a row for each stiff or extreme case; None without any."""
-    if not found.extremes:
+    if not result.extremes:
         return None
     columns = (
         text("case", lambda row: cut(row.case, _NAME)),
@@ -138,41 +138,41 @@ def extremes_table(found: Study) -> DisplayTable | None:
         number("range of\nmoment", lambda row: _share(row.range_change)),
         number("largest\nsoil force", lambda row: _share(row.force_change)),
     )
-    step = found.milliseconds(found.extremes[0].step)
-    if found.own is not None and found.extremes[0].step > found.own.largest:
-        step += f", as {found.milliseconds(found.own.largest)} would take long"
-    return DisplayTable(f"Stiff and extreme: {step}, and what half of it changes", columns, found.extremes)
+    step = result.milliseconds(result.extremes[0].step)
+    if result.own is not None and result.extremes[0].step > result.own.largest:
+        step += f", as {result.milliseconds(result.own.largest)} would take long"
+    return DisplayTable(f"Stiff and extreme: {step}, and what half of it changes", columns, result.extremes)
 
 
-def stability_sentences(found: Study) -> list[str]:
-    """Return what the curves, the friction and the evaluator itself have to say."""
-    said = []
-    own = None if found.own is None else found.own.largest
-    stiff = min(found.friction, key=lambda row: row.stick_period, default=None)
+def stability_sentences(result: Study) -> list[str]:
+    """Return sentences on friction and on the evaluator itself."""
+    remarks = []
+    own = None if result.own is None else result.own.largest
+    stiff = min(result.friction, key=lambda row: row.stick_period, default=None)
     if stiff is not None:
-        period = found.milliseconds(float(f"{stiff.stick_period:.4g}"))
+        period = result.milliseconds(float(f"{stiff.stick_period:.4g}"))
         friction = f"Axial friction, not in this model: a node that sticks swings in {period} (line {stiff.deck_line})"
         if own is not None:
             tenth = "within" if own <= 0.1 * stiff.stick_period else "more than"
             friction += f"; the deck's step is {tenth} a tenth of that"
-        axial = None if found.zone is None else axial_period(found.zone)
+        axial = None if result.zone is None else axial_period(result.zone)
         if axial:
             friction += (
-                f". Axial waves pass an element in {found.milliseconds(axial)}: no practical step resolves them, "
+                f". Axial waves pass an element in {result.milliseconds(axial)}: no practical step resolves them, "
             )
             friction += "friction is quasi-static"
-        said.append(f"{friction}.")
-    if found.evaluator is not None:
-        said.append(
-            f"The evaluator itself: error {found.evaluator.error:.1g} of a force, "
-            f"{_time(found.evaluator.time)} for a step of the deck."
+        remarks.append(f"{friction}.")
+    if result.evaluator is not None:
+        remarks.append(
+            f"The evaluator itself: error {result.evaluator.error:.1g} of a force, "
+            f"{_time(result.evaluator.time)} for a step of the deck."
         )
-    return said
+    return remarks
 
 
-def stages_table(found: Study) -> DisplayTable | None:
-    """Return a row for each stage of the evaluation; None where they were not measured."""
-    pruning = found.stages
+def stages_table(result: Study) -> DisplayTable | None:
+    """Return a row for each stage of the evaluation; None if they were not measured."""
+    pruning = result.stages
     if pruning is None:
         return None
 
@@ -195,20 +195,20 @@ def stages_table(found: Study) -> DisplayTable | None:
 
 
 def _time(seconds: float) -> str:
-    """A time with its unit, to three digits."""
+    """Return a time with its unit, to three digits."""
     for scale, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "us")):
         if seconds * scale >= 1.0:
             return f"{shown(seconds * scale, _DIGITS)} {unit}"
     return f"{shown(seconds * 1e9, _DIGITS)} ns"
 
 
-def sentences(found: Study, part: str) -> list[str]:
-    """Return what stands below the tables of a part."""
-    said = list(found.notes.get(part, ()))
-    if part == "accuracy" and found.zone is not None:
-        said = [*said, *found.zone.notes, LIMITS]
-    return [*said, *stability_sentences(found)] if part == "stability" else said
+def sentences(result: Study, part: str) -> list[str]:
+    """Return the sentences below the tables of a part."""
+    remarks = list(result.notes.get(part, ()))
+    if part == "accuracy" and result.zone is not None:
+        remarks = [*remarks, *result.zone.notes, LIMITS]
+    return [*remarks, *stability_sentences(result)] if part == "stability" else remarks
 
 
 TABLES = {"accuracy": steps_table, "stability": extremes_table, "pruning": stages_table}
-"""What makes the table of a part."""
+"""Functions that make the table of a part."""

@@ -1,4 +1,4 @@
-"""Seabed under a stretch of a line, cut out of a deck: its laws across the mudline, with their tangents."""
+"""Seabed under a stretch of a line, cut out of a deck: its laws normal to the mudline, with their tangents."""
 
 from __future__ import annotations
 
@@ -14,18 +14,22 @@ from mudline.model.contact.tangent import Triples
 from mudline.model.curves import ForceCurve
 
 ElementMatrix = Literal["mean", "consistent"]
-"""Law at the mean depth of an element, half of the force to each node; or law integrated along the element."""
+"""Law at the mean depth of an element with half of the force on each node, or law integrated along the element."""
 
 _STEPPED = ("unloading", "suction", "suction spring", "damping", "nodal damping")
-"""Laws across the mudline that remember, or that ask for velocities or for heights above it."""
+"""Laws normal to the mudline with memory, or that need velocities or heights above the mudline."""
 _GAUSS = np.polynomial.legendre.leggauss(3)
 
 
 class Reaction(NamedTuple):
-    """Seabed reaction: on the nodes (n,), its derivatives to w of a node (n,) and of its right neighbour (n - 1,).
+    """Seabed reaction.
 
-    damping: minus the derivatives to velocities, likewise; None without. per_length: (m,) of the elements, for springs
-    of nodes that of half of both.
+    Attributes:
+        nodal: forces (n,) on the nodes.
+        diagonal: derivatives (n,) to the w of the same node.
+        beside: derivatives (n - 1,) to the w of the right neighbour.
+        per_length: force per length (m,) of the elements; springs of nodes count half to each neighbour.
+        damping: minus the derivatives to velocities, as (diagonal, beside); None without damping.
     """
 
     nodal: FloatArray
@@ -35,18 +39,18 @@ class Reaction(NamedTuple):
     damping: tuple[FloatArray, FloatArray] | None = None
 
 
-class Soil(Protocol):
-    """A seabed under a beam."""
+class BeamSoil(Protocol):
+    """Seabed under a beam."""
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
-        """Return the reaction at heights and velocities (n,) of the nodes, `step` after what was kept; 0 at rest."""
+        """Return the reaction at heights and velocities (n,) of the nodes, `step` after the kept state; 0 at rest."""
 
     def keep(self) -> None:
-        """Take the state of the last reaction as that of the step that has converged."""
+        """Keep the state of the last reaction, as its step has converged."""
 
 
 class _Curves:
-    """Force-embedment curves of some elements, evaluated at once: as `ForceCurve` does, a row of a table for each."""
+    """Force-embedment curves of several elements, evaluated together like `ForceCurve`, a table row for each."""
 
     def __init__(self, groups: list[NormalRows], curves: tuple[ForceCurve, ...], diameter: FloatArray) -> None:
         of_row = {row: each.curve for each in groups for row in each.rows.tolist()}
@@ -55,7 +59,7 @@ class _Curves:
         width = max((len(curve.slopes) for curve in used), default=1) + 1
         size = diameter[self.rows]
         self._starts, self._forces, self._slopes = (np.full((len(used), width), fill) for fill in (np.inf, 0.0, 0.0))
-        for at, curve in enumerate(used):  # nothing above the mudline, then the segments below it
+        for at, curve in enumerate(used):  # no force above the mudline, then the segments below it
             first = int(np.clip(np.searchsorted(curve.ratios, 0.0, side="right") - 1, 0, len(curve.slopes) - 1))
             count = len(curve.slopes) - first + 1
             self._starts[at, :count] = np.append(0.0, curve.ratios[first:-1] * size[at])
@@ -72,7 +76,7 @@ class _Curves:
 
 
 class ElasticSoil:
-    """Laws without a history: force and tangent follow from the depth alone."""
+    """Laws without memory: force and tangent follow from the depth alone."""
 
     def __init__(self, given: ContactInput, matrix: ElementMatrix = "mean") -> None:
         tables, self._length = LawTables(given), given.length
@@ -115,7 +119,7 @@ class ElasticSoil:
         """Do nothing: there is no state."""
 
     def _forces(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Force per length and its derivative to the depth, of elements (m,)."""
+        """Return force per length of elements (m,) and its derivative to the depth."""
         rows = self._curves.rows
         if len(rows) == len(z):
             force, slope = self._curves.evaluate(z)
@@ -126,14 +130,14 @@ class ElasticSoil:
             force, slope = np.where(force > 0.0, force, 0.0), np.where(force > 0.0, slope, 0.0)
         for each in self._others:
             depth = z[each.rows]
-            found = each.law.reaction(depth, self._diameter[each.rows], *each.columns)
+            reaction = each.law.reaction(depth, self._diameter[each.rows], *each.columns)
             touches: BoolArray = depth > self._onset[each.rows]
-            force[each.rows], slope[each.rows] = (np.where(touches, part, 0.0) for part in found)
+            force[each.rows], slope[each.rows] = (np.where(touches, part, 0.0) for part in reaction)
         return force, slope
 
 
 class SteppedSoil:
-    """Laws with a history, or with velocities, through `ContactModel.step`."""
+    """Laws with memory, or that need velocities, evaluated by `ContactModel.step`."""
 
     def __init__(self, given: ContactInput) -> None:
         self._model = ContactModel(given, backend="numpy")
@@ -143,12 +147,12 @@ class SteppedSoil:
         self._points, self._rates = given.coordinates.copy(), np.zeros_like(given.coordinates)
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
-        """Return the reaction of a step behind the state that was kept."""
+        """Return the reaction of a step from the kept state."""
         self._points[:, 0], self._rates[:, 0] = w, v
         arguments = self._points, self._rates, self._state, step or None
         try:
             result, self._next = self._model.step(*arguments)
-        except ValueError:  # a trial of Newton's method so far away that a force overflows
+        except ValueError:  # a trial of Newton's method so far off that a force overflows
             return Reaction(w * np.nan, w * np.nan, w[1:] * np.nan, w[1:] * np.nan)
         if self._with_tangent:
             position, damping = (_tridiagonal(each, len(w)) for each in self._model.tangent(*arguments))
@@ -158,12 +162,12 @@ class SteppedSoil:
         return Reaction(result.normal_force, diagonal, beside, result.force)
 
     def keep(self) -> None:
-        """Take the state behind the last reaction."""
+        """Keep the state after the last reaction."""
         self._state = self._next
 
 
 def _tridiagonal(triples: Triples, nodes: int) -> tuple[FloatArray, FloatArray]:
-    """Diagonal (n,) and neighbours (n - 1,) of the vertical part of a tangent."""
+    """Return diagonal (n,) and neighbours (n - 1,) of the vertical part of a tangent."""
     rows, columns, values, _ = triples
     upright = (rows % 3 == 0) & (columns % 3 == 0)
     rows, columns, values = rows[upright] // 3, columns[upright] // 3, values[upright]
@@ -172,22 +176,22 @@ def _tridiagonal(triples: Triples, nodes: int) -> tuple[FloatArray, FloatArray]:
     return diagonal, np.bincount(rows[beside], values[beside], nodes - 1).astype(np.float64)
 
 
-def soil_of(given: ContactInput, matrix: ElementMatrix = "mean") -> Soil:
-    """Return the soil of an input that `cut_out` made."""
+def soil_of(given: ContactInput, matrix: ElementMatrix = "mean") -> BeamSoil:
+    """Return the soil of an input made by `cut_out`."""
     return ElasticSoil(given, matrix) if cost_of(given) == 1 else SteppedSoil(given)
 
 
 def cost_of(given: ContactInput) -> int:
-    """Return the time of a step over that with laws that neither remember nor ask for velocities, about."""
+    """Return the approximate time of a step over that with laws without memory and velocities."""
     if any(isinstance(law.law, PathLaw) for law in given.normal_laws) or given.needs_velocities:
         return 12
     return 6 if given.has(*_STEPPED) else 1
 
 
 class ScaledSoil:
-    """A soil whose forces are multiplied by a factor."""
+    """Soil whose forces are multiplied by a factor."""
 
-    def __init__(self, soil: Soil, factor: float) -> None:
+    def __init__(self, soil: BeamSoil, factor: float) -> None:
         self._soil, self._factor = soil, factor
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
@@ -198,5 +202,5 @@ class ScaledSoil:
         return Reaction(factor * nodal, factor * diagonal, factor * beside, factor * per_length, damped)
 
     def keep(self) -> None:
-        """Take the state behind the last reaction."""
+        """Keep the state after the last reaction."""
         self._soil.keep()

@@ -1,4 +1,4 @@
-"""Stability of a deck: its touchdown zone on stiffer and softer soils, what its curves do to a solver, its friction."""
+"""Stability of a deck: its touchdown zone on stiffer and softer soils, curves that hinder a solver, friction."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from mudline.tools.touchdown_study.zone import RAMP, Measures, Variant, Zone, ju
 
 PERIODS, MOST_STEPS = 2, 12_000
 _LEAST = 100.0
-"""Steps of a period to which a deck's step may be lengthened, so that its cases can be run."""
+"""Steps of a period up to which a deck's step may be lengthened, so that its cases can be run."""
 _LARGE = 1e9
-"""N/m2: stiffness up to which a soil is made stiffer."""
+"""Stiffness in N/m2 up to which a soil is made stiffer."""
 _GROWN = 3.0
-"""Of another run's moment, its range or force: a run with more is unstable."""
+"""Ratio of moment, range or force to those of another run above which a run is unstable."""
 _SNAP = 0.01
 """Diameters within which a falling curve has several rest positions."""
 _FALL = 0.01
-"""Of the weight of the pipe: smaller falls are none."""
+"""Share of the pipe's weight below which a fall is ignored."""
 
 
 class ExtremeRow(NamedTuple):
-    """A stiff or extreme case: how it went at a step, and what half of it changes."""
+    """A stiff or extreme case: the course of the run at a step, and the changes with half of it."""
 
     case: str
     step: float
@@ -49,7 +49,7 @@ class ExtremeRow(NamedTuple):
 
 
 class FrictionRow(NamedTuple):
-    """Friction that sticks: period of a node on its spring, and the deck's steps in it."""
+    """Friction that sticks: period of a node on its spring, and the deck's steps per period."""
 
     set: str
     deck_line: int
@@ -57,8 +57,8 @@ class FrictionRow(NamedTuple):
     steps_per_period: float | None
 
 
-class Evaluator(NamedTuple):
-    """The evaluator itself: bound of the error of a force, over the force, and seconds of a step of the deck."""
+class EvaluatorCost(NamedTuple):
+    """Accuracy and cost of the evaluator: bound of the relative error of a force, and seconds of a step of the deck."""
 
     error: float
     time: float
@@ -70,7 +70,7 @@ class Evaluator(NamedTuple):
 def extreme_rows(zone: Zone, own: OwnSteps | None) -> tuple[list[ExtremeRow], list[str]]:
     """Return the stiff and extreme cases of a zone, and a sentence on those left out.
 
-    They are run at the deck's step, and at longer ones where it is too short for that.
+    They are run at the deck's step, or at longer steps if that takes too long.
     """
     period, cases = zone.motion.period, list(_cases(zone))
     step = period / _LEAST if own is None else own.largest
@@ -84,7 +84,7 @@ def extreme_rows(zone: Zone, own: OwnSteps | None) -> tuple[list[ExtremeRow], li
 
 
 def _cases(zone: Zone) -> Iterator[tuple[str, Variant]]:
-    """Names and variants, what stiffens most first."""
+    """Yield names and variants, the stiffest first."""
     most = (_LARGE / 47.88 if zone.scene.units == "imperial" else _LARGE) / zone.stiffness
     unit, last = unit_names(zone.scene.units).behind("stiffness"), 1.0
     for factor, name in ((1e3, "1e3"), (1e6, "1e6")):
@@ -107,7 +107,7 @@ def _cases(zone: Zone) -> Iterator[tuple[str, Variant]]:
 
 
 def _law_elements(zone: Zone) -> np.ndarray:
-    """An element of each normal law of the deck that is per unit length."""
+    """Return an element of each normal law per unit length of the deck."""
     scene = zone.scene
     kinds = np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
     rows = np.flatnonzero(~kinds & np.isfinite(scene.diameter))
@@ -117,7 +117,7 @@ def _law_elements(zone: Zone) -> np.ndarray:
 
 
 def _extreme(zone: Zone, name: str, variant: Variant, step: float) -> ExtremeRow:
-    """One case."""
+    """Return the result of one case."""
     steps = max(round(PERIODS * zone.motion.period * variant.period / step), 8)
     try:
         whole, run = zone.run(steps, PERIODS, variant)
@@ -139,14 +139,14 @@ def _extreme(zone: Zone, name: str, variant: Variant, step: float) -> ExtremeRow
     )
 
 
-def unstable(one: Measures, other: Measures) -> bool:
-    """Return whether forces or moments of a run are so much larger than those of another that it is no error."""
+def unstable(tried: Measures, reference: Measures) -> bool:
+    """Return True if forces or moments of a run exceed those of another so far that it must be unstable."""
     names = ("largest_moment", "moment_range", "largest_force")
-    return any(getattr(one, name) > _GROWN * getattr(other, name) for name in names)
+    return any(getattr(tried, name) > _GROWN * getattr(reference, name) for name in names)
 
 
 def change(value: float, reference: float) -> float:
-    """Return the relative change of a value; 0 against nothing."""
+    """Return the relative change of a value; 0 if the reference is 0."""
     return value / reference - 1.0 if reference > 0.0 else 0.0
 
 
@@ -154,7 +154,7 @@ def change(value: float, reference: float) -> float:
 
 
 def _curves_in_use(scene: Scene, given: ContactInput) -> Iterator[tuple[SceneCurve, ForceCurve, float, float]]:
-    """The curves that elements follow, with the diameter and the submerged weight of the first of these elements."""
+    """Yield the curves that elements follow, with diameter and submerged weight of the first of these elements."""
     for index, entry in enumerate(scene.laws.curves):
         granted = np.array([grant.curve == index for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
         rows = np.flatnonzero(granted & (scene.law == LawKind.CURVE))
@@ -165,14 +165,14 @@ def _curves_in_use(scene: Scene, given: ContactInput) -> Iterator[tuple[SceneCur
 
 
 def _jumps(scene: Scene, given: ContactInput) -> Iterator[tuple[int, float]]:
-    """Lines of the curves in use whose force jumps at the mudline, and that force."""
+    """Yield the lines of curves in use whose force jumps at the mudline, and that force."""
     for entry, curve, _, weight in _curves_in_use(scene, given):
         if force := jump(curve, weight):
             yield line_of(scene, entry.where), force
 
 
 def snapping(scene: Scene, given: ContactInput) -> str:
-    """Return the sentence that refuses a curve which falls so fast that the rest position is not unique, or ""."""
+    """Return a sentence on a curve that falls so fast that the rest position is not unique, or ""."""
     units = unit_names(scene.units)
     for entry, curve, diameter, weight in _curves_in_use(scene, given):
         used = ramp(curve) if jump(curve, weight) else curve
@@ -190,17 +190,17 @@ def snapping(scene: Scene, given: ContactInput) -> str:
 
 
 def _line_of_point(scene: Scene, entry: SceneCurve, ratio: float) -> int:
-    """Line of the point of a curve at a ratio, else of the curve."""
+    """Return the line of the point of a curve at a ratio, else of the curve."""
     at = np.flatnonzero(entry.points[:, 0] == ratio)
     return line_of(scene, entry.point(int(at[0])) if at.size else entry.where)
 
 
 def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
-    """Return sentences on curves that jump at the mudline, and on those that fall, with the stiffness a line needs."""
+    """Return sentences on curves that jump at the mudline, and on falling curves with the stiffness of the fall."""
     units = unit_names(scene.units)
-    found = [
+    remarks = [
         f"Line {line}: the force jumps to {force:.4g}{units.behind('line_force')} at the mudline: a ramp over {RAMP} D "
-        "takes its place."
+        "replaces it."
         for line, force in _jumps(scene, given)
     ]
     for entry, curve, diameter, _ in _curves_in_use(scene, given):
@@ -209,30 +209,31 @@ def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
             at = int(np.argmin(np.where(inside, curve.slopes, 0.0)))
             line = _line_of_point(scene, entry, float(curve.ratios[at]))
             stiffness = float(f"{float(curve.slopes[at]) / diameter:.4g}")
-            found.append(
+            remarks.append(
                 f"Line {line}: curve {entry.name} falls from {curve.forces[at]:.4g} to {curve.forces[at + 1]:.4g}"
                 f"{units.behind('line_force')}: a stiffness of {stiffness:,.15g}{units.behind('stiffness')} that "
                 "the line has to carry."
             )
-    return found
+    return remarks
 
 
 # ------------------------------------------------------------------------------------------------------------- friction
 
 
 def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> list[FrictionRow]:
-    """Return the period 2 pi sqrt(m l/Kt) of a node that sticks, for each block that gives friction."""
+    """Return the period 2 pi sqrt(m l/Kt) of a sticking node, for each block that gives friction."""
     rows = []
-    for one in oscillations(scene, given).found:
-        if one.kind == "friction" and one.omega > 0.0:
-            period = 2.0 * math.pi / one.omega
+    for oscillation in oscillations(scene, given).found:
+        if oscillation.kind == "friction" and oscillation.omega > 0.0:
+            period = 2.0 * math.pi / oscillation.omega
             steps = None if own is None else period / own.largest
-            rows.append(FrictionRow(one.name.removeprefix("friction on "), line_of(scene, one.where), period, steps))
+            name, line = oscillation.name.removeprefix("friction on "), line_of(scene, oscillation.where)
+            rows.append(FrictionRow(name, line, period, steps))
     return rows
 
 
 def axial_period(zone: Zone) -> float | None:
-    """Return the time l sqrt(m/EA) in which an axial wave passes the element at the touchdown; None without EA."""
+    """Return the time l sqrt(m/EA) of an axial wave through the element at the touchdown; None without EA."""
     axial, mass = float(zone.pipe.axial[zone.own]), float(zone.pipe.mass[zone.own] + zone.pipe.contents[zone.own])
     if not (axial > 0.0 and mass > 0.0):
         return None
@@ -242,7 +243,7 @@ def axial_period(zone: Zone) -> float | None:
 # ------------------------------------------------------------------------------------------------------------ evaluator
 
 
-def evaluator_row(given: ContactInput, timer: Timer) -> Evaluator | None:
-    """Return the bound of the error of a curve's force, and the seconds of a step; None if one overflows."""
+def evaluator_row(given: ContactInput, timer: Timer) -> EvaluatorCost | None:
+    """Return the error bound of a curve's force, and the seconds of a step; None if a step overflows."""
     taken = seconds_per_step({"": ContactModel(given, backend="numpy")}, timer)
-    return Evaluator(4.0 * float(np.finfo(np.float64).eps), taken[""]) if taken else None
+    return EvaluatorCost(4.0 * float(np.finfo(np.float64).eps), taken[""]) if taken else None

@@ -1,4 +1,4 @@
-"""Study of a deck: error against run time of its touchdown zone, stiff and extreme cases, and what it does not need."""
+"""Study of a deck: error against run time of its touchdown zone, stiff and extreme cases, unnecessary stages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mudline.model.scene.oscillation import line_of
 from mudline.tools.touchdown_study.accuracy import ADVISED, SHORT, Errors, Mesh, StepRow, measured_accuracy, verdict_of
 from mudline.tools.touchdown_study.beam import NotConvergedError
 from mudline.tools.touchdown_study.stability import (
-    Evaluator,
+    EvaluatorCost,
     ExtremeRow,
     FrictionRow,
     curve_notes,
@@ -45,11 +45,11 @@ FORMAT = "mudline-study/2"
 NOT_STUDIED = "not studied"
 PARTS = ("accuracy", "stability", "pruning")
 ERRORS = ("touchdown point", "range of bending moment", "largest soil force")
-"""Of which rows have errors, in the order of `Study.errors`."""
+"""Quantities of the errors of a row, in the order of `Study.errors`."""
 
 
 class Advice(NamedTuple):
-    """The answer: in words, as a verdict, and which line of the deck asks for it; None where there is none."""
+    """The answer: in words, as a verdict, and the line of the deck concerned; None if missing."""
 
     text: str
     verdict: str = NOT_STUDIED
@@ -61,12 +61,16 @@ class Advice(NamedTuple):
 
 @dataclass
 class Study:
-    """What the study of a deck found; None and empty for what was not asked for, or does not exist.
+    """The study of a deck; None and empty for parts that were not requested or do not exist.
 
     Attributes:
-        deck: name of its file. units: its unit system. own: its steps. own_line: where they stand.
-        zone: the touchdown zone; None where there is none. reference: the row that errors are against.
-        notes: by part, sentences.
+        deck: name of its file.
+        units: its unit system.
+        own: its time steps.
+        own_line: line of the time steps.
+        zone: the touchdown zone.
+        reference: the row against which errors are computed.
+        notes: sentences, by part.
     """
 
     deck: str
@@ -81,13 +85,13 @@ class Study:
     mesh: Mesh | None = None
     extremes: list[ExtremeRow] = field(default_factory=list)
     friction: list[FrictionRow] = field(default_factory=list)
-    evaluator: Evaluator | None = None
+    evaluator: EvaluatorCost | None = None
     stages: Pruning | None = None
     parts: tuple[str, ...] = PARTS
     notes: dict[str, list[str]] = field(default_factory=dict)
 
     def json(self) -> dict[str, Any]:
-        """Return the study as JSON has it: in the deck's units, unrounded."""
+        """Return the study as in JSON: in the deck's units, unrounded."""
         rows = [*self.steps, *([] if self.reference is None else [self.reference])]
         return {
             "format": FORMAT,
@@ -106,7 +110,7 @@ class Study:
         }
 
     def milliseconds(self, seconds: float) -> str:
-        """Return a step as people read it; in user units, whose times have no name, as it is."""
+        """Return a step in milliseconds; in user units, whose times have no name, in these units."""
         return f"{shown(1e3 * seconds, 6 if seconds >= 1.0 else 4)} ms" if time_unit(self.units) else shown(seconds, 4)
 
     @property
@@ -116,12 +120,12 @@ class Study:
 
     @property
     def errors(self) -> Floats:
-        """Amounts (k, 3) of the errors of touchdown, range and force of the rows; NaN where there is none."""
+        """Absolute errors (k, 3) of touchdown, range and force of the rows; NaN if missing."""
         return np.abs(np.array([row.errors or (np.nan,) * 3 for row in self.steps], np.float64)).reshape(-1, 3)
 
     @property
     def is_own(self) -> Mask:
-        """Whether each row (k,) is a step of the deck."""
+        """Mask (k,) of the rows that are steps of the deck."""
         return np.array([row.own for row in self.steps], np.bool_)
 
     @property
@@ -140,22 +144,22 @@ class Study:
         return axes
 
     def figure(self) -> Figure:
-        """Return the same as a figure of its own; needs matplotlib."""
+        """Return the diagram as a figure of its own; needs matplotlib."""
         from mudline.model.results.plots.run_times import run_times_figure  # noqa: PLC0415 - needs the extra `plot`
 
         return run_times_figure(self.deck, self.run_times, self.errors, self.is_own, ERRORS)
 
     @property
     def drawable(self) -> bool:
-        """Whether some step has errors to draw."""
+        """True if some step has errors to draw."""
         return bool(np.isfinite(self.errors).any())
 
 
 def _model(zone: Zone) -> dict[str, Any]:
-    """The model as JSON has it."""
+    """Return the model as in JSON."""
     ids, own, scheme = zone.scene.element_ids, zone.own, zone.scheme
     numbers = [int(ids[at]) for at in (zone.elements[0], zone.elements[-1], own)]
-    found = {
+    row = {
         "first_element": numbers[0],
         "last_element": numbers[1],
         "touchdown_element": numbers[2],
@@ -175,7 +179,7 @@ def _model(zone: Zone) -> dict[str, Any]:
         "drag": float(zone.pipe.drag_coefficient[own]),
     }
     names = ("name", "rho", "alpha", "alpha_f", "alpha_m")
-    return {**as_json(found), "scheme": {name: getattr(scheme, name) for name in names}}
+    return {**as_json(row), "scheme": {name: getattr(scheme, name) for name in names}}
 
 
 def study(
@@ -187,55 +191,55 @@ def study(
     timer: Timer = CLOCK,
     tracked: Callable[[Sequence[str]], Iterable[str]] = iter,
 ) -> Study:
-    """Study a scene: these parts.
+    """Study parts of a scene.
 
-    `heave` and `period` replace the motion of the hang-off that the deck gives. `timer` measures run times; `tracked`
-    may show which part comes next. Raises DeckError for a deck that cannot be evaluated.
+    `heave` and `period` replace the motion of the hang-off in the deck. `timer` measures run times. `tracked` may show
+    progress over the parts. Raises DeckError for a deck that cannot be evaluated.
     """
     require_elements(scene)
     given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
     own = own_steps(scene)
     own_line = 0 if own is None else line_of(scene, own.where)
-    found = Study(scene.deck.file, scene.units, own, own_line, parts=tuple(part for part in PARTS if part in parts))
-    for part in tracked(found.parts):
-        notes = found.notes.setdefault(part, [])
-        if part != "pruning" and found.zone is None and not found.advice.text:
-            _find_zone(found, scene, given, heave, period)
-        if part == "accuracy" and found.zone is not None:
-            found.steps, found.reference, found.mesh, more = measured_accuracy(found.zone, own, timer)
+    result = Study(scene.deck.file, scene.units, own, own_line, parts=tuple(part for part in PARTS if part in parts))
+    for part in tracked(result.parts):
+        notes = result.notes.setdefault(part, [])
+        if part != "pruning" and result.zone is None and not result.advice.text:
+            _find_zone(result, scene, given, heave, period)
+        if part == "accuracy" and result.zone is not None:
+            result.steps, result.reference, result.mesh, more = measured_accuracy(result.zone, own, timer)
             notes += more
         elif part == "stability":
             notes += curve_notes(scene, given)
-            if found.zone is not None:
-                found.extremes, left_out = extreme_rows(found.zone, own)
+            if result.zone is not None:
+                result.extremes, left_out = extreme_rows(result.zone, own)
                 notes += left_out
-            found.friction = friction_rows(scene, given, own)
-            found.evaluator = evaluator_row(given, timer)
+            result.friction = friction_rows(scene, given, own)
+            result.evaluator = evaluator_row(given, timer)
         elif part == "pruning":
-            found.stages = pruned(scene, given, timer)
-    if not found.advice.text:
-        found.advice = _advice(found)
-    return found
+            result.stages = pruned(scene, given, timer)
+    if not result.advice.text:
+        result.advice = _advice(result)
+    return result
 
 
-def _find_zone(found: Study, scene: Scene, given: ContactInput, heave: float | None, period: float | None) -> None:
-    """Set the zone, or the sentence that says why there is none."""
+def _find_zone(result: Study, scene: Scene, given: ContactInput, heave: float | None, period: float | None) -> None:
+    """Set the zone, or the sentence on why there is none."""
     if refusal := snapping(scene, given):
-        found.advice = Advice(f"Not studied: {refusal}.")
+        result.advice = Advice(f"Not studied: {refusal}.")
         return
     try:
         zone = touchdown_zone(scene, given, heave, period)
         beam, _, rest = zone.rest()
     except NotStudiedError as error:
-        found.advice = Advice(f"Not studied: {error}.")
+        result.advice = Advice(f"Not studied: {error}.")
         return
     except NotConvergedError:
-        found.advice = Advice("Not studied: the touchdown zone has no state of rest on its soil.")
+        result.advice = Advice("Not studied: the touchdown zone has no state of rest on its soil.")
         return
-    found.zone = zone
+    result.zone = zone
     heights, turned = rest.state[np.newaxis, ::2], rest.state[np.newaxis, 1::2]
     static = zone.measures(beam, heights, turned, rest.reaction.per_length[np.newaxis])
-    found.static = {
+    result.static = {
         "largest_force": finite(static.largest_force),
         "largest_moment": finite(static.largest_moment),
         "touchdown": finite(float(static.touchdown[0])),
@@ -245,50 +249,50 @@ def _find_zone(found: Study, scene: Scene, given: ContactInput, heave: float | N
 # --------------------------------------------------------------------------------------------------------------- advice
 
 
-def _advice(found: Study) -> Advice:
-    """The answer, from the rows."""
-    text, verdict, step = _judged(found)
-    own, file = (None, None) if found.own is None else (found.own.largest, found.deck)
-    return Advice(text, verdict, own, step, file, found.own_line or None)
+def _advice(result: Study) -> Advice:
+    """Return the answer, from the rows."""
+    text, verdict, step = _judged(result)
+    own, file = (None, None) if result.own is None else (result.own.largest, result.deck)
+    return Advice(text, verdict, own, step, file, result.own_line or None)
 
 
-def _judged(found: Study) -> tuple[str, str, float | None]:
-    """The answer in words, the verdict, and the step that is advised."""
-    if "accuracy" not in found.parts or not found.steps:
+def _judged(study: Study) -> tuple[str, str, float | None]:
+    """Return the answer in words, the verdict, and the advised step."""
+    if "accuracy" not in study.parts or not study.steps:
         return "", NOT_STUDIED, None
-    if found.reference is None:
-        return f"Not studied: {found.notes['accuracy'][-1]}", NOT_STUDIED, None
-    row, fine = next((each for each in found.steps if each.own), None), _advised(found.steps)
-    last = found.steps[-1] if row is None else row
-    mesh = _of_mesh(found, last)
-    if found.own is None:
-        steps = f"{found.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
+    if study.reference is None:
+        return f"Not studied: {study.notes['accuracy'][-1]}", NOT_STUDIED, None
+    row, fine = next((each for each in study.steps if each.own), None), _advised(study.steps)
+    last = study.steps[-1] if row is None else row
+    mesh = _of_mesh(study, last)
+    if study.own is None:
+        steps = f"{study.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
         text = f"The deck has no time step in *TIME: {steps} for its touchdown zone. {mesh}"
         return text.rstrip(), NOT_STUDIED, fine
-    place = f"The deck's own step, {found.milliseconds(found.own.largest)} (line {found.own_line}),"
-    verdict, step, tried = verdict_of(last.worst), None, found.milliseconds(last.step)
+    place = f"The deck's own step, {study.milliseconds(study.own.largest)} (line {study.own_line}),"
+    verdict, step, tried = verdict_of(last.worst), None, study.milliseconds(last.step)
     errors = f"the run {last.state}" if last.errors is None else _of_errors(last.errors)
     if row is not None:
         text = f"{place} is {verdict} for its touchdown zone: {errors}"
         if verdict == "too long":
             step = fine
-            text += f"; use {found.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
+            text += f"; use {study.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
     elif last.worst <= SHORT:
         text = f"{place} is short enough for its touchdown zone: {tried} is"
     else:
-        text = f"{place} is too short to be judged here in its time, and {tried} is {verdict}: {errors}"
+        text = f"{place} is too short to be judged here in reasonable time, and {tried} is {verdict}: {errors}"
         verdict = NOT_STUDIED
     return f"{text}. {mesh}".rstrip(), verdict, step
 
 
 def _advised(rows: Sequence[StepRow]) -> float | None:
-    """The largest step whose errors, and those of all shorter ones, are within 1 %."""
-    found = None
+    """Return the largest step whose errors, and those of all shorter steps, are within 1 %."""
+    largest = None
     for row in reversed(rows):
         if row.worst > ADVISED:
             break
-        found = row.step
-    return found
+        largest = row.step
+    return largest
 
 
 def _of_errors(errors: Errors) -> str:
@@ -304,13 +308,13 @@ def about(share: float) -> str:
     return f"{float(f'{100.0 * abs(share):.1g}'):g} %"
 
 
-def _of_mesh(found: Study, row: StepRow) -> str:
-    """The sentence on the mesh; "" where halving it changes less than the step."""
-    zone, mesh = found.zone, found.mesh
+def _of_mesh(result: Study, row: StepRow) -> str:
+    """Return a sentence on the mesh; "" if halving the elements changes less than the step does."""
+    zone, mesh = result.zone, result.mesh
     if zone is None:
         return ""
     longest = float(zone.beam.lengths[zone.landing].max())
-    bound, length = min(zone.length, zone.soil_length), unit_names(found.units).behind("length")
+    bound, length = min(zone.length, zone.soil_length), unit_names(result.units).behind("length")
     if longest > bound:
         return (
             f"Elements of {longest:.3g}{length} land whole: the line bends within {bound:.2g}{length}. The mesh is the "

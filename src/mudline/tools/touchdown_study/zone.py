@@ -1,4 +1,4 @@
-"""Touchdown zone of a deck: the stretch of its line that is laid down and lifted, as a beam, and its runs."""
+"""Touchdown zone of a deck: the stretch of its line that touches down and lifts off, as a beam, and its runs."""
 
 from __future__ import annotations
 
@@ -21,29 +21,33 @@ from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.time_stepping import Scheme, scheme_of
 from mudline.model.scene.weights import left_out
-from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, Run, Solved, at_rest, march
+from mudline.tools.touchdown_study.beam import Beam, BeamRun, NotConvergedError, Solved, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
-from mudline.tools.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, cost_of, soil_of
+from mudline.tools.touchdown_study.soil import BeamSoil, ElementMatrix, ScaledSoil, cost_of, soil_of
 
 RAMP = 0.01
-"""Diameters over which a force that jumps at the mudline grows instead."""
+"""Diameters over which a jump of the force at the mudline is replaced by a ramp."""
 _DELTA = 0.5
-"""Lengths by which the top is moved to see how far the touchdown goes, over those of a metre."""
+"""Metres by which the top is moved to determine the travel of the touchdown."""
 _STEEP = 0.35
 """Slope at the end of a zone above which slopes are not small."""
 _SMALL = 1e-6
-"""Of the weight: smaller forces at the mudline are no jump."""
+"""Share of the weight below which a force at the mudline is not a jump."""
 
 
 class NotStudiedError(Exception):
-    """A deck has no touchdown zone to study; the text says why in a sentence."""
+    """Reason, in a sentence, why a deck has no touchdown zone to study."""
 
 
 class Measures(NamedTuple):
-    """What is measured about the touchdown, in the deck's units.
+    """Results about the touchdown, in the deck's units.
 
-    touchdown: (k,) in the last period, or at rest, from the node at the touchdown. largest_force: per unit length.
+    Attributes:
+        touchdown: touchdown points (k,) in the last period, or at rest, relative to the node at the touchdown.
+        largest_force: force per unit length.
+        largest_moment: bending moment.
+        moment_range: range of the bending moment.
     """
 
     touchdown: Floats
@@ -53,7 +57,7 @@ class Measures(NamedTuple):
 
 
 class Weights(NamedTuple):
-    """Submerged weight per unit length with contents and empty; `without`: keywords that weigh and are in neither."""
+    """Submerged weight per unit length with contents and empty; `without`: keywords with weight that are in neither."""
 
     with_contents: float
     empty: float
@@ -61,7 +65,15 @@ class Weights(NamedTuple):
 
 
 class Variant(NamedTuple):
-    """The zone otherwise than it is: elements in parts, their matrix, factor of the soil, one law, period."""
+    """Variant of the zone.
+
+    Attributes:
+        parts: number of parts of each element.
+        matrix: element matrix.
+        factor: factor of the soil.
+        law_of: index of the element whose law applies everywhere; -1 for none.
+        period: factor of the period.
+    """
 
     parts: int = 1
     matrix: ElementMatrix = "mean"
@@ -75,10 +87,17 @@ class Zone:
     """The touchdown zone of a line.
 
     Attributes:
-        given: the laws of the deck, jumps at the mudline ramped. scene, pipe, line: what it is cut out of.
-        elements, nodes: (m,) and (m + 1,) indices from the lying side to the hanging one; node: which of them is x = 0.
-        beam: at rest and with the motion of its right end. motion: of the top. travel: amplitude of the touchdown.
-        length: sqrt(EI/T). depth: static embedment at the touchdown. notes: what limits the model, in sentences.
+        scene, pipe, line: source of the zone.
+        given: laws of the deck, with jumps at the mudline replaced by ramps.
+        elements: indices (m,), from the lying side to the hanging side.
+        nodes: indices (m + 1,).
+        node: place of x = 0 among the nodes.
+        beam: the zone at rest and with the motion of its right end.
+        scheme, scheme_line: time integration and its line in the deck.
+        motion: motion of the top.
+        travel: amplitude of the touchdown.
+        depth: static embedment at the touchdown.
+        notes: limits of the model, in sentences.
     """
 
     scene: Scene
@@ -103,7 +122,7 @@ class Zone:
 
     @property
     def weights(self) -> Weights:
-        """The submerged weights of that element."""
+        """Submerged weights of that element."""
         empty = float(self.scene.submerged_weight[self.own]) * self.line.seabed.upright
         return Weights(self.beam.weight, empty, left_out(self.scene, with_masses=False))
 
@@ -130,7 +149,7 @@ class Zone:
 
     @property
     def periods(self) -> int:
-        """Of the motion in a run; the first one brings it up, and the last one is measured."""
+        """Periods of a run; the motion grows in the first, and the last is measured."""
         return 3 if self.cost == 1 else 2
 
     @cached_property
@@ -140,7 +159,7 @@ class Zone:
 
     @cached_property
     def cost(self) -> int:
-        """Time of a step over that with a soil without a history, about."""
+        """Approximate time of a step over that with a soil without memory."""
         return cost_of(self.cut(Variant()))
 
     @cached_property
@@ -150,10 +169,10 @@ class Zone:
 
     def cut(self, variant: Variant) -> ContactInput:
         """Return the laws of the zone."""
-        found = cut_out(self.given, self.elements, self.nodes, variant.parts)
-        return found if variant.law_of < 0 else _with_law(self.given, found, variant.law_of)
+        cut = cut_out(self.given, self.elements, self.nodes, variant.parts)
+        return cut if variant.law_of < 0 else _with_law(self.given, cut, variant.law_of)
 
-    def rest(self, variant: Variant = Variant()) -> tuple[Beam, Soil, Solved]:  # noqa: B008 - a constant
+    def rest(self, variant: Variant = Variant()) -> tuple[Beam, BeamSoil, Solved]:  # noqa: B008 - a constant
         """Return the beam, its soil and its state at rest. Raises NotConvergedError."""
         lengths, left = np.repeat(self.beam.lengths / variant.parts, variant.parts), self.beam.left
         if variant.law_of >= 0 or variant.factor != 1.0:
@@ -165,26 +184,26 @@ class Zone:
         soil = ScaledSoil(soil_of(self.cut(variant), variant.matrix), variant.factor)
         return beam, soil, at_rest(beam, soil)
 
-    def run(self, steps: int, periods: int = 3, variant: Variant = Variant()) -> tuple[Measures, Run]:  # noqa: B008 - as above
-        """Return what is measured in a run of so many steps, and the run. Raises NotConvergedError."""
+    def run(self, steps: int, periods: int = 3, variant: Variant = Variant()) -> tuple[Measures, BeamRun]:  # noqa: B008 - as above
+        """Return the measures of a run of `steps`, and the run. Raises NotConvergedError."""
         beam, soil, rest = self.rest(variant)
         run = march(beam, soil, self.scheme, rest, steps, periods)
         return self.measures(beam, run.heights, run.turned, run.forces), run
 
     def measures(self, beam: Beam, heights: Floats, turned: Floats, forces: Floats) -> Measures:
-        """Return what is measured of heights and rotations (k, n) of the nodes, and forces (k, m) of the elements."""
-        wanted = np.repeat(self.landing, len(beam.lengths) // len(self.landing))
-        moments = beam.moments(turned)[:, wanted]
+        """Return the measures from heights and rotations (k, n) of the nodes, and forces (k, m) of the elements."""
+        measured = np.repeat(self.landing, len(beam.lengths) // len(self.landing))
+        moments = beam.moments(turned)[:, measured]
         return Measures(
             beam.touchdown(heights) - self.start,
-            float(forces[:, wanted].max()),
+            float(forces[:, measured].max()),
             float(np.abs(moments).max()),
             float((moments.max(axis=0) - moments.min(axis=0)).max()),
         )
 
 
 def _with_law(given: ContactInput, cut: ContactInput, element: int) -> ContactInput:
-    """The laws of a stretch, with the normal law of one element of the deck everywhere."""
+    """Return the laws of a stretch, with the normal law of one element of the deck everywhere."""
     rows = np.arange(len(cut.element_ids))
     laws = [law for law in cut.laws if law.law in {"unloading", "suction", "damping", "nodal damping"}]
     for law in given.normal_laws:
@@ -261,7 +280,7 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
 
 
 def _require(scene: Scene, own: int, weight: float, bending: float, mass: float) -> None:
-    """Raise NotStudiedError for a pipe or a seabed at the touchdown that the model cannot have."""
+    """Raise NotStudiedError for a pipe or a seabed at the touchdown that the model does not cover."""
     law, element = scene.law_names[own], scene.element_ids[own]
     if not weight > 0.0:
         unit = unit_names(scene.units).behind("line_force")
@@ -278,7 +297,7 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
 
 
 def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
-    """Amplitude of the touchdown: how far it goes with the top, by the resting shapes with the top moved a little."""
+    """Return the amplitude of the touchdown, from the resting shapes with the top moved a little."""
     step = _DELTA / 0.3048 if scene.units == "imperial" else _DELTA
 
     def moved(surge: float, heave: float) -> float:
@@ -292,23 +311,23 @@ def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
 
 
 def _limits(line: LineAtRest, shortest: float, right: float, wave: float, slope: float, unit: str) -> list[str]:
-    """Where the window, or small slopes, do not hold."""
-    found = []
+    """Return sentences on limits of the zone, of its waves and of small slopes."""
+    notes = []
     if right < shortest:
-        found.append(f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown.")
+        notes.append(f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown.")
     if right > wave / 4.0:
-        found.append(
+        notes.append(
             f"The end of the zone reflects: {right:.3g}{unit} is more than a quarter of a wave, {wave / 4.0:.3g}{unit}."
         )
     if slope > _STEEP:
-        found.append(f"Slopes are not small: {slope:.2f} at the end of the zone.")
+        notes.append(f"Slopes are not small: {slope:.2f} at the end of the zone.")
     if line.seabed.slope:
-        found.append("The model is along the seabed, which slopes: the weight along it is left out.")
-    return found
+        notes.append("The model is along the seabed, which slopes: the weight along it is left out.")
+    return notes
 
 
 def jump(curve: ForceCurve, weight: float) -> float:
-    """Return the force of a curve at the mudline, 0 where it is small against a weight."""
+    """Return the force of a curve at the mudline; 0 if it is small against a weight."""
     force = float(curve.evaluate(0.0)[0])
     return force if abs(force) > _SMALL * weight else 0.0
 
