@@ -1,4 +1,4 @@
-"""A deck as a document of plain values, the form behind JSON and YAML, and back; the JSON Schema of that form."""
+"""Deck as a document of plain values, the form behind JSON and YAML, and back; JSON Schema of that form."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Document = dict[str, Any]
 
 
 def to_document(deck: Deck) -> Document:
-    """The deck as dicts and lists, its tables as listings; empty things are left out.
+    """Return the deck as dicts and lists, its tables as listings; empty values are left out.
 
     A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes.
     """
@@ -66,13 +66,13 @@ def _comments(comments: list[Comment]) -> Document:
 
 
 class DocumentOrigin(Origin):
-    """Where the values of a deck are in a JSON or YAML text. A document is whole or refused."""
+    """Places of a deck's values in a JSON or YAML text. A document is read completely or refused."""
 
     def __init__(self, locate: Locate) -> None:
         self.locate = locate
 
     def place(self, problem: Problem) -> Range:
-        """Lines and columns of a problem."""
+        """Return lines and columns of a problem."""
         if problem.where is None:
             return START
         section, block, path = problem.where
@@ -84,7 +84,7 @@ class DocumentOrigin(Origin):
 
 
 def decoded(data: bytes, file: str, form: str) -> str:
-    """The text of a JSON or YAML file; raises DeckError when it is not UTF-8."""
+    """Return the text of a JSON or YAML file; raises DeckError if it is not UTF-8."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -95,7 +95,7 @@ def decoded(data: bytes, file: str, form: str) -> str:
 
 
 def from_document(document: object, file: str, locate: Locate) -> Deck:
-    """The deck of a document; raises DeckError with the path and place of everything that breaks the schema."""
+    """Return the deck of a document; raises DeckError with path and place of each violation of the schema."""
     return _Reader(document, file, locate).read()
 
 
@@ -152,7 +152,7 @@ class _Reader:
                 self.faults.add((*path, key), f"unknown key: expected {', '.join(known)}")
 
     def _checked(self, wanted: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
-        """The value as a type; `otherwise` when it is none."""
+        """Return the value validated as a type; `otherwise` if it is invalid."""
         try:
             return _adapter(wanted).validate_python(value, strict=True)
         except ValidationError as error:
@@ -160,7 +160,7 @@ class _Reader:
             return otherwise
 
     def _lines(self, value: object, path: DocumentPath, openers: str) -> list[str]:
-        """Raw lines, none of which opens a section or a block."""
+        """Return raw lines; a line that opens a section or a block is a fault."""
         lines: list[str] = self._checked(list[Text], value, path, [])
         for index, line in enumerate(lines):
             mark = mark_of(line)
@@ -169,7 +169,7 @@ class _Reader:
         return lines
 
     def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:
-        """Report lines under no keyword or in no section; data lines, and the texts of comments."""
+        """Report lines under no keyword or in no section; return the data lines and the texts of comments."""
         text = "\n".join(lines)
         tree = parse(Source("", text)).preamble
 
@@ -218,9 +218,9 @@ class _Reader:
         return section
 
     def _with_model(self, block: Opaque, section: Section, where: Where) -> Block | Opaque:
-        """The model that raw lines describe, as keyword text is read, if their keyword has one.
+        """Return the model that raw lines describe, read like keyword text, if the keyword has a model.
 
-        `where` is the block, or the lines in it if the document has it as these.
+        `where` is the block, or its lines if the document gives the block as raw lines.
         """
         declared = catalogue.block_class(section.name, block.keyword)
         source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
@@ -275,10 +275,11 @@ class _Reader:
 
 
 def normalise_comments(deck: Deck) -> None:
-    """Move comments so that they belong to what keyword text gives them to; what is written of the deck is the same.
+    """Move comments to the owner that keyword text would give them; the written deck stays the same.
 
-    Before the first section they are lines of the preamble, behind a block without a model they are lines of it, and
-    at the end of a section they stand before the next one. An index beyond the last item means behind it.
+    Comments before the first section become lines of the preamble. Comments behind a block without a model become lines
+    of the block. Comments at the end of a section move before the next section. An index beyond the last item means
+    behind the last item.
     """
     waiting = sorted(deck.comments, key=lambda comment: comment.before)[::-1]
     deck.comments = []
@@ -298,7 +299,7 @@ def normalise_comments(deck: Deck) -> None:
 
 
 def _normalise_section(section: Section) -> list[str]:
-    """The texts of the comments behind the last block."""
+    """Move the comments of a section to their owners; return the texts behind the last block."""
     following: list[str] = []
     comments = sorted(section.comments, key=lambda comment: comment.before)
     section.comments = []
@@ -319,9 +320,9 @@ _REFERENCE = "#/$defs/{model}"
 
 
 def json_schema() -> dict[str, Any]:
-    """The schema: document, sections, every block with a model, the block without one.
+    """Return the schema: document, sections, every block with a model, the block without a model.
 
-    In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
+    The schema does not restrict keywords to their sections, since a deck may hold a keyword in the wrong section.
     """
     blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]

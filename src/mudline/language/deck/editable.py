@@ -1,4 +1,4 @@
-"""Decks in the hands of a program: blocks found by keyword or class, added and removed, and copies."""
+"""Decks for use in programs: finding, adding and removing blocks, and copying decks."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from mudline.language.syntax.tree import canonical_name
 
 
 class EditableDeck(Deck):
-    """A deck whose blocks can be changed; `TypedDeck` knows their classes."""
+    """Deck whose blocks can be changed; `TypedDeck` adds their classes."""
 
     def all_of(self, keyword: str | type[Block], section: str | None) -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks of a keyword, or of its class, each with its place, in the order of the file."""
+        """Return the modelled blocks of a keyword or class, each with its place, in the order of the file."""
         expect(keyword, "keyword", (str, type), "a str or a class of mudline.keywords")
         name = _name_of(keyword)
         if section is None:
@@ -41,7 +41,7 @@ class EditableDeck(Deck):
         return ((where, block) for where, block in found if isinstance(keyword, str) or type(block) is keyword)
 
     def one_of(self, keyword: str | type[Block], section: str | None) -> Any:
-        """The only block of a keyword; raises UnknownNameError where there is none, ValueError for several."""
+        """Return the only block of a keyword; raises UnknownNameError if there is none, ValueError for several."""
         found = [block for _, block in self.all_of(keyword, section)]
         name = _name_of(keyword)
         if len(found) > 1:
@@ -58,9 +58,9 @@ class EditableDeck(Deck):
         return found[0]
 
     def add(self, block: Block, section: str | None = None) -> None:
-        """Put a block at the end of the last section where it belongs, which is made if there is none.
+        """Add a block at the end of the last section where it belongs; the section is created if there is none.
 
-        Raises ValueError for a section where it does not belong.
+        Raises ValueError for a section where the block does not belong.
         """
         expect(block, "block", Block, "a block, such as mudline.keywords.Ocean(depth=100)")
         belongs = type(block).sections
@@ -80,9 +80,9 @@ class EditableDeck(Deck):
         found.blocks.append(block)
 
     def remove(self, what: str | Block | Opaque) -> None:
-        """Take a block out, or all blocks of a keyword; comments stay.
+        """Remove a block, or all blocks of a keyword; comments stay.
 
-        Raises UnknownNameError for a keyword that the deck lacks, and ValueError for a block that is not in it.
+        Raises UnknownNameError for a keyword that the deck lacks, and ValueError for a block that is not in the deck.
         """
         expect(what, "what", (str, Block, Opaque), "a block or a keyword")
         keyword = _name_of(what) if isinstance(what, str) else ""
@@ -100,14 +100,14 @@ class EditableDeck(Deck):
             raise ValueError("the block is not in the deck: take it from deck.block or deck.blocks")
 
     def copy(self) -> Self:
-        """Return a deck of its own blocks, whose changes leave this one as it is."""
+        """Return a copy; changes of the copy leave this deck unchanged."""
         own = {name: deepcopy(getattr(self, name)) for name in ("sections", "comments", "preamble")}
         return replace(self, **own, problems=[*self.problems])
 
     def placed(self) -> Self:
-        """The deck; where blocks were added or removed, one whose places are those of the text that it is written as.
+        """Return the deck with the places of its blocks: after blocks were added or removed, those of the written text.
 
-        Raises DeckError for what keyword text cannot say.
+        Raises DeckError for values that keyword text cannot express.
         """
         origin = self.origin
         if not isinstance(origin, TextOrigin):

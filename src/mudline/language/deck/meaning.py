@@ -1,4 +1,4 @@
-"""The meaning of a deck: what its blocks say, whatever the layout; two decks are the same where all of it is equal."""
+"""Meaning of a deck: the content of its blocks, whatever the layout. Two decks are the same if all of it is equal."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from mudline.language.keywords.model import Block, Part, Path
 from mudline.language.keywords.table import Table
 
 Meaning = dict[Path, object]
-"""Values by path. A table is one value; a part stands behind its values, as the name of its class."""
+"""Values by path. A table is one value; a part follows its values, as the name of its class."""
 
 
 def meaning(part: Part, *, comments: bool = False) -> Meaning:
-    """Return what a block says, on request with its comments; blanks at the end of a line do not count."""
+    """Return the content of a block, on request with its comments; blanks at the end of a line do not count."""
     if isinstance(part, Opaque):
         return {("keyword",): part.keyword, **numbered("lines", part.lines)}
     values = [(path, value) for path, _, value in part.walk()]
@@ -31,7 +31,7 @@ def meaning(part: Part, *, comments: bool = False) -> Meaning:
 
 
 def first_difference(one: Meaning, other: Meaning) -> tuple[Path, object, object] | None:
-    """Return the first value that differs in two blocks, with its path; None where they say the same."""
+    """Return the first value that differs in two blocks, with its path; None if the blocks are equal."""
     for path in one | other:
         left, right = one.get(path), other.get(path)
         if left != right:
@@ -40,7 +40,7 @@ def first_difference(one: Meaning, other: Meaning) -> tuple[Path, object, object
 
 
 def _in_table(path: Path, left: Table, right: object) -> tuple[Path, object, object]:
-    """The first row that differs in two tables."""
+    """Return the first row that differs in two tables."""
     rows = ([row.tolist() for row in one.values] if isinstance(one, Table) else [] for one in (left, right))
     for number, (row, other) in enumerate(zip_longest(*rows)):
         if row != other:
@@ -73,12 +73,12 @@ def _plain(comments: list[Comment]) -> list[tuple[int, str]]:
 
 
 def numbered(name: str, lines: list[str]) -> Meaning:
-    """Return lines by their numbers."""
+    """Return lines keyed by their numbers."""
     return {(name, number): line for number, line in enumerate(lines)}
 
 
 def _without_blanks(lines: list[str]) -> list[str]:
-    """Lines without the blank ones at their end: behind the last one an end-of-file mark gets a line of its own."""
+    """Return lines without blank ones at the end: an end-of-file mark behind the last line gets a line of its own."""
     end = len(lines)
     while end and not lines[end - 1].strip():
         end -= 1

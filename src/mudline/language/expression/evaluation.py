@@ -1,11 +1,12 @@
-"""The value of an equation: what its operators and functions do, and when they refuse.
+"""Values of equations: operators, functions, and the errors that they raise.
 
 A part is evaluated by a generator that yields the parts whose values it needs, one after the other. So no depth of
-nesting can exhaust the interpreter's stack, and a part that is not asked for is not evaluated.
+nesting can exhaust the interpreter's stack, and a part that is not needed is not evaluated.
 
-The manual of the language names `if` and CONVERT and says that others exist; their list is not public. INFERRED: the
-functions here are the usual ones under their usual names, angles are radians, `log` is base 10 beside `ln` as in
-spreadsheets, `mod`, `int`, `round` and `atan2` follow Fortran. CONVERT is left out: how it is called is not public.
+The manual of the language names `if` and CONVERT and says that other functions exist; their list is not public.
+INFERRED: the functions here are the usual functions under their usual names. Angles are radians, `log` is base 10
+and `ln` natural as in spreadsheets; `mod`, `int`, `round` and `atan2` follow Fortran. CONVERT is left out, since
+its arguments are not public.
 """
 
 from __future__ import annotations
@@ -42,12 +43,12 @@ from mudline.language.expression.nodes import (
 )
 
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
-"""Names that have a value when no parameter bears them; in lower case, and compared without case."""
+"""Values of names that no parameter has; in lower case, compared without case."""
 
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """How a function is called; `most` None means any number of arguments."""
+    """Signature of a function; `most` None means any number of arguments."""
 
     name: str
     least: int
@@ -56,7 +57,7 @@ class Form:
 
     @property
     def wants(self) -> str:
-        """The number of arguments in words."""
+        """Number of arguments in words."""
         if self.most is None:
             return f"at least {_arguments(self.least)}"
         if self.most > self.least:
@@ -64,13 +65,13 @@ class Form:
         return _arguments(self.least)
 
     def takes(self, count: int) -> bool:
-        """Whether that many arguments are right."""
+        """Return True if a call may have this number of arguments."""
         return self.least <= count and (self.most is None or count <= self.most)
 
 
 @dataclass(frozen=True, slots=True)
 class Function(Form):
-    """A function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
+    """Function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
 
     call: Callable[..., float]
 
@@ -128,7 +129,7 @@ FUNCTIONS: Final = _table(
     Function("tan", 1, 1, "tangent of radians", math.tan),
     Function("tanh", 1, 1, "hyperbolic tangent", math.tanh),
 )
-"""The functions of numbers, by their names in lower case; equations call them in any case."""
+"""Functions of numbers by their names in lower case; equations call them in any case."""
 
 FORMS: Final[Mapping[str, Form]] = MappingProxyType(
     {
@@ -137,7 +138,7 @@ FORMS: Final[Mapping[str, Form]] = MappingProxyType(
         "or": Form("or", 1, None, "0 if every argument is 0, else 1; stops at the first that is not 0"),
     },
 )
-"""What is called like a function but evaluates only the arguments it needs, by name in lower case."""
+"""Functions that evaluate only the arguments they need, by name in lower case."""
 
 
 Value = float | str
@@ -160,21 +161,21 @@ _ORDER: Final[Mapping[str, Callable[[float, float], bool]]] = {
 
 
 class Operand(NamedTuple):
-    """A value and the part of the equation it came from."""
+    """Value, and the part of the equation it came from."""
 
     value: Value
     span: Span
 
     @property
     def number(self) -> float:
-        """The value as a number; text raises EvaluationError."""
+        """Value as a number; text raises EvaluationError."""
         if isinstance(self.value, str):
             raise EvaluationError("expected a number, found text", *self.span)
         return self.value
 
     @property
     def truth(self) -> bool:
-        """Whether the value is a number other than 0; text raises EvaluationError."""
+        """True if the value is a number other than 0; text raises EvaluationError."""
         return self.number != 0.0
 
 
@@ -183,14 +184,14 @@ def _across(left: Operand, right: Operand) -> Span:
 
 
 def finite(value: float, span: Span) -> float:
-    """The value, unless it is beyond the range of a double."""
+    """Return the value; raise EvaluationError if it is beyond the range of a double."""
     if not math.isfinite(value):
         raise EvaluationError("the result is too large", *span)
     return value
 
 
 def arithmetic(operator: str, left: Operand, right: Operand) -> Operand:
-    """Sum, difference, product or quotient of two numbers; + also joins two texts."""
+    """Return the sum, difference, product or quotient of two numbers; + also joins two texts."""
     whole = _across(left, right)
     if operator == "+" and isinstance(left.value, str) and isinstance(right.value, str):
         return Operand(_joined(left.value, right.value, whole), whole)
@@ -207,7 +208,7 @@ def _joined(left: str, right: str, span: Span) -> str:
 
 
 def power(base: Operand, exponent: Operand) -> float:
-    """A number to the power of another."""
+    """Return a number to the power of another."""
     a, b = base.number, exponent.number
     whole = _across(base, exponent)
     try:
@@ -220,7 +221,7 @@ def power(base: Operand, exponent: Operand) -> float:
 
 
 def compare(operator: str, left: Operand, right: Operand) -> float:
-    """1 if the comparison holds, else 0; texts are equal or not, without regard to case."""
+    """Return 1 if the comparison holds, else 0; texts are equal or not, without regard to case."""
     if isinstance(left.value, str) and isinstance(right.value, str):
         if operator not in {"=", "<>"}:
             raise EvaluationError("text has no order, expected = or <>", *_across(left, right))
@@ -229,7 +230,7 @@ def compare(operator: str, left: Operand, right: Operand) -> float:
 
 
 def apply(function: Function, arguments: Sequence[Operand], span: Span) -> float:
-    """The value of a function; the number of arguments has been checked."""
+    """Return the value of a function; the number of arguments has been checked."""
     values = [argument.number for argument in arguments]
     try:
         result = function.call(*values)
@@ -246,15 +247,15 @@ Steps = Generator[Node, Value, Value]
 
 
 def evaluate(expression: Expression, lookup: Lookup) -> float | str:
-    """The value of an equation: a finite number, or text.
+    """Return the value of an equation: a finite number, or text.
 
     A comparison, `and`, `or` and `not` give 1 or 0; any number but 0 counts as true. `if`, `and` and `or` evaluate
     only the parts they need.
 
     Args:
         expression: the equation, from `parse`.
-        lookup: gives the value of a parameter by its name as written, or raises KeyError where there is none; then
-            the constants (`pi`) are tried. Whatever else it raises passes through.
+        lookup: gives the value of a parameter by its name as written, or raises KeyError if there is none; then the
+            constants (`pi`) are tried. Any other exception passes through.
 
     Raises:
         UndefinedName: no parameter and no constant has this name.
@@ -280,7 +281,7 @@ def evaluate(expression: Expression, lookup: Lookup) -> float | str:
 
 
 def _steps(node: Node, lookup: Lookup) -> Steps:
-    """Evaluate one part: yields the parts it needs, is sent their values, returns its own."""
+    """Yield the parts whose values a part needs, receive these values, and return the value of the part."""
     match node:
         case Number() | Text() | Name():
             return _leaf(node, lookup)

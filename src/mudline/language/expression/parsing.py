@@ -1,6 +1,6 @@
-"""Reading an equation: the grammar, the limits, and what is said of a text that does not fit.
+"""Reading of equations: grammar, limits, and messages for text that is not an equation.
 
-Lark reads every equation by `grammar/expression.lark` and makes its nodes while it reads, so nesting costs no stack.
+Lark reads an equation by `grammar/expression.lark` and creates the nodes while it reads, so nesting costs no stack.
 """
 
 from __future__ import annotations
@@ -34,17 +34,17 @@ from mudline.language.expression.nodes import (
 from mudline.language.syntax.grammars import parser
 
 SAME_OPERATOR = {"==": "=", "!=": "<>"}
-"""The one spelling of operators that have two."""
+"""Preferred spelling of operators that have two."""
 
 FORTRAN_EXPONENT = str.maketrans("dD", "ee")
-"""The letters of an exponent as `float` reads them."""
+"""Letters of Fortran exponents, translated to those that `float` reads."""
 
 
 @lru_cache(256)
 def parse(text: str) -> Expression:
-    """Read an equation: `text` is what stands between `=[` and `]`.
+    """Return the equation in a text: the part between `=[` and `]`.
 
-    Decks of a project share their equations, and a deck is evaluated more than once: the last ones are remembered.
+    The last equations are cached: decks of a project share theirs, and a deck is evaluated more than once.
 
     Raises:
         ExpressionError: the text is not an equation, too long, or nested too deep (`docs/limits.md`).
@@ -70,7 +70,7 @@ def parse(text: str) -> Expression:
 
 
 def equation_grammar() -> Lark:
-    """Return the parser of equations; it gives nodes."""
+    """Return the parser of equations, whose result are nodes."""
     return parser("expression", "disjunction", _Nodes)
 
 
@@ -79,7 +79,7 @@ def equation_grammar() -> Lark:
 
 @v_args(inline=True)
 class _Nodes(Transformer[Token, Node]):
-    """Nodes of the rules of the grammar, a method for each; a token that the grammar names is one of the parts."""
+    """Nodes of the rules of the grammar: a method for each rule; a token with a name in the grammar is a part."""
 
     def number(self, token: Token) -> Number:
         return Number(_span(token), float(token.translate(FORTRAN_EXPONENT)))
@@ -115,11 +115,11 @@ class _Nodes(Transformer[Token, Node]):
 
 
 MAKES = _Nodes
-"""What makes an equation of the parts that the grammar names."""
+"""Class that creates an equation from the parts that the grammar names."""
 
 
 def _span(first: Token | Node, last: Token | Node | None = None) -> Span:
-    """Place from the start of one part to the end of another, or of itself."""
+    """Return the span from the start of a part to the end of the last part, or of the part itself."""
     start = first.start_pos if isinstance(first, Token) else first.span.start
     last = last or first
     end = last.end_pos if isinstance(last, Token) else last.span.end
@@ -127,7 +127,7 @@ def _span(first: Token | Node, last: Token | Node | None = None) -> Span:
 
 
 def _nodes(text: str, root: Node) -> Iterator[Node]:
-    """Yield all nodes in the order of the text; raises ExpressionError where they are nested too deep."""
+    """Yield all nodes in the order of the text; raise ExpressionError if they are nested too deep."""
     waiting = [(root, 0, 0)]
     while waiting:
         node, level, opening = waiting.pop()
@@ -139,7 +139,7 @@ def _nodes(text: str, root: Node) -> Iterator[Node]:
 
 
 def _parts(node: Node) -> list[tuple[Node, bool, int]]:
-    """The parts of a node, whether each is one level further inside, and the place from which its opening follows."""
+    """Return the inner parts of a node: part, True if a level deeper, offset from which its opening follows."""
     match node:
         case Group(inner=part) | Prefix(operand=part):
             return [(part, True, node.span.start)]
@@ -160,7 +160,7 @@ def _parts(node: Node) -> list[tuple[Node, bool, int]]:
 
 
 def _accepted(error: UnexpectedInput) -> AbstractSet[str]:
-    """The names of the tokens that could have stood where the reading failed."""
+    """Return the names of the tokens that were allowed where reading failed."""
     parser: Any = error.interactive_parser  # has no types
     return frozenset(parser.accepts())
 
@@ -181,7 +181,7 @@ def _unexpected_character(text: str, place: int, accepted: AbstractSet[str]) -> 
 
 
 def _found(token: Token) -> str:
-    """A token in plain words."""
+    """Return a token in plain words."""
     match token.type:
         case "NUMBER":
             return f"the number {shorten(token)}"
@@ -196,7 +196,7 @@ def _found(token: Token) -> str:
 
 
 def _expected(accepted: AbstractSet[str]) -> str:
-    """What may stand next, in plain words, from the names of the tokens that may."""
+    """Return the allowed next tokens in plain words, from their names."""
     if "NUMBER" in accepted:
         choices = ["a number", "a name", "'('"]
     else:

@@ -1,4 +1,4 @@
-"""What a program changes in a block: fields, and lists of them, which are read some entries at a time."""
+"""Assignment of values in a program to fields of a block and to their lists."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from mudline.language.keywords.faults import fault_in_words, path_in, path_text
 from mudline.language.keywords.table import plain
 
 _ENTRIES_AT_ONCE = 32
-"""Entries checked at once; lists are nested three deep at most."""
+"""Greatest number of entries checked at a time; lists are nested three deep at most."""
 
 _UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
 
 
 def assign(part: BaseModel, name: str, value: Any, schema: Callable[..., Any], put: Callable[[str, Any], None]) -> None:
-    """Put a value into a field of a part, which validates it; several values are those of a row, one for each column.
+    """Assign a value to a field of a part, which validates it; several values are those of a row, one for each column.
 
-    `schema` is `record_schema`, which this module cannot know.
+    `schema` is `record_schema`, passed in because this module cannot import it.
 
-    Raises ValueError, and leaves the part as it is.
+    Raises ValueError, and leaves the part unchanged.
     """
     kind = type(part)
     if name not in kind.model_fields:
@@ -49,7 +49,7 @@ def assign(part: BaseModel, name: str, value: Any, schema: Callable[..., Any], p
 
 
 def _refusal(name: str, value: object, error: ValidationError, expected: str = "") -> ValueError:
-    """Why a value cannot be assigned: the path in it and what is `expected` there; of several faults the first."""
+    """Return the error of a value that cannot be assigned: path and `expected` value of the first fault."""
     found: dict[tuple[str | int, ...], list[ErrorDetails]] = {}
     for fault in error.errors(include_url=False):
         lacking = fault["loc"][-1:] if fault["type"] == "missing" else ()
@@ -59,13 +59,13 @@ def _refusal(name: str, value: object, error: ValidationError, expected: str = "
 
 
 class ListOf(NamedTuple):
-    """The field of a part whose entries a list holds."""
+    """Field of a part, whose list is validated."""
 
     part: type[BaseModel]
     name: str
 
     def by_parts(self, given: object, check: core_schema.ValidatorFunctionWrapHandler) -> ValidatedList:
-        """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
+        """Return all entries, or raise the faults of the first chunk with any. The input may be a generator."""
         made = ValidatedList()
         made.of = self
         if not isinstance(given, Iterator) and not (isinstance(given, list) and len(given) > _ENTRIES_AT_ONCE):
@@ -85,17 +85,17 @@ class ListOf(NamedTuple):
 
 
 class ValidatedList(list[Any]):
-    """A list of a part whose entries are validated when they are put in; records are found by their name too."""
+    """List of a part whose entries are validated when they are added; records are found by their name too."""
 
     __slots__ = ("of",)
     of: ListOf
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """A copy is filled as it is: its entries are valid."""
+        """Return a function that fills a copy without validation: the entries are valid."""
         return _filled, (self.of, list(self))
 
     def __getitem__(self, at: Any) -> Any:
-        """An entry by its index or, without case, by its name. Raises KeyError for no such name, and for several."""
+        """Return an entry by index, or by name without case; raises KeyError for a name of no entry or of several."""
         if not isinstance(at, str):
             return super().__getitem__(at)
         names = [entry.known_as() if hasattr(entry, "known_as") else None for entry in self]
@@ -116,15 +116,15 @@ class ValidatedList(list[Any]):
         return self
 
     def append(self, value: Any) -> None:
-        """Add an entry; raises ValueError for one that does not belong in the list."""
+        """Append an entry; raises ValueError for an entry that does not belong in the list."""
         super().extend(self._valid([value]))
 
     def extend(self, values: Iterable[Any]) -> None:
-        """Add entries, all or none; raises ValueError for one that does not belong in the list."""
+        """Append entries, all or none; raises ValueError for an entry that does not belong in the list."""
         super().extend(self._valid(values))
 
     def insert(self, at: SupportsIndex, value: Any) -> None:
-        """Put an entry in before that of an index; raises ValueError for one that does not belong in the list."""
+        """Insert an entry before an index; raises ValueError for an entry that does not belong in the list."""
         super().insert(at, self._valid([value])[0])
 
     def _valid(self, values: Iterable[Any]) -> list[Any]:
@@ -139,7 +139,7 @@ if TYPE_CHECKING:
     _Entry = TypeVar("_Entry")
 
     class RecordList(list[_Entry]):
-        """What type checkers know of a `ValidatedList`."""
+        """Interface of a `ValidatedList` for type checkers."""
 
         @overload
         def __getitem__(self, at: SupportsIndex | str) -> _Entry: ...
@@ -148,7 +148,7 @@ if TYPE_CHECKING:
         def __getitem__(self, at: Any) -> Any: ...
 
     class Records(Generic[_Entry]):
-        """The field of a list of parts: read as a `RecordList`, and set to several parts or what they are made of."""
+        """Descriptor of a list of parts: read as a `RecordList`, assigned from several parts or their values."""
 
         def __get__(self, part: object, kind: type | None = None) -> RecordList[_Entry]: ...
         def __set__(self, part: object, values: Iterable[_Entry | Mapping[str, Any]]) -> None: ...
@@ -171,7 +171,7 @@ def _entries(of: ListOf) -> TypeAdapter[Any]:
 
 
 def checked_by_parts(schema: CoreSchema, part: type[BaseModel], name: str = "") -> CoreSchema:
-    """The schema of a model with a limit on each of its own lists; those of the models in it have theirs."""
+    """Return the schema of a model whose own lists are validated in chunks; inner models have limits of their own."""
     found = cast("dict[str, Any]", schema)
     if found["type"] == "list":
         return core_schema.no_info_wrap_validator_function(ListOf(part, name).by_parts, schema)
@@ -188,7 +188,7 @@ def checked_by_parts(schema: CoreSchema, part: type[BaseModel], name: str = "") 
 
 
 def _moved(fault: ErrorDetails, start: int) -> InitErrorDetails:
-    """A fault of a part as one of the whole list."""
+    """Return a fault of a chunk as a fault of the whole list."""
     kind = PydanticCustomError(
         cast("Any", fault["type"]), "{message}", {**fault.get("ctx", {}), "message": fault["msg"]}
     )

@@ -1,4 +1,4 @@
-"""The tree of a block to plain values; every fault of a field is one problem."""
+"""Conversion of the tree of a block to plain values; every fault of a field is one problem."""
 
 from __future__ import annotations
 
@@ -39,9 +39,10 @@ _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
 
 class Builder:
-    """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1.
+    """Builder of the records of one block.
 
-    What fields that are `older` hold is taken in a block of the older program alone.
+    `end` is the end of the file if the last line has no line end, else -1. Fields declared as `older` are read only in
+    blocks of an `older` program.
     """
 
     def __init__(
@@ -56,7 +57,7 @@ class Builder:
         self.unclosed: Span | None = None
 
     def build(self, part: type[Record], node: Node, last: object = None) -> ParsedRecord:
-        """Return a record; `last` is what the sticky field of the records before it gave."""
+        """Return a record; `last` is the value of the sticky field in the records before it."""
         built = ParsedRecord(part)
         found = record_schema(part)
         row_number = 0
@@ -78,11 +79,11 @@ class Builder:
         return built
 
     def report(self, code: Code, message: str, span: Span, repair: Repair | None = None) -> None:
-        """Note a fault."""
+        """Add a problem."""
         self.problems.append(Problem(code, message, span, repair=repair))
 
     def short(self, message: str, span: Span) -> None:
-        """A value or more is missing in a row; at the very end of the file it was cut off."""
+        """Report missing values of a row; at the very end of the file the row was probably cut off."""
         if 0 <= self.end <= span.end:
             message = f"the file ends before this row is complete, it seems to be cut off: {message}"
             self.report(SYN014, message, span)
@@ -90,7 +91,7 @@ class Builder:
             self.report(SYN003, message, span)
 
     def _brackets(self, problems: list[Problem], built: ParsedRecord) -> None:
-        """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
+        """Report the unclosed bracket of a line; it reaches to the end of the line, so there is one at most."""
         self.unclosed = None
         for problem in problems:
             self.problems.append(problem)
@@ -98,7 +99,7 @@ class Builder:
             built.unsure = True
 
     def _unreadable(self, problem: Problem) -> None:
-        """A field without a value; one with an open bracket has been reported as such."""
+        """Report a field without a value, unless its open bracket has been reported."""
         if not (self.unclosed and problem.span and self.unclosed.start < problem.span.end):
             self.problems.append(problem)
 
@@ -129,7 +130,7 @@ class Builder:
         built.reach(content.span.start)
 
     def _groups(self, built: ParsedRecord, groups: list[Group]) -> None:
-        """Settings that stand on one line."""
+        """Read the settings of a line."""
         found = record_schema(built.part)
         first = found.keys.get(groups[0].key) if groups else None
         if (
@@ -161,7 +162,7 @@ class Builder:
         self.report(SYN004, message, group.span, instead(near, key))
 
     def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> bool:
-        """Read a line that says that it has a form which is not known: all behind its key is one value."""
+        """Read a line whose setting announces an unknown form: all text after its key is one value."""
         fields = groups[0].fields
         if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
             return False
@@ -173,7 +174,7 @@ class Builder:
         return True
 
     def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> None:
-        """Read all behind the key of a setting as its value."""
+        """Read all text after the key of a setting as its value."""
         start = self.text.index("=", groups[0].span.start) + 1
         whole = trimmed(self.text, start, groups[-1].span.end)
         built.written.append(Written(slot.json, whole, (), ()))
@@ -202,7 +203,7 @@ class Builder:
         self._value(built, slot, fields)
 
     def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field]) -> None:
-        """Read the value of a setting; of several the first one, where it names a new thing."""
+        """Read the value of a setting; of several values the first, if the setting names a new object."""
         built.written.append(Written(None, None, (slot.json,), fields))
         built.values[slot.json] = UNKNOWN
         if self.end >= 0 and fields[0].span.end == self.end and cut_number(fields[0].text):
@@ -248,7 +249,7 @@ class Builder:
         built.reach(start)
 
     def _faulty_rows(self, built: ParsedRecord, slot: FieldSpec, run: Span, table: Table, rows: list[int]) -> None:
-        """Report the faults of some rows of a table; labels whose braces were forgotten are put in."""
+        """Report the faults of some rows of a table; add forgotten braces around labels."""
         columns = record_schema(cast("type[Part]", slot.row)).columns
         starts = row_starts(self.text, run)
         for number, row in enumerate(rows):
@@ -265,7 +266,7 @@ class Builder:
             table.words.update(((row, at), label) for at, label in labels)
 
     def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[Group]]:
-        """Return the fields of a row, and the settings behind them on the line of a record that has `keys`."""
+        """Return the fields of a row, and the settings after them if the record has `keys`."""
         behind: list[Group] = []
         if keys:
             line = read_line(self.text, span, slashes=self.slashes)
@@ -283,7 +284,7 @@ class Builder:
 
     @staticmethod
     def _slot_of_row(built: ParsedRecord, number: int, count: int, last: object) -> FieldSpec:
-        """Return the field that a row fills, or the first one of those that it fills."""
+        """Return the field that a row fills, or the first of several."""
         found = record_schema(built.part)
         if len(found.row_names) == 1:
             return found.columns[0] if found.columns else cast("FieldSpec", found.table)
@@ -308,13 +309,13 @@ class Builder:
             self._columns(built, [slot], fields, line)
 
     def _columns(self, built: ParsedRecord, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> None:
-        """Read fields that are those of the record itself."""
+        """Read fields that belong to the record itself."""
         values, fields = self._fields(columns, fields, line)
         built.values |= values
         built.written.append(Written(None, None, [slot.json for slot in columns], fields))
 
     def _inner_row(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span) -> None:
-        """Read fields that are those of a row in the record."""
+        """Read fields that belong to a row in the record."""
         row = cast("type[Part]", slot.row)
         columns = record_schema(row).columns
         values, fields = self._fields(columns, fields, span)
@@ -330,7 +331,7 @@ class Builder:
     def _fields(
         self, columns: Sequence[FieldSpec], fields: list[Field], line: Span
     ) -> tuple[dict[str, Value], list[Field]]:
-        """Return the values of a row, and the fields that have a place among its columns."""
+        """Return the values of a row, and its fields without those beyond the last column."""
         before = len(self.problems)
         fields = self._counted(columns, fields, line)
         # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
@@ -354,7 +355,7 @@ class Builder:
         return values, fields
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> list[Field]:
-        """Return the fields without trailing empty ones; a wrong number of them is a problem."""
+        """Return the fields without trailing empty ones; report a wrong number of fields."""
         columns = columns if self.older else [slot for slot in columns if slot.about.older is not True]
         required = [slot.required for slot in columns]
         fewest = fewest_fields(required)
@@ -416,7 +417,7 @@ class Builder:
 
 
 def _value_of(slot: FieldSpec) -> str:
-    """What to write as the value of a setting, as far as it names something."""
+    """Return a placeholder for the value of a setting: the kind of its name, if any."""
     names = getattr(slot.about, "names", None)
     if names is Names.SET:
         return ": write the name of a set after it (ALL is every element)"
@@ -424,7 +425,7 @@ def _value_of(slot: FieldSpec) -> str:
 
 
 def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
-    """Whether a setting that may hold a row holds a word or a number instead."""
+    """Return True if a setting that may hold a row holds a single word or number."""
     if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
         return False
     return not blank_separated(fields[0].text)

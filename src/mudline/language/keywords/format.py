@@ -1,4 +1,4 @@
-"""The lines of a keyword as a user writes them, and units and ranges of its fields, from its declaration."""
+"""Lines of a keyword as a user writes them; units and ranges of its fields, from its declaration."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ TAKES = {
 
 
 def format_lines(block: type[Block]) -> list[str]:
-    """The keyword and the lines below it, deeper ones indented."""
+    """Return the keyword and the lines below it, indented by depth."""
     keyword = block.model_fields["keyword"].default
     return [f"*{keyword}", *_lines(block, 1)]
 
 
 def _lines(part: type[Part], depth: int) -> list[str]:
-    """The lines of a part in the order in which they are written."""
+    """Return the lines of a part in the order in which they are written."""
     lines: list[str] = []
     found = record_schema(part)
     for slot in found.slots:
@@ -45,7 +45,7 @@ def _lines(part: type[Part], depth: int) -> list[str]:
 
 
 def _line(slot: FieldSpec, found: RecordSchema) -> str:
-    """The line of one field; "" for a field that another one's line holds."""
+    """Return the line of one field; "" for a field on the line of another field."""
     if isinstance(slot.about, Rows) and slot.about.row:
         return _optional(slot, record_schema(slot.about.row).wanted) + " ..."
     if slot.key:
@@ -78,7 +78,7 @@ def _setting(slot: FieldSpec) -> str:
 
 
 def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
-    """How the rows of some records look."""
+    """Return the formats of the rows of records."""
     shapes: list[str] = []
     for found in schemas:
         lines = [slot for slot in found.columns if slot.row]
@@ -102,7 +102,7 @@ _UNITS = {
 
 
 def unit_text(unit: str, system: str) -> str:
-    """The unit of a field in a unit system, F/L2 as N/m2, 1/L as 1/m; what is no dimension as it is."""
+    """Return the unit of a field in a unit system (F/L2 as N/m2, 1/L as 1/m); text that is not a dimension stays."""
     if not re.fullmatch(r"(?:[FLMT]\d?|1/|/)+", unit):
         return unit
     names = _UNITS[system]
@@ -111,7 +111,7 @@ def unit_text(unit: str, system: str) -> str:
 
 
 def range_text(about: FieldInfo) -> str:
-    """The range of a field's values, or ""."""
+    """Return the range of a field's values, or ""."""
     if about.above is not None:
         return f"> {about.above:g}"
     if about.at_most is not None:
@@ -120,12 +120,12 @@ def range_text(about: FieldInfo) -> str:
 
 
 def _symbol(name: str) -> str:
-    """The symbol of a field of a section: Do, but GJ."""
+    """Return the symbol of a section's field: Do, but GJ."""
     return name.capitalize() if name.startswith("d") else name.upper()
 
 
 def field_lines(part: type[Part], depth: int = 0) -> list[str]:
-    """A line for each field of a part, and below it those inside: name, meaning, unit, range, default."""
+    """Return a line for each field of a part: name, meaning, unit, range, default; fields of inner parts below it."""
     lines: list[str] = []
     for slot in record_schema(part).slots:
         about = slot.about
@@ -142,7 +142,7 @@ def field_lines(part: type[Part], depth: int = 0) -> list[str]:
 
 
 def usual_text(about: FieldInfo) -> str:
-    """What values of a field are usual, in metric units, with the reason of each range; "" where nothing is said."""
+    """Return the usual values of a field, in metric units, with the reason for each range; "" if none are declared."""
     unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")
     return "; ".join(
         " ".join(

@@ -1,4 +1,4 @@
-"""A raw block to the model of its keyword: contents, grammar, values, comments; every fault is one problem."""
+"""Reading of a block: contents, grammar, values, comments, and the model of its keyword; every fault is one problem."""
 
 from __future__ import annotations
 
@@ -29,12 +29,13 @@ from mudline.language.syntax.tree import Kind, Leaf, RawBlock
 
 @dataclass(slots=True)
 class ReadBlock:
-    """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
+    """Result of reading a block: model, places of its values, problems, and `trailing` comments behind its last line.
 
-    `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
-    in the text that was read, or what finds them when somebody asks.
-    Where a piece was read, `whole` is the text that it belongs to and where it begins there. A block is `opaque` where
-    what its keyword demands may stand in lines of an unknown form: all of it is then passed through unchanged.
+    Attributes:
+        found: places in the text that was read, or a function that finds them on demand.
+        lost: number of lines that could not be used at all; their definitions are unknown.
+        whole: text that contains the piece that was read, and the offset of the piece in it.
+        opaque: True if mandatory lines may be among lines of unknown form: the block is then passed through unchanged.
     """
 
     model: Block
@@ -49,7 +50,7 @@ class ReadBlock:
 
     @property
     def own(self) -> Places:
-        """The places in the text that was read."""
+        """Places in the text that was read."""
         found = self.found  # read once: decks that share a block may be read in two threads
         if not isinstance(found, Places):
             found = self.found = found()
@@ -60,29 +61,29 @@ class ReadBlock:
 
     @property
     def places(self) -> Places:
-        """The places in the whole text; worked out when somebody asks."""
+        """Places in the whole text, computed on demand."""
         if self.whole:
             self.found = self.own.moved(*self.whole)
             self.whole = None
         return self.own
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
-        """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
+        """Return the block as part of a text in which its piece begins at `start`, with its problems there."""
         found = self.found if isinstance(self.found, Places) else self._found
         return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
 
 
 class BlockReader(Protocol):
-    """Reads a block as `read_block` does."""
+    """Reader of a block, with the signature of `read_block`."""
 
     def __call__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-        """`text` is the unified text of the source; `last` says that nothing follows the block in it."""
+        """Return the block read from the unified text of a source; `last`: nothing follows the block."""
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it.
+    """Return the block read from the unified text of a source; `last` is True if nothing follows the block in it.
 
-    The places in it are found by reading it again when somebody asks: few blocks are asked for them.
+    Places of values are found on demand by reading the block again: they are needed for few blocks.
     """
     read = _Reader(text, raw, declared, last=last).read()
     read.found = partial(_places, text, raw, declared, last=last)
@@ -96,9 +97,9 @@ def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> P
 
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
-    """Whether a block reads without an error, and all of it but what its declaration says to be of unknown form.
+    """Return True if a block reads without an error, and keeps no lines but those that its declaration leaves unread.
 
-    That is sooner known than what is wrong in it.
+    This is faster than finding the errors.
     """
     ends: frozenset[str] = frozenset()
     keys = all_keys(declared)
@@ -118,7 +119,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
 
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
+    """Return a block read as if its lines were the whole text; `raw` is the block at offset `start` of the text."""
     head, *leaves = (Leaf(leaf.kind, leaf.span.moved(-start)) for leaf in (raw.head, *raw.leaves))
     return read_block(piece, RawBlock(head, raw.name, leaves, raw.older), declared, last=last)
 
@@ -137,7 +138,7 @@ class _Reader:
         self.built: ParsedRecord | None = None
 
     def read(self) -> ReadBlock:
-        """What the lines give; of an open block without those that have another form than it knows."""
+        """Return the block read from its lines, without lines of unknown form if it is open."""
         contents = self.contents()
         noticed, lost = self.problems, self.lost
         while True:
@@ -186,7 +187,7 @@ class _Reader:
         return places
 
     def _model(self, built: ParsedRecord) -> Block:
-        """Return the validated model; of a block with faults, what could be read of it."""
+        """Return the validated model; for a block with faults an unvalidated model of its readable values."""
         built.values["keyword"] = self.raw.name
         if not any(one.weight is Severity.ERROR for one in self.problems):
             try:
@@ -205,7 +206,7 @@ class _Reader:
         return cast("Block", construct(built))
 
     def contents(self) -> list[Content]:
-        """The lines as the terminals of the grammar; those that are none are reported."""
+        """Return the lines as terminals of the grammar; report unknown ones."""
         contents: list[Content] = []
         ends: frozenset[str] = frozenset()
         for leaf in self.raw.leaves:
@@ -244,7 +245,7 @@ class _Reader:
         self.comments.append(Between(leaf.span.start, line[1:], leaf.span))
 
     def _undecided(self, leaf: Leaf, contents: list[Content]) -> frozenset[str]:
-        """A line with C and a letter in column 1: a known key makes it data, else it is a comment, with a warning."""
+        """Read a line with C and a letter in column 1: data if its key is known, else a comment, with a warning."""
         key = first_key(self.text, leaf.span)
         if key in self.keys:
             return self._setting(leaf.span, contents)
@@ -259,7 +260,7 @@ class _Reader:
         return frozenset()
 
     def _setting(self, span: Span, contents: list[Content]) -> frozenset[str]:
-        """A line that begins with a setting; returns the keys that end the lines to be kept behind it, if any are."""
+        """Read a line that begins with a setting; return the keys that end the kept lines after it, if any."""
         key = first_key(self.text, span)
         if key in self.keys:
             contents.append(Content(grammar.terminal_of(key), span))
@@ -317,7 +318,7 @@ class _Reader:
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
-    """The name, for a reader, of the field at a place of a block."""
+    """Return the label, for a reader, of the field at a place of a block."""
     label = ""
     for step in place:
         slot = next((slot for slot in record_schema(part).slots if slot.json == step), None)
@@ -329,19 +330,19 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
 
 @cache
 def all_keys(part: type[Part]) -> frozenset[str]:
-    """Every KEY that the lines of a keyword may begin with or hold."""
+    """Return every KEY on the lines of a keyword, at the beginning or within."""
     return frozenset(key for found in schemas_of(part) for key in found.keys)
 
 
 @cache
 def older_keys(part: type[Part]) -> frozenset[str]:
-    """The KEYs that only decks of the older program have."""
+    """Return the KEYs that only decks of the older program have."""
     found = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
     return frozenset(key for slots in found for key, slot in slots if slot.about.older is True)
 
 
 def schemas_of(part: type[Part]) -> list[RecordSchema]:
-    """The schema of a part and of the records below it."""
+    """Return the schemas of a part and of its inner records."""
     own = record_schema(part)
     below = [inner for slot in own.children.values() for record in slot.record.values() for inner in schemas_of(record)]
     return [own, *below]

@@ -1,4 +1,4 @@
-"""Values that are usual: declared with a field, compared by one rule, shown on the page of the keyword."""
+"""Usual values: declared with a field, compared by one rule, shown on the page of the keyword."""
 
 from __future__ import annotations
 
@@ -8,16 +8,22 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Usual:
-    """Values that are usual, from `low` to `high`, both in SI units (angles in degrees), and `why`.
+    """Range of usual values, in SI units (angles in degrees).
 
-    `of` is a measure that is compared in place of the number itself: `/do` is the number over the field `do` of its
-    row, all others are in `mudline.checks.rules.measures`. `when` is a condition, of the same module, without which
-    nothing is compared. Values outside are a warning of `code`; where it is a `remark`, as neither mechanics nor a
-    source says more, an info. Zero is nothing to remark on, nor are values from `also[0]` to `also[1]`, nor powers of
-    ten where they are `placeholder`s.
-
-    `meant` is what the field mostly holds: a unit in which a number is within a factor `within` of it explains the
-    number. With `explained` only such a number is reported.
+    Attributes:
+        low, high: limits; zero is always usual.
+        why: reason for the limits.
+        of: measure that is compared in place of the number. `/do` is the number divided by the field `do` of its row;
+            other measures are in `mudline.checks.rules.measures`.
+        when: condition, of the same module, for the comparison.
+        code: code of the warning for values outside.
+        remark: True if values outside are an info, since neither mechanics nor a source gives more.
+        meant: typical value of the field. A unit in which a number is within a factor `within` of it explains the
+            number.
+        within: factor for `meant`.
+        explained: True if only a number that a unit explains is reported.
+        placeholder: True if powers of ten are not reported.
+        also: further range of usual values.
     """
 
     low: float = -math.inf
@@ -34,11 +40,11 @@ class Usual:
     also: tuple[float, float] = (math.nan, math.nan)
 
     def holds(self, value: float) -> bool:
-        """Whether a quantity is usual; NaN, which is not known, counts as usual."""
+        """Return True if a quantity is usual; NaN, which is unknown, counts as usual."""
         return not (value < self.low or value > self.high) or self.also[0] <= value <= self.also[1]
 
     def span(self, factor: float = 1.0) -> str:
-        """The range in words, in a unit of `factor` in SI."""
+        """Return the range in words, in a unit of `factor` in SI."""
         low, high = (f"{float(f'{limit / factor:.3g}'):g}" for limit in (self.low, self.high))
         if math.isinf(self.low):
             return f"at most {high}"

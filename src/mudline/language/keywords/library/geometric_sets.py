@@ -150,7 +150,7 @@ class TrussSection(Row):
 
 
 class GeometricSet(Record):
-    """The properties of a set; `option` is given where it changes."""
+    """Properties of a set; `option` is given where it changes."""
 
     rule = "geometric_set"
     sticky = "option"
@@ -184,12 +184,12 @@ class GeometricSet(Record):
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The format that OPTION= chose, here or at an earlier set."""
+        """Return the format in OPTION=, here or at an earlier set."""
         return str(given.get("option") or last or "FLEXIBLE").lower()
 
     @property
     def section(self) -> FlexibleSection | RigidSection | MooringSection | TrussSection | None:
-        """The property line, whatever its format."""
+        """Property line of any format."""
         return self.flexible or self.rigid or self.mooring or self.truss
 
     @property
@@ -208,7 +208,7 @@ FORMATS_OF = {
     "EA": ("FLEXIBLE", "TRUSS"),
     **dict.fromkeys(("E", "PLASTIC HARDENING"), ("RIGID",)),
 }
-"""The formats in which a curve may take the place of a number."""
+"""Formats in which a curve may replace a number, by field."""
 
 
 class GeometricSets(Block):
@@ -225,7 +225,7 @@ class GeometricSets(Block):
 
     @model_validator(mode="after")
     def _formats(self) -> Self:
-        """Every set has one property line, in the format that OPTION= says."""
+        """Raise ValueError unless every set has one property line, in the format of its OPTION=."""
         option = "FLEXIBLE"
         for index, entry in enumerate(self.sets):
             option = entry.option or option

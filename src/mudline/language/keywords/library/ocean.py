@@ -9,7 +9,7 @@ from mudline.language.keywords.values import Facts, Real
 
 
 class Ocean(Block):
-    """The sea."""
+    """Water of the sea."""
 
     rule = "ocean"
     facts = Facts(once=True, tells_units=True)
