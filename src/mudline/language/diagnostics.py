@@ -136,7 +136,7 @@ class Problem:
 
 def strongest(problems: Iterable[Problem]) -> Blocks:
     """Return the strictest condition under which any of the problems keeps the deck from being evaluated."""
-    return max((one.blocking for one in problems), key=[*Blocks].index)
+    return max((problem.blocking for problem in problems), key=[*Blocks].index)
 
 
 class Edit(NamedTuple):

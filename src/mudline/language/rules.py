@@ -145,19 +145,19 @@ def described_by(code: Code, docstring: str) -> RulePage:
     first, _, rest = docstring.partition("\n")
     parts = re.split(_HEADINGS, f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
-    found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
-    heading = next((name for name in found if name.startswith("Example")), "Example")
-    lacking = [name for name in (heading, "Finds") if name not in found]
+    sections = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
+    heading = next((name for name in sections if name.startswith("Example")), "Example")
+    lacking = [name for name in (heading, "Finds") if name not in sections]
     if lacking or not title or not why.strip():
         raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
-    words = {name: line.strip() for name, (line, _) in found.items()}
+    words = {name: line.strip() for name, (line, _) in sections.items()}
     place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
-    example = found[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 makes blanks of TABs in docstrings
+    example = sections[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 makes blanks of TABs in docstrings
     base = heading.partition(" on ")[2]
     rows = _rows_on(base, code, example) if base else _rows(code, example, _MARKS)
-    bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != other) for other in "+-")
+    bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != left_out) for left_out in "+-")
     described = RulePage(
         title=title.strip(),
         why=why.strip(),
@@ -179,8 +179,8 @@ def _rows(code: Code, example: str, marks: str) -> list[tuple[str, str]]:
     for line in example.split("\n"):
         marked = _MARKED.fullmatch(line or "     ")
         if marked is None or marked[1] not in marks:
-            wanted = "a space, - or +" if marks == _MARKS else "a space, |, - or +"
-            raise ValueError(f"the line {line!r} of the example of {code.code} must have four spaces, then {wanted}")
+            expected = "a space, - or +" if marks == _MARKS else "a space, |, - or +"
+            raise ValueError(f"the line {line!r} of the example of {code.code} must have four spaces, then {expected}")
         rows.append((marked[1], marked[2]))
     return rows
 
@@ -217,12 +217,12 @@ def _places(lines: list[str], sought: list[str]) -> list[slice]:
 
 def findings(rules: Iterable[Rule], subject: object) -> list[list[Problem]]:
     """Return the findings of each rule in a subject."""
-    return [one.findings(subject) for one in rules]
+    return [rule.findings(subject) for rule in rules]
 
 
 def first_reported(problems: Iterable[Problem]) -> list[Problem]:
     """Return the findings that are reported individually; the last one tells that there are more."""
-    found = list(islice(problems, MOST_REPORTED + 1))
-    if len(found) > MOST_REPORTED:
-        found[-1] = replace(found[-1], message=MORE, repair=None)
-    return found
+    first = list(islice(problems, MOST_REPORTED + 1))
+    if len(first) > MOST_REPORTED:
+        first[-1] = replace(first[-1], message=MORE, repair=None)
+    return first

@@ -221,7 +221,7 @@ def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> boo
 def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, strict: bool = False) -> str:
     """What a value looks like and what to write, in words, where a unit explains it."""
     unit = slot.about.unit
-    if not math.isnan(usual.meant):
+    if not math.isnan(usual.typical):
         found = meant_unit(
             usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number), strict=strict
         )

@@ -23,5 +23,5 @@ RUN001 = Code("RUN001", "cannot-evaluate", Severity.ERROR)
 def all_codes() -> list[Code]:
     """Return every code of this package, those in this file first."""
     package = sys.modules[__name__]
-    found = [value for module in (package, *modules_of(__name__)) for value in vars(module).values()]
-    return [code for code in found if isinstance(code, Code)]
+    values = [value for module in (package, *modules_of(__name__)) for value in vars(module).values()]
+    return [code for code in values if isinstance(code, Code)]

@@ -96,15 +96,15 @@ def decoded(data: bytes, file: str, form: str) -> str:
 
 def from_document(document: object, file: str, locate: Locate) -> Deck:
     """Return the deck of a document; raises DeckError with path and place of each violation of the schema."""
-    return _Reader(document, file, locate).read()
+    return _DocumentReader(document, file, locate).read()
 
 
 @cache
-def _adapter(wanted: Any) -> TypeAdapter[Any]:
-    return TypeAdapter(wanted)
+def _adapter(kind: Any) -> TypeAdapter[Any]:
+    return TypeAdapter(kind)
 
 
-class _Reader:
+class _DocumentReader:
     def __init__(self, document: object, file: str, locate: Locate) -> None:
         self.document = document
         self.faults = Faults(file, locate, document)
@@ -125,8 +125,8 @@ class _Reader:
         deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
         sections = document.get("sections")
         if isinstance(sections, list):
-            for index, given in enumerate(sections):
-                deck.sections.append(self._section(given, index))
+            for index, item in enumerate(sections):
+                deck.sections.append(self._section(item, index))
         else:
             self.faults.add(("sections",), "expected a list of sections")
         self.faults.raise_any()
@@ -136,25 +136,25 @@ class _Reader:
 
     def _format(self) -> dict[str, Any]:
         if isinstance(self.document, dict):
-            found = self.document.get("format")
-            if found == FORMAT:
+            name = self.document.get("format")
+            if name == FORMAT:
                 return self.document
-            self.faults.add(("format",), f"expected {FORMAT!r}, found {shown(found)}")
+            self.faults.add(("format",), f"expected {FORMAT!r}, found {shown(name)}")
         else:
-            found = type(self.document).__name__
-            self.faults.add((), f"expected an object whose format is {FORMAT!r}, found {found}")
+            name = type(self.document).__name__
+            self.faults.add((), f"expected an object whose format is {FORMAT!r}, found {name}")
         self.faults.raise_any()
         raise AssertionError
 
-    def _only(self, given: dict[str, Any], known: tuple[str, ...], path: DocumentPath) -> None:
-        for key in given:
+    def _only(self, mapping: dict[str, Any], known: tuple[str, ...], path: DocumentPath) -> None:
+        for key in mapping:
             if key not in known:
                 self.faults.add((*path, key), f"unknown key: expected {', '.join(known)}")
 
-    def _checked(self, wanted: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
+    def _checked(self, kind: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
         """Return the value validated as a type; `otherwise` if it is invalid."""
         try:
-            return _adapter(wanted).validate_python(value, strict=True)
+            return _adapter(kind).validate_python(value, strict=True)
         except ValidationError as error:
             self.faults.extend(path, error)
             return otherwise
@@ -187,22 +187,22 @@ class _Reader:
             self.findings.before_sections(block.name, None, place(block.head))
         return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is Kind.COMMENT]
 
-    def _section(self, given: object, index: int) -> Section:
+    def _section(self, item: object, index: int) -> Section:
         path: DocumentPath = ("sections", index)
         section = Section("")
-        if not isinstance(given, dict):
+        if not isinstance(item, dict):
             self.faults.add(path, "expected a section: an object with name and blocks")
             return section
-        self._only(given, ("name", "lines", "comments", "blocks"), path)
-        section.name = canonical_name("$" + self._checked(Text, given.get("name"), (*path, "name"), ""))
-        section.lines = self._lines(given.get("lines", []), (*path, "lines"), "$*")
-        section.comments = self._checked(list[Comment], given.get("comments", []), (*path, "comments"), [])
+        self._only(item, ("name", "lines", "comments", "blocks"), path)
+        section.name = canonical_name("$" + self._checked(Text, item.get("name"), (*path, "name"), ""))
+        section.lines = self._lines(item.get("lines", []), (*path, "lines"), "$*")
+        section.comments = self._checked(list[Comment], item.get("comments", []), (*path, "comments"), [])
         if section.name not in catalogue.SECTIONS:
             self.findings.unknown_section(section.name, Where(index))
         if section.lines:
             section.lines, texts = self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
             section.comments[:0] = [Comment(before=0, text=text) for text in texts]
-        blocks = given.get("blocks")
+        blocks = item.get("blocks")
         if not isinstance(blocks, list):
             self.faults.add((*path, "blocks"), "expected a list of blocks")
             return section
@@ -244,29 +244,29 @@ class _Reader:
         section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
         return read.model
 
-    def _block(self, section: str, given: object, path: DocumentPath) -> Block | Opaque | None:
-        if not isinstance(given, dict) or not isinstance(given.get("keyword"), str):
+    def _block(self, section: str, item: object, path: DocumentPath) -> Block | Opaque | None:
+        if not isinstance(item, dict) or not isinstance(item.get("keyword"), str):
             self.faults.add(path, "expected a block: an object with its keyword")
             return None
-        declared = None if "lines" in given else catalogue.block_class(section, given["keyword"])
-        if declared is None and "lines" not in given:
-            message = f"*{given['keyword']} in ${section} has no model: expected its raw lines under `lines`"
-            meant = catalogue.meant_in(given["keyword"], section)
-            declared = catalogue.block_class(section, meant) if meant else None
+        declared = None if "lines" in item else catalogue.block_class(section, item["keyword"])
+        if declared is None and "lines" not in item:
+            message = f"*{item['keyword']} in ${section} has no model: expected its raw lines under `lines`"
+            near = catalogue.meant_in(item["keyword"], section)
+            declared = catalogue.block_class(section, near) if near else None
             if declared is None:
                 self.faults.add(path, message)
                 return None
-            self.faults.respell((*path, "keyword"), f"{message}{hint(meant)}")
-            given = {**given, "keyword": meant}
+            self.faults.respell((*path, "keyword"), f"{message}{hint(near)}")
+            item = {**item, "keyword": near}
         try:
             if declared:
-                return declared.model_validate(given)
-            block = Opaque.model_validate(given)
+                return declared.model_validate(item)
+            block = Opaque.model_validate(item)
         except ValidationError as error:
-            if declared and (found := respelt(given, declared, error)):
-                for inner, message in found.faults:
+            if declared and (corrected := respelt(item, declared, error)):
+                for inner, message in corrected.faults:
                     self.faults.respell((*path, *inner), message)
-                return found.block
+                return corrected.block
             self.faults.extend(path, error)
             return None
         block.keyword = canonical_name("*" + block.keyword)
@@ -326,8 +326,8 @@ def json_schema() -> dict[str, Any]:
     """
     blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
-    made, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
-    references = {model: made[model, "validation"] for model in models}
+    schemas, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
+    references = {model: schemas[model, "validation"] for model in models}
     for block in blocks:
         definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
         definition["required"] = sorted({"keyword", *definition.get("required", [])})

@@ -37,16 +37,16 @@ class EditableDeck(Deck):
         else:
             expect(section, "section", str, "a str")
             sections = (section,)
-        found = chain.from_iterable(Deck.blocks(self, name, one) for one in sections)
-        return ((where, block) for where, block in found if isinstance(keyword, str) or type(block) is keyword)
+        blocks = chain.from_iterable(Deck.blocks(self, name, place) for place in sections)
+        return ((where, block) for where, block in blocks if isinstance(keyword, str) or type(block) is keyword)
 
     def one_of(self, keyword: str | type[Block], section: str | None) -> Any:
         """Return the only block of a keyword; raises UnknownNameError if there is none, ValueError for several."""
-        found = [block for _, block in self.all_of(keyword, section)]
+        blocks = [block for _, block in self.all_of(keyword, section)]
         name = _name_of(keyword)
-        if len(found) > 1:
-            raise ValueError(f"the deck has {len(found)} blocks of *{name}: go through deck.blocks({name!r})")
-        if not found:
+        if len(blocks) > 1:
+            raise ValueError(f"the deck has {len(blocks)} blocks of *{name}: go through deck.blocks({name!r})")
+        if not blocks:
             there = {block.keyword for each in self.sections for block in each.blocks}
             known = catalogue.sections_of(name) is not None
             near = "" if known else catalogue.suggest_keyword(name)
@@ -55,7 +55,7 @@ class EditableDeck(Deck):
                 if name in there
                 else f"the deck has no *{name}{hint(near)}"
             )
-        return found[0]
+        return blocks[0]
 
     def add(self, block: Block, section: str | None = None) -> None:
         """Add a block at the end of the last section where it belongs; the section is created if there is none.
@@ -66,18 +66,18 @@ class EditableDeck(Deck):
         belongs = type(block).sections
         if section is not None:
             expect_word(section, "section", belongs, f"{' or '.join(belongs)}, where *{block.keyword} belongs")
-        wanted = (section,) if section else belongs
-        found = next((one for one in reversed(self.own_sections) if one.name in wanted), None)
-        if found is None:
+        names = (section,) if section else belongs
+        target = next((item for item in reversed(self.own_sections) if item.name in names), None)
+        if target is None:
             order = catalogue.SECTIONS.index
             before = [
-                one.name in catalogue.SECTIONS and order(one.name) > order(wanted[0]) for one in self.own_sections
+                item.name in catalogue.SECTIONS and order(item.name) > order(names[0]) for item in self.own_sections
             ]
             at = before.index(True) if True in before else len(before)
-            found = Section(wanted[0])
-            self.sections.insert(at, found)
-            self.comments[:] = [_moved(one, 1) if one.before > at else one for one in self.comments]
-        found.blocks.append(block)
+            target = Section(names[0])
+            self.sections.insert(at, target)
+            self.comments[:] = [_moved(item, 1) if item.before > at else item for item in self.comments]
+        target.blocks.append(block)
 
     def remove(self, what: str | Block | Opaque) -> None:
         """Remove a block, or all blocks of a keyword; comments stay.
@@ -92,7 +92,7 @@ class EditableDeck(Deck):
                 block = section.blocks[number]
                 if block is what or block.keyword == keyword:
                     del section.blocks[number]
-                    section.comments[:] = [_moved(one, -1) if one.before > number else one for one in section.comments]
+                    section.comments[:] = [_moved(c, -1) if c.before > number else c for c in section.comments]
                     gone += 1
         if not gone and isinstance(what, str):
             raise UnknownNameError(f"the deck has no *{keyword}")

@@ -29,7 +29,7 @@ LabelNumbers = dict[tuple[Names | None, str], int]
 
 def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> LabelNumbers:
     """Return the labels that `*LABEL` defines; a label defined twice keeps its first number, and is a problem."""
-    found: LabelNumbers = {}
+    numbers: LabelNumbers = {}
     own = len(deck.own_sections)
     for where, block in deck.blocks("LABEL"):
         kind = Names.NODE
@@ -40,27 +40,27 @@ def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> La
             if number is None or not number.is_integer() or not line.label:
                 continue
             name = name_key(line.label)
-            if found.setdefault((kind, name), int(number)) != int(number) and where.section < own:
+            if numbers.setdefault((kind, name), int(number)) != int(number) and where.section < own:
                 thing = kind.name.lower()
                 message = (
-                    f"label {shown(line.label)} is that of {thing} {found[kind, name]} and of {thing} {int(number)}: "
+                    f"label {shown(line.label)} is that of {thing} {numbers[kind, name]} and of {thing} {int(number)}: "
                     "give one of them another label"
                 )
                 place = where.inside("labels", index, "label")
                 problems.append(Problem(REF007, message, where=place, blocks=Blocks.NEVER))
-    return found
+    return numbers
 
 
 def labels_given(deck: Deck, kind: Names) -> dict[str, str]:
     """Return the labels of nodes or of elements that `*LABEL` defines, as written, by their casefolded form."""
-    found: dict[str, str] = {}
+    labels: dict[str, str] = {}
     for _, block in deck.blocks("LABEL"):
         thing: str | None = Names.NODE.name
         for line in cast("Labels", block).labels:
             thing = line.thing or thing
             if thing == kind.name and line.label:
-                found.setdefault(name_key(line.label), bare(line.label))
-    return found
+                labels.setdefault(name_key(line.label), bare(line.label))
+    return labels
 
 
 def all_labels_read(deck: Deck) -> bool:
@@ -90,7 +90,7 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
     A missing value in `$MODEL` prevents the evaluation of the deck, even if its only cause is an unknown function,
     which is a warning. Values of other sections have no influence on the contact.
     """
-    copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
+    copies = [type(each)(each.name, [*each.blocks], each.comments, each.lines) for each in deck.sections]
     ready = EvaluatedDeck(replace(deck, sections=copies))
     labelled = "LABEL" in deck.keywords()
     plain = deck.origin.no_equations and not deck.bases and not labelled

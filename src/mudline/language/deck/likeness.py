@@ -55,14 +55,14 @@ class RawLines(NamedTuple):
         declared = catalogue.declared(near, section)
         if declared is None:
             kept = [catalogue.load_opaque(entry) for entry in catalogue.entries(near)]
-            keys = [key for one in kept for key in one.name_settings]
+            keys = [key for each in kept for key in each.name_settings]
             return not keys or any(first_key(self.text, leaf.span) in keys for leaf in self.raw.leaves)
-        found = read_block(
+        read = read_block(
             self.text, RawBlock(self.raw.head, near, self.raw.leaves, self.raw.older), declared, last=False
         )
         start = self.raw.head.span.start
-        places = (one.span.start for one in found.problems if one.span and one.weight is Severity.ERROR)
+        places = (each.span.start for each in read.problems if each.span and each.weight is Severity.ERROR)
         faults = len({self.text.count("\n", start, place) for place in places})
         data = [leaf for leaf in self.raw.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
         lines = sum(self.text.count("\n", *leaf.span) or 1 for leaf in data)
-        return not lines or 2 * max(faults, found.lost) < lines
+        return not lines or 2 * max(faults, read.lost) < lines

@@ -69,19 +69,19 @@ def coverage_of(deck: Deck) -> Coverage:
 
     The name of an unread keyword is followed by its section if a keyword of that name is read in another section.
     """
-    found = Coverage()
+    coverage = Coverage()
     for section in deck.own_sections:
         for block in section.blocks:
-            found.total += 1
+            coverage.total += 1
             if extent(block) == "read":
-                found.read += 1
+                coverage.read += 1
             else:
                 unread = type(block) is Opaque
-                names, name = found.unread if unread else found.partly, block.keyword
+                names, name = coverage.unread if unread else coverage.partly, block.keyword
                 if unread and is_read_somewhere(name):
                     name += f" in ${section.name}"
                 names[name] = names.get(name, 0) + 1
-    return found
+    return coverage
 
 
 def extent(block: Block | Opaque) -> str:

@@ -184,8 +184,8 @@ class Deck:
         from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
         blocks = [(section.name, block.keyword, block) for section in self.sections for block in section.blocks]
-        said = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)
-        rows = [(section, keyword, number, text) for (section, keyword, text), number in Counter(said).items()]
+        contents = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)
+        rows = [(section, keyword, number, text) for (section, keyword, text), number in Counter(contents).items()]
         errors = [counted(len(self.errors()), "error")] if self.errors() else []
         summary = ", ".join([self.file, self.units, *errors])
         return html_page(
@@ -220,8 +220,8 @@ class Deck:
         """Return the deck that a problem belongs to, and the problem in the terms of that deck."""
         if isinstance(problem, BaseProblem):
             return problem.deck, problem
-        found = self.base_of(problem.where)
-        return (found[0], replace(problem, where=found[1])) if found else (self, problem)
+        base = self.base_of(problem.where)
+        return (base[0], replace(problem, where=base[1])) if base else (self, problem)
 
     def place(self, problem: Problem) -> Range:
         """Return lines and columns of a problem, in the file that it belongs to."""
@@ -248,9 +248,9 @@ class Deck:
         Blocks of continued decks come first, so that the deck's own blocks override them. The caller knows the class of
         the keyword; it is not imported for a deck that lacks the keyword.
         """
-        for index, found in self._in_order():
-            if found.name == section:
-                for number, block in enumerate(found.blocks):
+        for index, holder in self._in_order():
+            if holder.name == section:
+                for number, block in enumerate(holder.blocks):
                     if block.keyword == keyword and type(block) is not Opaque:
                         yield Where(index, number), block
 
@@ -258,9 +258,9 @@ class Deck:
         """Return the modelled blocks whose declaration has a flag of `Facts`, in the order of `blocks`."""
         return [
             (Where(index, number), block)
-            for index, found in self._in_order()
-            if found.name == section
-            for number, block in enumerate(found.blocks)
+            for index, holder in self._in_order()
+            if holder.name == section
+            for number, block in enumerate(holder.blocks)
             if type(block) is not Opaque and getattr(block.facts, fact)  # type: ignore[union-attr]  # as above
         ]
 
@@ -295,15 +295,15 @@ class Deck:
     def keywords(self, section: str = "MODEL") -> set[str]:
         """Return the names of the keywords in the sections of a name."""
         expect(section, "section", str, "a str")
-        return {block.keyword for found in self.sections if found.name == section for block in found.blocks}
+        return {block.keyword for holder in self.sections if holder.name == section for block in holder.blocks}
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
         """Return problems as diagnostics, each in the file that it belongs to, in the order of the file."""
-        return sorted(map(self._diagnosed, problems), key=lambda found: found.sort_key)
+        return sorted(map(self._diagnosed, problems), key=lambda diagnostic: diagnostic.sort_key)
 
     def _diagnosed(self, problem: Problem) -> Diagnostic:
-        found = _diagnostic(*self._owned(problem))
-        return replace(found, following=tuple(self.diagnose(problem.following))) if problem.following else found
+        finding = _diagnostic(*self._owned(problem))
+        return replace(finding, following=tuple(self.diagnose(problem.following))) if problem.following else finding
 
     def require(self) -> Self:
         """Return the deck itself; raises DeckError if a part of it could not be read."""

@@ -177,7 +177,7 @@ class Parameters:
             definition = definitions[current]
             if definition.expression is None and not self._read(current, definition):
                 continue
-            waiting = [other for other in definition.used if other not in values]
+            waiting = [parameter for parameter in definition.used if parameter not in values]
             useless = not failed.isdisjoint(waiting)
             if waiting and not useless and open_names.isdisjoint(waiting):
                 open_names.add(current)
@@ -207,7 +207,7 @@ class Parameters:
             self._fail(name, reason.problem)
             return False
         used = [folded(use.name) for use in expression.name_spans]
-        definition.used = [other for other in used if other in self.definitions]
+        definition.used = [key for key in used if key in self.definitions]
         return True
 
     def _settle(self, name: str, definition: Definition) -> None:

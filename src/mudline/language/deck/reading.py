@@ -55,8 +55,8 @@ class Findings:
             return
         near = "" if catalogue.sections_of(name) else meant_section(name)
         instead_ = f"*{name}" if catalogue.sections_of(name) else f"${near}" if near else ""
-        meant = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
-        message = f"section ${name} is not known{meant}: it is passed through unchanged"
+        suggested = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
+        message = f"section ${name} is not known{suggested}: it is passed through unchanged"
         self._misspelt(SYN010, message, where, instead_, head)
 
     def no_model(self, keyword: str, section: str, where: Where, lines: RawLines, head: Span | None = None) -> None:
@@ -69,11 +69,11 @@ class Findings:
             if self._reports(SYN009, None, where):
                 near = lines.meant(keyword, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                meant = f"*{near}" if catalogue.entries(near) else ""
+                replacement = f"*{near}" if catalogue.entries(near) else ""
                 if keyword.startswith("*"):
                     message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
-                    meant = f"C {keyword.lstrip('* ')}"
-                self._misspelt(SYN009, message, where, meant, head)
+                    replacement = f"C {keyword.lstrip('* ')}"
+                self._misspelt(SYN009, message, where, replacement, head)
         elif (
             sections
             and section not in sections
@@ -86,10 +86,10 @@ class Findings:
             certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
             self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
 
-    def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
+    def _misspelt(self, code: Code, message: str, where: Where, replacement: str, head: Span | None) -> None:
         """Report an unknown name: a warning if a known name was probably meant."""
-        repair = instead(meant, head) if head else None
-        self.problems.append(Problem(code, message, None, Severity.WARNING if meant else None, where, repair))
+        repair = instead(replacement, head) if head else None
+        self.problems.append(Problem(code, message, None, Severity.WARNING if replacement else None, where, repair))
 
     def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
         """Report a block before the first section."""
@@ -199,8 +199,8 @@ class TextOrigin(Origin):
 
     def lost(self, section: int, block: int) -> int:
         """Return the number of lines of a block that could not be used at all."""
-        found = self.read.get((section, block))
-        return found.lost if found else 0
+        read = self.read.get((section, block))
+        return read.lost if read else 0
 
     def written(self, where: Where) -> bool:
         """Return True if the file contains exactly this value."""
@@ -210,7 +210,7 @@ class TextOrigin(Origin):
 
 def read_source(source: Source, *, units: str | None = None, read: BlockReader = read_block) -> Deck:
     """Return the deck of a keyword text, as far as it can be read; its faults are in `problems`."""
-    reader = _Reader(parse(source), read)
+    reader = _DeckReader(parse(source), read)
     return reader.read(units)
 
 
@@ -220,7 +220,7 @@ def _own_name(path: str) -> str:
     return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
 
 
-class _Reader:
+class _DeckReader:
     def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
         self.tree = tree
         self.read_block = read
@@ -251,14 +251,14 @@ class _Reader:
             self._stray(
                 preamble.leaves, "before the first section", title=bool(self.tree.sections) and not preamble.blocks
             )
-        if other := self._of_deeplines():
-            place = trimmed(self.text, *other.head.span)
+        if foreign := self._of_deeplines():
+            place = trimmed(self.text, *foreign.head.span)
             message = (
-                f"this seems to be a deck of DeepLines: it has *{other.name.split()[0]} and no $SECTION, and its "
+                f"this seems to be a deck of DeepLines: it has *{foreign.name.split()[0]} and no $SECTION, and its "
                 "values are separated by blanks; mudline does not read such decks"
             )
             self.problems.append(Problem(SYN007, message, place))
-        for block in preamble.blocks if not other else ():
+        for block in preamble.blocks if not foreign else ():
             self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
@@ -353,7 +353,7 @@ class _Reader:
 
     def _with_control_characters(self) -> None:
         """Name the control character in the message of a value that cannot be read because of it."""
-        for control in [one for one in self.problems if one.code is SYN012 and one.span]:
+        for control in [each for each in self.problems if each.code is SYN012 and each.span]:
             for index, problem in enumerate(self.problems):
                 span = problem.span
                 if problem.code is SYN002 and span and control.span and span.start <= control.span.start < span.end:
@@ -399,8 +399,8 @@ def gravity_of(deck: Deck) -> float | None:
 def _of_ocean(deck: Deck, name: str) -> float | None:
     """Return a value of the last `*OCEAN` that has it, evaluated; None if there is none."""
     parameters = Parameters(deck)
-    found: float | None = None
+    last: float | None = None
     for _, ocean in deck.blocks("OCEAN"):
         value = parameters.number(getattr(cast("Ocean", ocean), name))
-        found = value if value is not None else found
-    return found
+        last = value if value is not None else last
+    return last

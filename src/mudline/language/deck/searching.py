@@ -85,7 +85,7 @@ class _Rules(NamedTuple):
     def hides(self, path: str, *, folder: bool) -> bool | None:
         """Return True if a path from the searched directory is hidden; None if no pattern matches."""
         own = self.above + path[self.below :]
-        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
+        return next((not pattern.negated for pattern in self.patterns if pattern.fits(own, folder=folder)), None)
 
 
 @dataclass(slots=True, eq=False)
@@ -107,37 +107,37 @@ class Search:
         rules = {self.given: self._above() if self.gitignore else []}
         files: list[tuple[str, str]] = []
         for folder, folders, names in os.walk(self.given, onerror=self.unreadable.append):
-            found = rules.pop(folder)
+            applying = rules.pop(folder)
             inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
             start = f"{inside}/" if inside else ""
             shown = names
             if self.gitignore:
                 if GITIGNORE in names:
-                    found = [*self._read(Path(folder), "", len(start)), *found]
+                    applying = [*self._read(Path(folder), "", len(start)), *applying]
                 folders[:] = [
-                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
+                    name for name in folders if name != ".git" and not self._hides(applying, start + name, folder=True)
                 ]
-                if found:
-                    shown = [name for name in names if not self._hides(found, start + name, folder=False)]
-            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
+                if applying:
+                    shown = [name for name in names if not self._hides(applying, start + name, folder=False)]
+            rules.update((os.path.join(folder, name), applying) for name in folders)  # noqa: PTH118 - as os.walk does
             path = str(PurePath(folder, "-"))[:-1]
             files += ((start + name, path + name) for name in shown if taken(path + name))
         return sorted(files, key=lambda file: os.path.normcase(file[0]).split(os.sep))  # noqa: PTH206 - many files
 
     def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
-        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
-        self.hidden |= said
-        return said
+        hidden = next((hides for rule in rules if (hides := rule.hides(path, folder=folder)) is not None), False)
+        self.hidden |= hidden
+        return hidden
 
     def _above(self) -> list[_Rules]:
         """Return the rules of the folders above the directory, the nearest first."""
         here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
-        found: list[_Rules] = []
+        rules: list[_Rules] = []
         for folder in (here, *here.parents):
             if folder != here:
-                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
+                rules += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
             if (folder / ".git").exists():
-                return found
+                return rules
         return []
 
     def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:

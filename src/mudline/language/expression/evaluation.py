@@ -24,18 +24,18 @@ from mudline.basics.limits import LONGEST_TEXT
 from mudline.language.diagnostics import Span
 from mudline.language.expression.nodes import (
     LEAVES,
+    Brackets,
     Call,
-    Chain,
-    Comparison,
     EvaluationError,
     Expression,
-    Group,
     Logical,
     Name,
     Node,
     Number,
+    OperatorChain,
     Power,
     Prefix,
+    Relation,
     Text,
     UndefinedName,
     UnknownFunction,
@@ -47,7 +47,7 @@ CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class Signature:
     """Signature of a function; `most` None means any number of arguments."""
 
     name: str
@@ -70,7 +70,7 @@ class Form:
 
 
 @dataclass(frozen=True, slots=True)
-class Function(Form):
+class Function(Signature):
     """Function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
 
     call: Callable[..., float]
@@ -131,11 +131,11 @@ FUNCTIONS: Final = _table(
 )
 """Functions of numbers by their names in lower case; equations call them in any case."""
 
-FORMS: Final[Mapping[str, Form]] = MappingProxyType(
+FORMS: Final[Mapping[str, Signature]] = MappingProxyType(
     {
-        "and": Form("and", 1, None, "1 if no argument is 0, else 0; stops at the first that is 0"),
-        "if": Form("if", 3, 3, "if(condition, a, b): a if the condition is not 0, else b; the other is not evaluated"),
-        "or": Form("or", 1, None, "0 if every argument is 0, else 1; stops at the first that is not 0"),
+        "and": Signature("and", 1, None, "1 if no argument is 0, else 0; stops at the first that is 0"),
+        "if": Signature("if", 3, 3, "if(condition, a, b): a if the condition is not 0, else b; only that is evaluated"),
+        "or": Signature("or", 1, None, "0 if every argument is 0, else 1; stops at the first that is not 0"),
     },
 )
 """Functions that evaluate only the arguments they need, by name in lower case."""
@@ -160,7 +160,7 @@ _ORDER: Final[Mapping[str, Callable[[float, float], bool]]] = {
 }
 
 
-class Operand(NamedTuple):
+class EvaluatedPart(NamedTuple):
     """Value, and the part of the equation it came from."""
 
     value: Value
@@ -179,7 +179,7 @@ class Operand(NamedTuple):
         return self.number != 0.0
 
 
-def _across(left: Operand, right: Operand) -> Span:
+def _across(left: EvaluatedPart, right: EvaluatedPart) -> Span:
     return Span(left.span.start, right.span.end)
 
 
@@ -190,15 +190,15 @@ def finite(value: float, span: Span) -> float:
     return value
 
 
-def arithmetic(operator: str, left: Operand, right: Operand) -> Operand:
+def arithmetic(operator: str, left: EvaluatedPart, right: EvaluatedPart) -> EvaluatedPart:
     """Return the sum, difference, product or quotient of two numbers; + also joins two texts."""
     whole = _across(left, right)
     if operator == "+" and isinstance(left.value, str) and isinstance(right.value, str):
-        return Operand(_joined(left.value, right.value, whole), whole)
+        return EvaluatedPart(_joined(left.value, right.value, whole), whole)
     a, b = left.number, right.number
     if operator == "/" and b == 0.0:
         raise EvaluationError("division by zero", *right.span)
-    return Operand(finite(ARITHMETIC[operator](a, b), whole), whole)
+    return EvaluatedPart(finite(ARITHMETIC[operator](a, b), whole), whole)
 
 
 def _joined(left: str, right: str, span: Span) -> str:
@@ -207,7 +207,7 @@ def _joined(left: str, right: str, span: Span) -> str:
     return left + right
 
 
-def power(base: Operand, exponent: Operand) -> float:
+def power(base: EvaluatedPart, exponent: EvaluatedPart) -> float:
     """Return a number to the power of another."""
     a, b = base.number, exponent.number
     whole = _across(base, exponent)
@@ -220,7 +220,7 @@ def power(base: Operand, exponent: Operand) -> float:
         raise EvaluationError(reason, *whole) from None
 
 
-def compare(operator: str, left: Operand, right: Operand) -> float:
+def compare(operator: str, left: EvaluatedPart, right: EvaluatedPart) -> float:
     """Return 1 if the comparison holds, else 0; texts are equal or not, without regard to case."""
     if isinstance(left.value, str) and isinstance(right.value, str):
         if operator not in {"=", "<>"}:
@@ -229,7 +229,7 @@ def compare(operator: str, left: Operand, right: Operand) -> float:
     return float(_ORDER[operator](left.number, right.number))
 
 
-def apply(function: Function, arguments: Sequence[Operand], span: Span) -> float:
+def apply(function: Function, arguments: Sequence[EvaluatedPart], span: Span) -> float:
     """Return the value of a function; the number of arguments has been checked."""
     values = [argument.number for argument in arguments]
     try:
@@ -285,11 +285,11 @@ def _steps(node: Node, lookup: Lookup) -> Steps:
     match node:
         case Number() | Text() | Name():
             return _leaf(node, lookup)
-        case Group():
+        case Brackets():
             return (yield node.inner)
-        case Prefix() | Power() | Comparison():
+        case Prefix() | Power() | Relation():
             return (yield from _operation(node))
-        case Chain():
+        case OperatorChain():
             return (yield from _chain(node, lookup))
         case Logical():
             return (yield from _logical(node.operator, node.operands))
@@ -322,34 +322,34 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
     return float(value)
 
 
-def _operation(node: Prefix | Power | Comparison) -> Steps:
+def _operation(node: Prefix | Power | Relation) -> Steps:
     if isinstance(node, Prefix):
-        return _prefixed(node.operator, Operand((yield node.operand), node.operand.span))
+        return _prefixed(node.operator, EvaluatedPart((yield node.operand), node.operand.span))
     first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
-    left = Operand((yield first), first.span)
-    right = Operand((yield second), second.span)
+    left = EvaluatedPart((yield first), first.span)
+    right = EvaluatedPart((yield second), second.span)
     return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)
 
 
-def _prefixed(operator: str, operand: Operand) -> float:
+def _prefixed(operator: str, operand: EvaluatedPart) -> float:
     if operator == "not":
         return float(not operand.truth)
     return -operand.number if operator == "-" else operand.number
 
 
-def _chain(node: Chain, lookup: Lookup) -> Steps:
-    total: Operand | None = None
+def _chain(node: OperatorChain, lookup: Lookup) -> Steps:
+    total: EvaluatedPart | None = None
     for operator, part in zip(("", *node.operators), node.operands, strict=True):
         value = _leaf(part, lookup) if isinstance(part, LEAVES) else (yield part)
-        operand = Operand(value, part.span)
+        operand = EvaluatedPart(value, part.span)
         total = operand if total is None else arithmetic(operator, total, operand)
-    return cast("Operand", total).value
+    return cast("EvaluatedPart", total).value
 
 
 def _logical(operator: str, operands: Sequence[Node]) -> Steps:
     decisive = operator == "or"
     for operand in operands:
-        if Operand((yield operand), operand.span).truth is decisive:
+        if EvaluatedPart((yield operand), operand.span).truth is decisive:
             return float(decisive)
     return float(not decisive)
 
@@ -363,10 +363,10 @@ def _call(node: Call) -> Steps:
         raise EvaluationError(f"{name} needs {form.wants}, found {len(node.arguments)}", *node.span)
     if name == "if":
         condition, then, otherwise = node.arguments
-        return (yield then if Operand((yield condition), condition.span).truth else otherwise)
+        return (yield then if EvaluatedPart((yield condition), condition.span).truth else otherwise)
     if name in FORMS:
         return (yield from _logical(name, node.arguments))
     arguments = []
     for argument in node.arguments:
-        arguments.append(Operand((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
+        arguments.append(EvaluatedPart((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
     return apply(FUNCTIONS[name], arguments, node.span)

@@ -70,7 +70,7 @@ class Name(NamedTuple):
     name: str
 
 
-class Group(NamedTuple):
+class Brackets(NamedTuple):
     """Part in brackets; the span includes the brackets."""
 
     span: Span
@@ -93,7 +93,7 @@ class Power(NamedTuple):
     exponent: Node
 
 
-class Comparison(NamedTuple):
+class Relation(NamedTuple):
     """Comparison of two parts; the operator is one of < <= > >= = <>."""
 
     span: Span
@@ -102,7 +102,7 @@ class Comparison(NamedTuple):
     right: Node
 
 
-class Chain(NamedTuple):
+class OperatorChain(NamedTuple):
     """Operands joined from left to right by + and -, or by * and /: one operator less than operands."""
 
     span: Span
@@ -127,7 +127,7 @@ class Call(NamedTuple):
     arguments: tuple[Node, ...]
 
 
-Node = Number | Text | Name | Group | Prefix | Power | Comparison | Chain | Logical | Call
+Node = Number | Text | Name | Brackets | Prefix | Power | Relation | OperatorChain | Logical | Call
 
 LEAVES = (Number, Text, Name)
 """Kinds of parts that have no inner parts."""

@@ -15,19 +15,19 @@ from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput
 from mudline.basics.limits import DEEPEST, LONGEST_EQUATION
 from mudline.language.diagnostics import Span
 from mudline.language.expression.nodes import (
+    Brackets,
     Call,
-    Chain,
-    Comparison,
     Expression,
     ExpressionError,
-    Group,
     Logical,
     Name,
     NameSpan,
     Node,
     Number,
+    OperatorChain,
     Power,
     Prefix,
+    Relation,
     Text,
     shorten,
 )
@@ -90,8 +90,8 @@ class _Nodes(Transformer[Token, Node]):
     def name(self, token: Token) -> Name:
         return Name(_span(token), str(token))
 
-    def group(self, opening: Token, inner: Node, closing: Token) -> Group:
-        return Group(_span(opening, closing), inner)
+    def group(self, opening: Token, inner: Node, closing: Token) -> Brackets:
+        return Brackets(_span(opening, closing), inner)
 
     def call(self, name: Token, _opening: Token, *others: Node | Token) -> Call:
         return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1]))
@@ -102,12 +102,12 @@ class _Nodes(Transformer[Token, Node]):
     def power(self, base: Node, _operator: Token, exponent: Node) -> Power:
         return Power(_span(base, exponent), base, exponent)
 
-    def comparison(self, left: Node, operator: Token, right: Node) -> Comparison:
-        return Comparison(_span(left, right), SAME_OPERATOR.get(operator, str(operator)), left, right)
+    def comparison(self, left: Node, operator: Token, right: Node) -> Relation:
+        return Relation(_span(left, right), SAME_OPERATOR.get(operator, str(operator)), left, right)
 
-    def chain(self, *parts: Node | Token) -> Chain:
+    def chain(self, *parts: Node | Token) -> OperatorChain:
         operators = tuple(str(token) for token in parts[1::2])
-        return Chain(_span(parts[0], parts[-1]), operators, cast("tuple[Node, ...]", parts[::2]))
+        return OperatorChain(_span(parts[0], parts[-1]), operators, cast("tuple[Node, ...]", parts[::2]))
 
     def logical(self, *parts: Node | Token) -> Logical:
         operator = str(parts[1]).lower()
@@ -141,13 +141,13 @@ def _nodes(text: str, root: Node) -> Iterator[Node]:
 def _parts(node: Node) -> list[tuple[Node, bool, int]]:
     """Return the inner parts of a node: part, True if a level deeper, offset from which its opening follows."""
     match node:
-        case Group(inner=part) | Prefix(operand=part):
+        case Brackets(inner=part) | Prefix(operand=part):
             return [(part, True, node.span.start)]
         case Power():
             return [(node.base, False, 0), (node.exponent, True, node.base.span.end)]
-        case Comparison():
+        case Relation():
             return [(node.left, False, 0), (node.right, False, 0)]
-        case Chain() | Logical():
+        case OperatorChain() | Logical():
             return [(part, False, 0) for part in node.operands]
         case Call(arguments=parts):
             before = [node.name_span.end, *(part.span.end for part in parts)]

@@ -132,10 +132,10 @@ def _fields(at: int, line: str, block: dict[str, Any]) -> Iterator[Found]:
             yield at + here - 1, Operator, "="
             choices = block.get("settings", {}).get(_key(key[2]), [])
         slashed = _SLASHED.match(line, here) if block.get("slashes") else None
-        found = slashed or _FIELD.match(line, here)
-        if found:
-            yield from _field(at + here, found[0], choices)
-            here = found.end()
+        field = slashed or _FIELD.match(line, here)
+        if field:
+            yield from _field(at + here, field[0], choices)
+            here = field.end()
         if here < len(line):
             yield at + here, Punctuation if line[here] == "," else Text.Whitespace, line[here]
             here += 1

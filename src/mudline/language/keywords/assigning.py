@@ -32,29 +32,29 @@ def assign(part: BaseModel, name: str, value: Any, schema: Callable[..., Any], p
     if name not in kind.model_fields:
         near = nearest(name, kind.model_fields)
         raise ValueError(f"{kind.__name__} has no field {name!r}{f': did you mean {near}?' if near else ''}")
-    given, kept, known = plain(value), dict(part.__dict__), set(part.model_fields_set)
+    plain_value, kept, known = plain(value), dict(part.__dict__), set(part.model_fields_set)
     slot = next((slot for slot in schema(kind).slots if slot.name == name), None)
-    if slot and slot.row and not (slot.many or slot.columns) and isinstance(given, list):
+    if slot and slot.row and not (slot.many or slot.columns) and isinstance(plain_value, list):
         columns = [column.json for column in schema(slot.row).columns]
-        if len(given) > len(columns):
-            raise ValueError(f"{kind.__name__}.{name}: {len(given)} values, at most {len(columns)} expected")
-        given = dict(zip(columns, given, strict=False))
+        if len(plain_value) > len(columns):
+            raise ValueError(f"{kind.__name__}.{name}: {len(plain_value)} values, at most {len(columns)} expected")
+        plain_value = dict(zip(columns, plain_value, strict=False))
     try:
-        put(name, given)
+        put(name, plain_value)
     except ValidationError as error:
         object.__setattr__(part, "__dict__", kept)
         object.__setattr__(part, "__pydantic_fields_set__", known)
         expected = slot.kind.value if slot and slot.kind and not slot.choices else ""
-        raise _refusal(kind.__name__, {name: given}, error, expected) from None
+        raise _refusal(kind.__name__, {name: plain_value}, error, expected) from None
 
 
 def _refusal(name: str, value: object, error: ValidationError, expected: str = "") -> ValueError:
     """Return the error of a value that cannot be assigned: path and `expected` value of the first fault."""
-    found: dict[tuple[str | int, ...], list[ErrorDetails]] = {}
+    by_path: dict[tuple[str | int, ...], list[ErrorDetails]] = {}
     for fault in error.errors(include_url=False):
         lacking = fault["loc"][-1:] if fault["type"] == "missing" else ()
-        found.setdefault((*path_in(value, fault["loc"]), *lacking), []).append(fault)
-    path, faults = next(iter(found.items()))
+        by_path.setdefault((*path_in(value, fault["loc"]), *lacking), []).append(fault)
+    path, faults = next(iter(by_path.items()))
     return ValueError(f"{path_text((name, *path))}: {fault_in_words(faults, expected)}")
 
 
@@ -64,24 +64,24 @@ class ListOf(NamedTuple):
     part: type[BaseModel]
     name: str
 
-    def by_parts(self, given: object, check: core_schema.ValidatorFunctionWrapHandler) -> ValidatedList:
+    def by_parts(self, values: object, check: core_schema.ValidatorFunctionWrapHandler) -> ValidatedList:
         """Return all entries, or raise the faults of the first chunk with any. The input may be a generator."""
-        made = ValidatedList()
-        made.of = self
-        if not isinstance(given, Iterator) and not (isinstance(given, list) and len(given) > _ENTRIES_AT_ONCE):
-            list.extend(made, check(given))
-            return made
-        entries: Iterator[object] = iter(given)
+        validated = ValidatedList()
+        validated.of = self
+        if not isinstance(values, Iterator) and not (isinstance(values, list) and len(values) > _ENTRIES_AT_ONCE):
+            list.extend(validated, check(values))
+            return validated
+        entries: Iterator[object] = iter(values)
         while part := list(islice(entries, _ENTRIES_AT_ONCE)):
             try:
-                list.extend(made, check(part))
+                list.extend(validated, check(part))
             except ValidationError as error:
-                start = len(made)
+                start = len(validated)
                 moved = [_moved(fault, start) for fault in error.errors(include_url=False)]
                 if any(True for _ in entries):
                     moved.append(InitErrorDetails(type=_UNCHECKED, loc=(start + _ENTRIES_AT_ONCE,), input=None))
                 raise ValidationError.from_exception_data(error.title, moved) from error
-        return made
+        return validated
 
 
 class ValidatedList(list[Any]):
@@ -99,13 +99,13 @@ class ValidatedList(list[Any]):
         if not isinstance(at, str):
             return super().__getitem__(at)
         names = [entry.known_as() if hasattr(entry, "known_as") else None for entry in self]
-        found = [
+        indices = [
             index for index, name in enumerate(names) if isinstance(name, str) and name.casefold() == at.casefold()
         ]
-        if len(found) == 1:
-            return super().__getitem__(found[0])
-        if found:
-            raise UnknownNameError(f"{at!r} is the name of {len(found)} entries: take one by its index, of {found}")
+        if len(indices) == 1:
+            return super().__getitem__(indices[0])
+        if indices:
+            raise UnknownNameError(f"{at!r} is the name of {len(indices)} entries: take one by its index, of {indices}")
         raise UnknownNameError.among("entry", at, [name for name in names if isinstance(name, str)])
 
     def __setitem__(self, at: Any, value: Any) -> None:
@@ -128,11 +128,11 @@ class ValidatedList(list[Any]):
         super().insert(at, self._valid([value])[0])
 
     def _valid(self, values: Iterable[Any]) -> list[Any]:
-        given = plain(list(values))
+        entries = plain(list(values))
         try:
-            return cast("list[Any]", _entries(self.of).validate_python(given))
+            return cast("list[Any]", _entries(self.of).validate_python(entries))
         except ValidationError as error:
-            raise _refusal(f"{self.of.part.__name__}.{self.of.name}", given, error) from None
+            raise _refusal(f"{self.of.part.__name__}.{self.of.name}", entries, error) from None
 
 
 if TYPE_CHECKING:
@@ -158,9 +158,9 @@ else:
 
 
 def _filled(of: ListOf, entries: list[Any]) -> ValidatedList:
-    made = ValidatedList(entries)
-    made.of = of
-    return made
+    filled = ValidatedList(entries)
+    filled.of = of
+    return filled
 
 
 @cache
@@ -172,17 +172,17 @@ def _entries(of: ListOf) -> TypeAdapter[Any]:
 
 def checked_by_parts(schema: CoreSchema, part: type[BaseModel], name: str = "") -> CoreSchema:
     """Return the schema of a model whose own lists are validated in chunks; inner models have limits of their own."""
-    found = cast("dict[str, Any]", schema)
-    if found["type"] == "list":
+    core = cast("dict[str, Any]", schema)
+    if core["type"] == "list":
         return core_schema.no_info_wrap_validator_function(ListOf(part, name).by_parts, schema)
-    if name and found["type"] in ("model", "function-wrap"):
+    if name and core["type"] in ("model", "function-wrap"):
         return schema
-    if found["type"] == "default" and found.get("default") == [] and found["schema"]["type"] == "list":
-        found["validate_default"] = True
-    if "schema" in found:
-        found["schema"] = checked_by_parts(found["schema"], part, name)
-    if found["type"] == "model-fields":
-        for key, field in found["fields"].items():
+    if core["type"] == "default" and core.get("default") == [] and core["schema"]["type"] == "list":
+        core["validate_default"] = True
+    if "schema" in core:
+        core["schema"] = checked_by_parts(core["schema"], part, name)
+    if core["type"] == "model-fields":
+        for key, field in core["fields"].items():
             field["schema"] = checked_by_parts(field["schema"], part, key)
     return schema
 

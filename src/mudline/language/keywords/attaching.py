@@ -123,7 +123,7 @@ def of_other_form(
     table.
     """
     starts = [content.span.start for content in contents]
-    found: set[Content] = set()
+    possible: set[Content] = set()
     certain: set[Content] = set()
     for problem in problems:
         at = bisect_right(starts, problem.span.start) - 1 if problem.span else -1
@@ -132,8 +132,8 @@ def of_other_form(
         if problem.code is SYN015:
             certain.add(contents[at])
         elif problem.weight is Severity.ERROR and _may_be(problem, text, contents[at]):
-            found.add(contents[at])
-    return found - certain
+            possible.add(contents[at])
+    return possible - certain
 
 
 def _may_be(problem: Problem, text: str, content: Content) -> bool:

@@ -32,7 +32,7 @@ from mudline.language.keywords.text import (
 )
 from mudline.language.keywords.unknown import UNKNOWN, Partly
 from mudline.language.keywords.values import Kind, Label, Names
-from mudline.language.syntax.fields import Field, Group, read_line, split, trimmed
+from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
 from mudline.language.syntax.rows import blank_separated, row_starts
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
@@ -59,11 +59,11 @@ class Builder:
     def build(self, part: type[Record], node: Node, last: object = None) -> ParsedRecord:
         """Return a record; `last` is the value of the sticky field in the records before it."""
         built = ParsedRecord(part)
-        found = record_schema(part)
+        schema = record_schema(part)
         row_number = 0
         for child in node.children:
             if isinstance(child, Tree):
-                self._child(built, found.children[child.data], child)
+                self._child(built, schema.children[child.data], child)
                 continue
             if built.last is None:
                 built.opening = child.span
@@ -72,8 +72,8 @@ class Builder:
                 row_number += 1
             else:
                 self._settings(built, child)
-        if found.table and found.table.required:
-            built.tables.setdefault(found.table.json, TableBuilder(found.table.columns))
+        if schema.table and schema.table.required:
+            built.tables.setdefault(schema.table.json, TableBuilder(schema.table.columns))
         for name, table in built.tables.items():
             built.values[name] = table.finish()
         return built
@@ -129,10 +129,10 @@ class Builder:
         self._groups(built, line.groups)
         built.reach(content.span.start)
 
-    def _groups(self, built: ParsedRecord, groups: list[Group]) -> None:
+    def _groups(self, built: ParsedRecord, groups: list[FieldGroup]) -> None:
         """Read the settings of a line."""
-        found = record_schema(built.part)
-        first = found.keys.get(groups[0].key) if groups else None
+        schema = record_schema(built.part)
+        first = schema.keys.get(groups[0].key) if groups else None
         if (
             first
             and first.kind is _OTHER
@@ -144,24 +144,24 @@ class Builder:
             self._rest_of_line(built, first, groups)
             return
         for group in groups:
-            slot = found.keys.get(group.key)
+            slot = schema.keys.get(group.key)
             if slot and slot.json in built.values:  # a key that may stand twice has a field for each
-                slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
+                slot = next((s for s in schema.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
-                self._unknown_key(group, found.keys)
+                self._unknown_key(group, schema.keys)
             elif slot.json in built.values:
                 self.report(SYN001, f"{group.key}= is given twice", group.span)
             else:
                 self._setting(built, slot, group)
 
-    def _unknown_key(self, group: Group, known: Iterable[str]) -> None:
+    def _unknown_key(self, group: FieldGroup, known: Iterable[str]) -> None:
         near = nearest(group.key, known)
         expected = ", ".join(f"{key}=" for key in known)
         message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
         key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
         self.report(SYN004, message, group.span, instead(near, key))
 
-    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> bool:
+    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[FieldGroup]) -> bool:
         """Read a line whose setting announces an unknown form: all text after its key is one value."""
         fields = groups[0].fields
         if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
@@ -173,20 +173,20 @@ class Builder:
         self._rest_of_line(built, slot, groups)
         return True
 
-    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> None:
+    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[FieldGroup]) -> None:
         """Read all text after the key of a setting as its value."""
         start = self.text.index("=", groups[0].span.start) + 1
         whole = trimmed(self.text, start, groups[-1].span.end)
         built.written.append(Written(slot.json, whole, (), ()))
         built.values[slot.json] = self.text[slice(*whole)]
 
-    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group) -> None:
+    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: FieldGroup) -> None:
         fields = group.fields
         if slot.row and not _alone(slot, fields):
             self.lost += issubclass(slot.row, ListRow) and built.unsure
             self._inner_row(built, slot, fields, group.span)
             return
-        if slot.many and any(given.text for given in fields):
+        if slot.many and any(field.text for field in fields):
             self._list(built, slot, fields, group.span)
             return
         while len(fields) > 1 and not fields[-1].text:
@@ -224,18 +224,18 @@ class Builder:
 
     def _row(self, built: ParsedRecord, content: Content, last: object, number: int) -> None:
         """Read a row, or a run of rows that is a table."""
-        found = record_schema(built.part)
+        schema = record_schema(built.part)
         start, count = content.span.start, 1
-        if built.unchosen and sum(column.row is not None for column in found.columns) > 1:
+        if built.unchosen and sum(column.row is not None for column in schema.columns) > 1:
             built.reach(start)
             return
-        behind: list[Group] = []
-        if found.table and not found.columns:
-            slot, fields = found.table, list[Field]()
+        behind: list[FieldGroup] = []
+        if schema.table and not schema.columns:
+            slot, fields = schema.table, list[Field]()
         else:
-            fields, behind = self._cut(built, content.span, keys=bool(found.keys))
+            fields, behind = self._cut(built, content.span, keys=bool(schema.keys))
             slot = self._slot_of_row(built, number, len(fields), last)
-        if slot is found.table:
+        if slot is schema.table:
             builder = built.tables.setdefault(slot.json, TableBuilder(slot.columns))
             table, faulty = builder.add(self.text, content.span)
             count = len(table)
@@ -260,18 +260,18 @@ class Builder:
                 break
             before = len(self.problems)
             values, _ = self._fields(columns, self._cut(built, line, keys=False)[0], line)
-            if any(one.code not in (SYN002, SYN016) for one in self.problems[before : before + 1]):
+            if any(problem.code not in (SYN002, SYN016) for problem in self.problems[before : before + 1]):
                 del self.problems[before + 1 :]  # of a row that is cut wrongly nothing more is said
             labels = ((at, value) for at, value in enumerate(values.values()) if isinstance(value, Label))
             table.words.update(((row, at), label) for at, label in labels)
 
-    def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[Group]]:
+    def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[FieldGroup]]:
         """Return the fields of a row, and the settings after them if the record has `keys`."""
-        behind: list[Group] = []
+        behind: list[FieldGroup] = []
         if keys:
             line = read_line(self.text, span, slashes=self.slashes)
             problems = line.problems
-            fields = [given for group in line.groups if not group.key for given in group.fields]
+            fields = [field for group in line.groups if not group.key for field in group.fields]
             behind = [group for group in line.groups if group.key]
         else:
             fields, problems = split(self.text, span, slashes=self.slashes)
@@ -285,24 +285,24 @@ class Builder:
     @staticmethod
     def _slot_of_row(built: ParsedRecord, number: int, count: int, last: object) -> FieldSpec:
         """Return the field that a row fills, or the first of several."""
-        found = record_schema(built.part)
-        if len(found.row_names) == 1:
-            return found.columns[0] if found.columns else cast("FieldSpec", found.table)
+        schema = record_schema(built.part)
+        if len(schema.row_names) == 1:
+            return schema.columns[0] if schema.columns else cast("FieldSpec", schema.table)
         name = built.part.row_slot(number, count, built.known, last)
-        return next(slot for slot in found.slots if slot.name == name)
+        return next(slot for slot in schema.slots if slot.name == name)
 
     def _fill(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], line: Span) -> None:
         """Read the fields of a row."""
-        found = record_schema(built.part)
+        schema = record_schema(built.part)
         if slot.row and slot.json in built.values:
-            wanted = record_schema(slot.row).wanted
-            self.report(SYN001, f"one line only has its place here (`{wanted}`): remove it, or the one above", line)
+            expected = record_schema(slot.row).layout
+            self.report(SYN001, f"one line only has its place here (`{expected}`): remove it, or the one above", line)
         elif slot.row:
             self._inner_row(built, slot, fields, line)
         elif slot.many:
             self._list(built, slot, fields, None)
-        elif len(found.columns) == 1 or not any(column.row for column in found.columns):
-            self._columns(built, found.columns, fields, line)
+        elif len(schema.columns) == 1 or not any(column.row for column in schema.columns):
+            self._columns(built, schema.columns, fields, line)
         elif slot.json in built.values:
             self.report(SYN001, f"{slot.label} is given twice", fields[0].span)
         else:
@@ -335,18 +335,18 @@ class Builder:
         before = len(self.problems)
         fields = self._counted(columns, fields, line)
         # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
-        wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
+        wrong = any(problem.weight is Severity.ERROR for problem in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
-        for slot, given in zip(columns, fields, strict=False):
-            if not given.text:
+        for slot, field in zip(columns, fields, strict=False):
+            if not field.text:
                 if slot.required and not miscounted:
                     expected = f": expected {slot.kind.value}" if slot.kind else ""
-                    self.short(f"{slot.label} is missing{expected}", given.span)
+                    self.short(f"{slot.label} is missing{expected}", field.span)
                 values[slot.json] = UNKNOWN if slot.required else None
                 continue
             try:
-                value = read_value(given, slot, self.problems)
+                value = read_value(field, slot, self.problems)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 value = UNKNOWN
@@ -368,7 +368,7 @@ class Builder:
             return fields[:1]
         if len(columns) > 1 and (problem := missing_comma(fields, [slot.kind for slot in columns], fewest)):
             self.problems.append(problem)
-            return [one for one in fields[:1] if one.span != problem.span]
+            return [field for field in fields[:1] if field.span != problem.span]
         if fewest <= len(fields) <= len(columns):
             if len(fields) >= MIXED_FIELDS and (
                 problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)
@@ -380,9 +380,9 @@ class Builder:
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)
             return fields[: len(columns)]
-        wanted = row_format([slot.label for slot in columns], required)
+        expected = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
-        message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
+        message = f"{count} fields expected (`{expected}`), found {len(fields)}"
         span = Span(fields[0].span.start, fields[-1].span.end) if fields else line
         if len(fields) < fewest:
             self.short(message, span)
@@ -390,10 +390,10 @@ class Builder:
             self.report(SYN003, message, span)
         return fields[: len(columns)]
 
-    def _apart(self, given: Field) -> list[Field]:
-        start = given.span.start
+    def _apart(self, field: Field) -> list[Field]:
+        start = field.span.start
         fields: list[Field] = []
-        for word in given.text.split():
+        for word in field.text.split():
             start = self.text.index(word, start)
             fields.append(Field(word, start))
             start += len(word)
@@ -405,10 +405,10 @@ class Builder:
             fields.pop()
         values: list[Value] = []
         read: list[Field] = []
-        for given in fields:
+        for field in fields:
             try:
-                values.append(read_value(given, slot, self.problems))
-                read.append(given)
+                values.append(read_value(field, slot, self.problems))
+                read.append(field)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 values = Partly(values)
@@ -426,6 +426,6 @@ def _value_of(slot: FieldSpec) -> str:
 
 def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
     """Return True if a setting that may hold a row holds a single word or number."""
-    if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
+    if not (slot.choices or slot.kind) or any(field.text for field in fields[1:]):
         return False
     return not blank_separated(fields[0].text)

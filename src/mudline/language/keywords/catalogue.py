@@ -52,10 +52,10 @@ _LIBRARY = "mudline.language.keywords.library"
 @cache
 def _by_keyword() -> dict[str, list[Entry]]:
     """Return the entries of the index by keyword: one for each declaration of the keyword."""
-    found: dict[str, list[Entry]] = {}
+    by_keyword: dict[str, list[Entry]] = {}
     for entry in index.ENTRIES:
-        found.setdefault(entry.keyword, []).append(entry)
-    return found
+        by_keyword.setdefault(entry.keyword, []).append(entry)
+    return by_keyword
 
 
 def entries(keyword: str) -> list[Entry]:
@@ -117,26 +117,26 @@ def block_classes() -> list[type[Block]]:
 
 def in_order(keywords: Iterable[str]) -> list[str]:
     """Return the keywords that the index contains, in the order of the catalogue."""
-    given = set(keywords)
-    return [keyword for keyword in _by_keyword() if keyword in given]
+    chosen = set(keywords)
+    return [keyword for keyword in _by_keyword() if keyword in chosen]
 
 
 @lru_cache(_ASKED)
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """Return the sections where a keyword belongs; () if not confirmed, None for an unknown keyword."""
-    found = entries(keyword)
-    if not found and keyword not in NAMES:
+    declared_entries = entries(keyword)
+    if not declared_entries and keyword not in NAMES:
         return None
-    if any(entry.sections_inferred for entry in found):
+    if any(entry.sections_inferred for entry in declared_entries):
         return ()
-    sections = [section for entry in found for section in entry.sections]
+    sections = [section for entry in declared_entries for section in entry.sections]
     return tuple(dict.fromkeys([*sections, *NAMES.get(keyword, ())]))
 
 
 def facts_of(keyword: str, section: str = "") -> Facts:
     """Return the facts declared for a keyword; empty facts if its lines are not read."""
-    found = declared(keyword, section)
-    return found.facts if found else Block.facts
+    block = declared(keyword, section)
+    return block.facts if block else Block.facts
 
 
 def has_certain_section(keyword: str) -> bool:
@@ -151,8 +151,8 @@ def may_give(keyword: str, section: str, what: Gift) -> bool:
 
     An unknown or misplaced keyword may define any of them.
     """
-    if found := block_class(section, keyword):
-        facts = found.facts
+    if block := block_class(section, keyword):
+        facts = block.facts
         makes = what == "elements" and facts.defines in ("nodes", "elements", "sets")
         return makes or what in facts.gives or (what != "elements" and facts.zero_length)
     if kept := opaque_keyword(section, keyword):
@@ -202,8 +202,8 @@ def is_superseded(keyword: str) -> bool:
 def gives_laws(keyword: str) -> bool:
     """Return True if a keyword assigns contact laws to elements, by itself or with the curves of other keywords."""
     facts = facts_of(keyword, "MODEL")
-    given = facts.extension or supersedes(keyword) or is_superseded(keyword)
-    return given and (is_superseded(keyword) or facts.defines != "curves")
+    family = facts.extension or supersedes(keyword) or is_superseded(keyword)
+    return family and (is_superseded(keyword) or facts.defines != "curves")
 
 
 def supersedes(keyword: str) -> bool:
@@ -279,14 +279,14 @@ def words_behind(name: str, near: str) -> bool:
 def _begun(name: str, known: Collection[str]) -> str:
     """Return the known name with the longest common beginning, if this is most of both names; else ""."""
     head = name[: int(_SAME_BEGINNING * len(name))]
-    common, near = max(((_common(name, other), other) for other in known if other.startswith(head)), default=(0, ""))
+    common, near = max(((_common(name, each), each) for each in known if each.startswith(head)), default=(0, ""))
     return near if common >= _SAME_BEGINNING * max(len(name), len(near)) else ""
 
 
-def _common(one: str, other: str) -> int:
-    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
+def _common(first: str, second: str) -> int:
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, second, strict=False)))
 
 
 def _before(name: str, known: Collection[str]) -> str:
     """Return the longest known name that is followed by other words in a name; else ""."""
-    return max((other for other in known if words_behind(name, other)), key=len, default="")
+    return max((each for each in known if words_behind(name, each)), key=len, default="")

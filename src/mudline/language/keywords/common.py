@@ -28,10 +28,10 @@ Direction = Annotated[
 def require_one(part: Part, *names: str) -> None:
     """Raise ValueError unless exactly one of the fields of a part has a value."""
     slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
-    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
-    if len(given) != 1:
-        wanted = " or ".join(slot.label for slot in slots)
-        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")
+    labels = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
+    if len(labels) != 1:
+        expected = " or ".join(slot.label for slot in slots)
+        raise ValueError(f"{' and '.join(labels) or 'nothing'} is given: expected {expected}")
 
 
 def _is_empty(value: object) -> bool:

@@ -59,24 +59,24 @@ _FORMS = {Equation.form: "an equation =[...]", Label.form: "a {label}"}
 
 def fault_in_words(faults: list[ErrorDetails], expected: str = "") -> str:
     """Return the faults of one value in a sentence: first the expected value, then other faults."""
-    wanted: list[str] = []
-    others: list[str] = []
+    forms: list[str] = []
+    sentences: list[str] = []
     for fault in faults:
         match fault["type"]:
             case "string_pattern_mismatch":
-                wanted.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
+                forms.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
             case "literal_error":
-                wanted.append(fault["ctx"]["expected"])
+                forms.append(fault["ctx"]["expected"])
             case "missing":
-                others.append("is missing")
+                sentences.append("is missing")
             case "extra_forbidden":
-                others.append("unknown key")
+                sentences.append("unknown key")
             case kind if kind in _WANTED:
-                wanted.append(_WANTED[kind])
+                forms.append(_WANTED[kind])
             case _:
-                others.append(fault["msg"].removeprefix("Value error, "))
-    if wanted:
+                sentences.append(fault["msg"].removeprefix("Value error, "))
+    if forms:
         value = faults[0]["input"]
         large = ", too large for double precision" if isinstance(value, int) and abs(value) > sys.float_info.max else ""
-        others.insert(0, f"expected {expected or ' or '.join(dict.fromkeys(wanted))}, found {shown(value)}{large}")
-    return "; or ".join(dict.fromkeys(others))
+        sentences.insert(0, f"expected {expected or ' or '.join(dict.fromkeys(forms))}, found {shown(value)}{large}")
+    return "; or ".join(dict.fromkeys(sentences))

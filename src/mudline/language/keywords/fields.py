@@ -13,7 +13,7 @@ from pydantic_core import CoreSchema, core_schema
 from mudline.basics.short_repr import with_fields
 from mudline.language.keywords.table import LARGEST_WHOLE, Column
 from mudline.language.keywords.usual import Usual
-from mudline.language.keywords.values import Contents, Count, Equation, Kind, Label, Names, Text
+from mudline.language.keywords.values import Count, DataFile, Equation, Kind, Label, Names, Text
 
 
 def cell_schema(column: Column) -> dict[str, Any]:
@@ -29,7 +29,7 @@ def with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, A
     if schema.get("type") in ("number", "integer"):
         return schema | limits
     if limits and "anyOf" in schema:
-        return schema | {"anyOf": [with_limits(one, limits) for one in schema["anyOf"]]}
+        return schema | {"anyOf": [with_limits(inner, limits) for inner in schema["anyOf"]]}
     return schema
 
 
@@ -68,7 +68,7 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
-    holds: Contents | None = None
+    holds: DataFile | None = None
     heading: str = ""
     unique: bool = False
     opaque: tuple[str, ...] | None = None
@@ -95,8 +95,8 @@ class FieldInfo:
     @property
     def limits(self) -> dict[str, float]:
         """Range in the terms of JSON Schema."""
-        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
-        return {key: limit for key, limit in given.items() if limit is not None}
+        limits = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
+        return {key: limit for key, limit in limits.items() if limit is not None}
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         schema = handler(source)

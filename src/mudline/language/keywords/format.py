@@ -31,34 +31,34 @@ def format_lines(block: type[Block]) -> list[str]:
 def _lines(part: type[Part], depth: int) -> list[str]:
     """Return the lines of a part in the order in which they are written."""
     lines: list[str] = []
-    found = record_schema(part)
-    for slot in found.slots:
+    schema = record_schema(part)
+    for slot in schema.slots:
         if isinstance(slot.about, Setting) and slot.about.inline:
             lines[-1] += f", {_setting(slot)}" if slot.required else f" [, {_setting(slot)}]"
         elif slot.record:
             for record in slot.record.values():
                 first, *rest = _lines(record, depth)
                 lines += [f"{first.removesuffix(' ...')} ...", *(f"  {line}" for line in rest)]
-        elif text := _line(slot, found):
+        elif text := _line(slot, schema):
             lines.append("  " * depth + text)
     return lines
 
 
-def _line(slot: FieldSpec, found: RecordSchema) -> str:
+def _line(slot: FieldSpec, schema: RecordSchema) -> str:
     """Return the line of one field; "" for a field on the line of another field."""
     if isinstance(slot.about, Rows) and slot.about.row:
-        return _optional(slot, record_schema(slot.about.row).wanted) + " ..."
+        return _optional(slot, record_schema(slot.about.row).layout) + " ..."
     if slot.key:
         return _optional(slot, _setting(slot))
     if slot.row:
-        alternatives = [other for other in found.columns if other.row and not other.required]
-        return record_schema(slot.row).wanted + (" |" if slot in alternatives[:-1] else "")
+        alternatives = [column for column in schema.columns if column.row and not column.required]
+        return record_schema(slot.row).layout + (" |" if slot in alternatives[:-1] else "")
     if slot.many:
         return f"{slot.label} [, ...]"
-    plain = [other for other in found.columns if not other.row]
-    if len(plain) < len(found.columns):
+    plain = [column for column in schema.columns if not column.row]
+    if len(plain) < len(schema.columns):
         return _optional(slot, slot.label)
-    whole = row_format([other.label for other in plain], [other.required for other in plain])
+    whole = row_format([column.label for column in plain], [column.required for column in plain])
     return whole if slot is plain[0] else ""
 
 
@@ -71,7 +71,7 @@ def _setting(slot: FieldSpec) -> str:
     taken = [
         *(slot.choices if slot.kind is Kind.OTHER else kind),
         *(kind if slot.kind is Kind.OTHER else slot.choices),
-        *([record_schema(slot.row).wanted] if slot.row else []),
+        *([record_schema(slot.row).layout] if slot.row else []),
     ]
     value = "|".join(taken)
     return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")
@@ -80,12 +80,12 @@ def _setting(slot: FieldSpec) -> str:
 def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
     """Return the formats of the rows of records."""
     shapes: list[str] = []
-    for found in schemas:
-        lines = [slot for slot in found.columns if slot.row]
-        plain = [slot for slot in found.columns if not slot.row and slot.about.older is not True]
-        shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
-        if found.table and found.table.row:
-            shapes.append(record_schema(found.table.row).wanted)
+    for schema in schemas:
+        lines = [slot for slot in schema.columns if slot.row]
+        plain = [slot for slot in schema.columns if not slot.row and slot.about.older is not True]
+        shapes += [record_schema(slot.row).layout for slot in lines if slot.row]
+        if schema.table and schema.table.row:
+            shapes.append(record_schema(schema.table.row).layout)
         if plain and not lines:
             shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
     return shapes
@@ -147,16 +147,16 @@ def usual_text(about: FieldInfo) -> str:
     return "; ".join(
         " ".join(
             [
-                one.span(),
+                usual.span(),
                 *(
-                    [f"times {_symbol(one.of[1:])}" if one.of.startswith("/") else one.of]
-                    if one.of
+                    [f"times {_symbol(usual.of[1:])}" if usual.of.startswith("/") else usual.of]
+                    if usual.of
                     else [unit] * bool(unit)
                 ),
-                *([f"of {one.when}"] if one.when else []),
-                *([f"({one.why})"] if one.why else []),
+                *([f"of {usual.when}"] if usual.when else []),
+                *([f"({usual.why})"] if usual.why else []),
             ]
         )
-        for one in about.usuals
-        if not one.explained
+        for usual in about.usuals
+        if not usual.explained
     )

@@ -77,7 +77,7 @@ def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
     """Yield the lines that a part and its inner parts keep, with their paths."""
     if not keeps_lines(type(part)):
         return
-    inner = ((path, one) for path, _, one in part.walk(_holds_keepers) if isinstance(one, Part))
+    inner = ((path, value) for path, _, value in part.walk(_holds_keepers) if isinstance(value, Part))
     for path, keeper in chain([((), part)], inner):
         for number, line in enumerate(getattr(keeper, "unread", ())):
             yield (*path, "unread", number, "text"), line.text
@@ -111,13 +111,13 @@ class _Opener:
 @cache
 def openers(block: type[Block]) -> dict[str, _Opener]:
     """Return the settings of a block that may announce kept lines, by their keys."""
-    found: dict[str, _Opener] = {}
+    by_key: dict[str, _Opener] = {}
     if can_keep(block):
-        _add_openers(block, (), (), found)
-    return found
+        _add_openers(block, (), (), by_key)
+    return by_key
 
 
-def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], found: dict[str, _Opener]) -> None:
+def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], by_key: dict[str, _Opener]) -> None:
     """Add the settings of a part that may announce kept lines.
 
     `near` are the keys that begin a record of this kind, `far` those that begin other records.
@@ -125,7 +125,7 @@ def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], foun
     schema = record_schema(part)
     for key, slot in schema.keys.items():
         if slot.about.opaque is not None:
-            opener = found.setdefault(key, _Opener())
+            opener = by_key.setdefault(key, _Opener())
             opener.choices.update(slot.choices)
             opener.known.update(set(slot.choices) - set(slot.about.opaque))
             opener.far.update([key, *far])
@@ -133,8 +133,8 @@ def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], foun
     for slot in schema.slots:
         firsts = {record: [*_first_keys(record)] for record in slot.record.values()}
         for record, own in firsts.items():
-            others = [key for other, keys in firsts.items() if other is not record for key in keys]
-            _add_openers(record, own, [*near, *far, *others], found)
+            siblings = [key for sibling, keys in firsts.items() if sibling is not record for key in keys]
+            _add_openers(record, own, [*near, *far, *siblings], by_key)
 
 
 def _first_keys(record: type[Record]) -> Iterable[str]:
@@ -154,9 +154,9 @@ def opened(block: type[Block], key: str, fields: str) -> frozenset[str]:
     known = openers(block)
     if not known:
         return frozenset()
-    given = [(key, fields.partition(",")[0]), *_INLINE.findall(fields)]
+    settings = [(key, fields.partition(",")[0]), *_INLINE.findall(fields)]
     ends: set[str] = set()
-    for index, (name, text) in enumerate(given):
+    for index, (name, text) in enumerate(settings):
         opener, value = known.get(canonical_key(name)), " ".join(text.upper().split())
         if opener and value and value not in opener.known:
             ends |= opener.ends if index else opener.far

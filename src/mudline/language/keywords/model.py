@@ -85,9 +85,9 @@ class Rows(FieldInfo):
             serialization=core_schema.plain_serializer_function_ser_schema(self._written, info_arg=True),
         )
 
-    def _read(self, given: object, info: ValidationInfo) -> Table:
+    def _read(self, data: object, info: ValidationInfo) -> Table:
         """Return a table; raises ValueError for a value out of its range or a curve of fewer than two points."""
-        table = read_table(given, self.columns())
+        table = read_table(data, self.columns())
         if info.context == AS_TEXT:
             return table
         if self.curve and len(table) < FEWEST_POINTS:
@@ -133,7 +133,7 @@ Path = tuple[str | int, ...]
 """Keys and indices as in JSON, from a part inwards; a table is followed by row and column."""
 
 
-class Value(NamedTuple):
+class PartValue(NamedTuple):
     """Value of a part's field: one item of a list, a whole table, or a part with fields of its own."""
 
     path: Path
@@ -141,7 +141,7 @@ class Value(NamedTuple):
     value: Any
 
 
-Wanted = Callable[["FieldSpec"], bool]
+FieldFilter = Callable[["FieldSpec"], bool]
 """Predicate that selects fields; a module-level function, as its results are cached."""
 
 
@@ -159,19 +159,19 @@ class Part(BaseModel):
             assign(self, name, value, record_schema, super().__setattr__)
 
     def __repr__(self) -> str:
-        given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
-        return with_fields(self, ((name, value) for name, value in given if value is not None))
+        fields = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
+        return with_fields(self, ((name, value) for name, value in fields if value is not None))
 
     __str__ = __repr__
 
-    def walk(self, wanted: Wanted | None = None) -> list[Value]:
+    def walk(self, wanted: FieldFilter | None = None) -> list[PartValue]:
         """Return the values of the part and its inner parts whose fields are `wanted`; without a predicate all.
 
         Fields without a value (None) are left out.
         """
-        found: list[Value] = []
-        _walk(self, (), wanted, found)
-        return found
+        values: list[PartValue] = []
+        _walk(self, (), wanted, values)
+        return values
 
     def at(self, path: Path) -> tuple["FieldSpec | None", Any]:
         """Return the field and the value at a path; None for a value that does not exist."""
@@ -182,7 +182,7 @@ class Part(BaseModel):
                 return _cell(field, value, path[number:])
             if isinstance(value, Part):
                 slots = record_schema(type(value)).slots
-                field = next((one for at, one in enumerate(slots) if step in (one.json, at)), None)
+                field = next((spec for at, spec in enumerate(slots) if step in (spec.json, at)), None)
                 value = None if field is None else getattr(value, field.name, None)
             elif isinstance(value, list) and isinstance(step, int):
                 value = value[step] if step < len(value) else None
@@ -192,11 +192,11 @@ class Part(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _few_keys(cls, given: object) -> object:
+    def _few_keys(cls, document: object) -> object:
         """Limit the number of keys: every unknown key would be a fault."""
-        if isinstance(given, dict) and len(given) > MOST_KEYS:
-            raise ValueError(f"{len(given)} keys, expected {len(cls.model_fields)} at most")
-        return given
+        if isinstance(document, dict) and len(document) > MOST_KEYS:
+            raise ValueError(f"{len(document)} keys, expected {len(cls.model_fields)} at most")
+        return document
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -212,27 +212,27 @@ class ListRow(Row):
 
     @model_validator(mode="before")
     @classmethod
-    def _from_list(cls, given: object) -> object:
-        if not isinstance(given, list):
-            return given
+    def _from_list(cls, items: object) -> object:
+        if not isinstance(items, list):
+            return items
         columns = record_schema(cls).columns
-        if not record_schema(cls).fewest <= len(given) <= len(columns):
-            raise ValueError(f"{len(given)} values, expected {record_schema(cls).wanted}")
-        return {slot.json: value for slot, value in zip(columns, given, strict=False)}
+        if not record_schema(cls).fewest <= len(items) <= len(columns):
+            raise ValueError(f"{len(items)} values, expected {record_schema(cls).layout}")
+        return {slot.json: value for slot, value in zip(columns, items, strict=False)}
 
     @model_serializer
     def _to_list(self) -> list[object] | None:
         if is_unknown(self):
             return None
-        given = [slot.name for slot in record_schema(type(self)).columns if slot.name in self.model_fields_set]
-        values = (getattr(self, name) for name in given)
+        names = [slot.name for slot in record_schema(type(self)).columns if slot.name in self.model_fields_set]
+        values = (getattr(self, name) for name in names)
         return [str(value) if isinstance(value, str) else value for value in values]
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        found = record_schema(cls)
-        items = [cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in found.columns]
-        return {"type": "array", "prefixItems": items, "items": False, "minItems": found.fewest}
+        declared = record_schema(cls)
+        items = [cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in declared.columns]
+        return {"type": "array", "prefixItems": items, "items": False, "minItems": declared.fewest}
 
 
 class Record(Part):
@@ -252,15 +252,15 @@ class Record(Part):
         return (getattr(self, slot.name) or slot.about.default or None) if slot else None
 
     @classmethod
-    def carries(cls, given: dict[str, object], last: object) -> object:
+    def carries(cls, values: dict[str, object], last: object) -> object:
         """Return the value passed as `last` to `row_slot` of the next record."""
-        return given.get(cls.sticky) or last
+        return values.get(cls.sticky) or last
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the name of the field that row `number` of this record fills; `fields` is the row's number of values.
 
-        `given` holds the values of the record read so far, `last` the value of the `sticky` field in earlier records.
+        `values` are those of the record read so far, `last` the value of the `sticky` field in earlier records.
         Only records with several kinds of row override this method.
         """
         return record_schema(cls).row_names[0]
@@ -361,7 +361,7 @@ class RecordSchema:
         return fewest_fields(slot.required for slot in self.columns)
 
     @cached_property
-    def wanted(self) -> str:
+    def layout(self) -> str:
         """Columns in words: `depth, density [, gravity]`."""
         columns = [slot for slot in self.columns if slot.about.older is not True]
         return row_format([slot.label for slot in columns], [slot.required for slot in columns])
@@ -370,7 +370,7 @@ class RecordSchema:
 @cache
 def record_schema(part: type[Part]) -> RecordSchema:
     """Return the declared fields of a class, cached."""
-    found = RecordSchema()
+    schema = RecordSchema()
     for order, (name, info) in enumerate(part.model_fields.items()):
         meta = next((item for item in metadata_of(info) if isinstance(item, FieldInfo)), None)
         classes = [piece for piece in parts_of(info.annotation) if isinstance(piece, type)]
@@ -392,47 +392,47 @@ def record_schema(part: type[Part]) -> RecordSchema:
             usuals=meta.usuals if meta else (),
             of_list=issubclass(part, ListRow),
         )
-        found.slots.append(slot)
+        schema.slots.append(slot)
         if isinstance(meta, Rows):
-            found.table = slot
+            schema.table = slot
         elif isinstance(meta, Setting):
-            found.keys.setdefault(meta.key, slot)
+            schema.keys.setdefault(meta.key, slot)
         elif records:
-            found.children |= dict.fromkeys(slot.record, slot)
+            schema.children |= dict.fromkeys(slot.record, slot)
         else:
-            found.columns.append(slot)
-    return found
+            schema.columns.append(slot)
+    return schema
 
 
 _is_part = cache(lambda kind: issubclass(kind, Part))  # to ask a model itself takes several times as long
 
 
-def _walk(part: Part, prefix: Path, wanted: Wanted | None, found: list[Value]) -> None:
+def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[PartValue]) -> None:
     for slot, own in _leading(type(part), wanted):
         value: Any = getattr(part, slot.name, None)
         listed = isinstance(value, list)
         for index, item in enumerate(value if listed else () if value is None else (value,)):
             path = (*prefix, slot.json, index) if listed else (*prefix, slot.json)
             if own:
-                found.append(Value(path, slot, item))
+                values.append(PartValue(path, slot, item))
             kind: type[BaseModel] = type(item)
             if _is_part(kind):
-                _walk(item, path, wanted, found)
+                _walk(item, path, wanted, values)
 
 
 @cache
-def _leading(part: type[Part], wanted: Wanted | None) -> tuple[tuple[FieldSpec, bool], ...]:
+def _leading(part: type[Part], wanted: FieldFilter | None) -> tuple[tuple[FieldSpec, bool], ...]:
     """Return the fields of a part that are wanted (True), or only contain parts with wanted fields (False)."""
-    found = ((slot, wanted is None or wanted(slot)) for slot in record_schema(part).slots)
-    return tuple((slot, own) for slot, own in found if own or any(_leading(one, wanted) for one in slot.parts))
+    slots = ((slot, wanted is None or wanted(slot)) for slot in record_schema(part).slots)
+    return tuple((slot, own) for slot, own in slots if own or any(_leading(inner, wanted) for inner in slot.parts))
 
 
 def fields_of(part: type[Part]) -> Iterator[FieldSpec]:
     """Yield the fields of a part and of its inner parts, including the columns of tables."""
     for slot in record_schema(part).slots:
         yield slot
-        for one in slot.parts:
-            yield from fields_of(one)
+        for inner in slot.parts:
+            yield from fields_of(inner)
 
 
 def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec | None, Any]:

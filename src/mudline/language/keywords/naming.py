@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Literal, NamedTuple, TypeGuard, get_args
 
-from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Wanted, fields_of, record_schema
+from mudline.language.keywords.model import Block, FieldFilter, FieldSpec, Part, Path, fields_of, record_schema
 from mudline.language.keywords.unknown import UNKNOWN_NAME
 from mudline.language.keywords.values import Equation, Label, Names
 
@@ -16,7 +16,7 @@ ROLES: tuple[Role, ...] = get_args(Role)
 
 
 @cache
-def naming(what: Names | None, role: Role = "names") -> Wanted:
+def naming(what: Names | None, role: Role = "names") -> FieldFilter:
     """Return the predicate of fields that refer to, or define, an object of a kind; None for any kind."""
 
     def names(slot: FieldSpec) -> bool:
@@ -106,11 +106,11 @@ def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
 def repeated_set(block: Block) -> Path:
     """Return the path of the first element set that a block gives again with other values; () if there is none."""
     for listed, named in set_slots(type(block)) if block.facts.later_wins else ():
-        given: dict[str, Part] = {}
+        by_name: dict[str, Part] = {}
         for index, entry in enumerate(getattr(block, listed.name)):
             name = getattr(entry, named.name, None)
             if isinstance(name, str) and name:
-                first = given.setdefault(name.casefold(), entry)
+                first = by_name.setdefault(name.casefold(), entry)
                 if first is not entry and first != entry:
                     return listed.json, index, named.json
     return ()

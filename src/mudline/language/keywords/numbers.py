@@ -50,9 +50,9 @@ def cut_number(text: str) -> bool:
 def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) -> Problem:
     """Return the problem of a field that is not a number; characters of a word processor in a number are repaired."""
     if bare := _BARE_EXPONENT.fullmatch(text):
-        meant = f"{bare[1]}E{bare[2]}"
-        message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {meant} for {label}"
-        return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {meant}", ((span, meant),)))
+        repaired = f"{bare[1]}E{bare[2]}"
+        message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {repaired} for {label}"
+        return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
     plain = _plain(text)
     if not plain:
         return Problem(SYN002, _fault(text, label, kind), span)

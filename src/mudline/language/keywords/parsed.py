@@ -135,20 +135,20 @@ def construct(built: ParsedRecord) -> Part:
     """
     ready: dict[str, Any] = {}
     for slot in record_schema(built.part).slots:
-        given = _known(slot, built.values.get(slot.json))
+        value = _known(slot, built.values.get(slot.json))
         if slot.record:
             inner = [construct(child) for child in built.children.get(slot.json, [])]
             ready[slot.name] = Partly(inner) if built.unsure else inner
         elif slot.json not in built.values:
             unknown = slot.required or (built.unsure and slot is not record_schema(built.part).table)
             ready[slot.name] = _known(slot, UNKNOWN) if unknown else None
-        elif slot.row and isinstance(given, list):
+        elif slot.row and isinstance(value, list):
             columns = record_schema(slot.row).columns
-            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
-        elif slot.row and isinstance(given, dict):
-            ready[slot.name] = _bare(slot.row, given)
+            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, value, strict=False)})
+        elif slot.row and isinstance(value, dict):
+            ready[slot.name] = _bare(slot.row, value)
         else:
-            ready[slot.name] = given
+            ready[slot.name] = value
     ready["comments"] = []
     if "keyword" in built.values:
         ready["keyword"] = built.values["keyword"]
@@ -195,8 +195,8 @@ class Places:
             inner = path if name is None else (*path, name)
             if span:
                 self.spans[inner] = span
-            for column, given in zip(names, fields, strict=False):
-                self.spans[*inner, column] = given.span
+            for column, value in zip(names, fields, strict=False):
+                self.spans[*inner, column] = value.span
         for name, table in record.tables.items():
             if table.runs:
                 self.runs[*path, name] = table.runs
@@ -226,7 +226,7 @@ class Places:
                 if run.start <= offset <= run.end and (cell := self._cell_at(run, offset)):
                     row, column, span = cell
                     around.append(((*path, first + row, column), span))
-        return min(around, key=lambda found: found[1].end - found[1].start, default=None)
+        return min(around, key=lambda place: place[1].end - place[1].start, default=None)
 
     def _cell_at(self, run: Span, offset: int) -> tuple[int, int, Span] | None:
         """Return row and column of a run at an offset, and the span of the field."""
@@ -236,14 +236,14 @@ class Places:
             return None
         stop = self.text.find("\n", starts[row], run.end)
         fields = row_fields(self.text, Span(starts[row], run.end if stop < 0 else stop), MOST_COLUMNS)
-        at = (column for column, given in enumerate(fields) if given.span.start <= offset <= given.span.end)
+        at = (column for column, field in enumerate(fields) if field.span.start <= offset <= field.span.end)
         column = next(at, None)
         return None if column is None else (row, column, fields[column].span)
 
     def moved(self, text: str, by: int) -> Places:
         """Return the places in a longer text that contains this text at the offset `by`."""
         spans = {path: span.moved(by) for path, span in self.spans.items()}
-        runs = {path: [(row, span.moved(by)) for row, span in found] for path, found in self.runs.items()}
+        runs = {path: [(row, span.moved(by)) for row, span in starts] for path, starts in self.runs.items()}
         return Places(text, self.block.moved(by), spans, runs, frozenset(at + by for at in self.kept))
 
     def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:

@@ -51,10 +51,10 @@ class ReadBlock:
     @property
     def own(self) -> Places:
         """Places in the text that was read."""
-        found = self.found  # read once: decks that share a block may be read in two threads
-        if not isinstance(found, Places):
-            found = self.found = found()
-        return found
+        places = self.found  # read once: decks that share a block may be read in two threads
+        if not isinstance(places, Places):
+            places = self.found = places()
+        return places
 
     def _found(self) -> Places:
         return self.own
@@ -69,8 +69,8 @@ class ReadBlock:
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
         """Return the block as part of a text in which its piece begins at `start`, with its problems there."""
-        found = self.found if isinstance(self.found, Places) else self._found
-        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
+        places = self.found if isinstance(self.found, Places) else self._found
+        return ReadBlock(self.model, places, problems, self.trailing, self.lost, (text, start), self.opaque)
 
 
 class BlockReader(Protocol):
@@ -85,13 +85,13 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 
     Places of values are found on demand by reading the block again: they are needed for few blocks.
     """
-    read = _Reader(text, raw, declared, last=last).read()
+    read = _BlockParser(text, raw, declared, last=last).read()
     read.found = partial(_places, text, raw, declared, last=last)
     return read
 
 
 def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
-    reader = _Reader(text, raw, declared, last=last)
+    reader = _BlockParser(text, raw, declared, last=last)
     reader.read()
     return reader.places()
 
@@ -110,12 +110,12 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
             ends = opened(declared, key, value)
             if key not in keys or (ends and not is_choice(declared, key, value)):
                 return False
-    reader = _Reader(text, raw, declared, last=False)
+    reader = _BlockParser(text, raw, declared, last=False)
     if grammar.tree_of(declared.rule, reader.contents()) is None or reader.lost:
         return False
     kept = len(reader.kept)
-    found = _Reader(text, raw, declared, last=False).read()
-    return found.lost == kept and not any(one.weight is Severity.ERROR for one in found.problems)
+    block = _BlockParser(text, raw, declared, last=False).read()
+    return block.lost == kept and not any(problem.weight is Severity.ERROR for problem in block.problems)
 
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
@@ -124,7 +124,7 @@ def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, 
     return read_block(piece, RawBlock(head, raw.name, leaves, raw.older), declared, last=last)
 
 
-class _Reader:
+class _BlockParser:
     def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> None:
         self.text = text
         self.raw = raw
@@ -143,12 +143,12 @@ class _Reader:
         noticed, lost = self.problems, self.lost
         while True:
             self.problems, self.lost = [*noticed], lost
-            found = self._attempt(contents)
+            block = self._attempt(contents)
             if not self.declared.open_lines or self.declared.known_forms:
-                return found
+                return block
             odd = of_other_form(self.text, self.problems, contents, tabular=self.declared.tabular)
             if not odd:
-                return found
+                return block
             noticed += doubtful(self.problems)
             self._keep_all(odd, contents)
 
@@ -172,8 +172,8 @@ class _Reader:
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
             first = min(kept.span.start for kept in self.kept)  # what stands before it has no other form
-            lines = [one.found.span for one in mismatches if one.found and one.found.span.start < first]
-            certain = [one for one in problems if one.span and any(a <= one.span.start < b for a, b in lines)]
+            lines = [item.found.span for item in mismatches if item.found and item.found.span.start < first]
+            certain = [item for item in problems if item.span and any(a <= item.span.start < b for a, b in lines)]
             rest = [problem for problem in problems if problem not in certain]
             return ReadBlock(model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True)
         return ReadBlock(model, self.places, problems, trailing, self.lost)
@@ -189,7 +189,7 @@ class _Reader:
     def _model(self, built: ParsedRecord) -> Block:
         """Return the validated model; for a block with faults an unvalidated model of its readable values."""
         built.values["keyword"] = self.raw.name
-        if not any(one.weight is Severity.ERROR for one in self.problems):
+        if not any(problem.weight is Severity.ERROR for problem in self.problems):
             try:
                 return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
@@ -200,7 +200,7 @@ class _Reader:
                     if fault["type"] == "missing":
                         message = f"{_label(self.declared, place)} is missing here"
                     self.problems.append(Problem(SYN001, message, places.find(place)))
-        lost = [one.span.start for one in self.problems if one.code in (SYN001, SYN004) and one.span is not None]
+        lost = [problem.span.start for problem in self.problems if problem.code in (SYN001, SYN004) and problem.span]
         if lost:
             lose(built, lost)
         return cast("Block", construct(built))
@@ -250,9 +250,9 @@ class _Reader:
         if key in self.keys:
             return self._setting(leaf.span, contents)
         line = self.text[slice(*leaf.span)].rstrip("\r\n")
-        meant = suggestion(key, sorted(self.keys)) if key else ""
+        near = suggestion(key, sorted(self.keys)) if key else ""
         message = (
-            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
+            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){near}: "
             "put a space after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
@@ -285,27 +285,27 @@ class _Reader:
     def _report(self, mismatch: Mismatch) -> None:
         hidden = set() if self.raw.older else {grammar.terminal_of(key) for key in older_keys(self.declared)}
         shown_ = (terminal for terminal in mismatch.expected if terminal != END and terminal not in hidden)
-        wanted = " or ".join(map(self._describe, shown_))
-        wanted = wanted or "nothing more in this block"
+        expected = " or ".join(map(self._describe, shown_))
+        expected = expected or "nothing more in this block"
         self.lost += 1
         if mismatch.found is None:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
-            message = f"{where} is incomplete: missing {wanted}"
+            message = f"{where} is incomplete: missing {expected}"
             lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
             span = trimmed(self.text, *lines[-1].span)
             self.problems.append(Problem(code, message, span))
             return
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:
-            wanted = self._describe(mismatch.missing)
-            message = f"expected {wanted} before this line: write {wanted} and its value above it"
+            expected = self._describe(mismatch.missing)
+            message = f"expected {expected} before this line: write {expected} and its value above it"
             if mismatch.missing == ROW:
-                message = f"expected {wanted} before this line"
+                message = f"expected {expected} before this line"
             self.problems.append(Problem(SYN001, message, span))
             return
-        found = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
-        message = f"*{self.raw.name} has no place for {found} here: expected {wanted}"
+        line = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
+        message = f"*{self.raw.name} has no place for {line} here: expected {expected}"
         self.problems.append(Problem(SYN001, message, span))
 
     def _describe(self, terminal: str) -> str:
@@ -331,14 +331,14 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
 @cache
 def all_keys(part: type[Part]) -> frozenset[str]:
     """Return every KEY on the lines of a keyword, at the beginning or within."""
-    return frozenset(key for found in schemas_of(part) for key in found.keys)
+    return frozenset(key for schema in schemas_of(part) for key in schema.keys)
 
 
 @cache
 def older_keys(part: type[Part]) -> frozenset[str]:
     """Return the KEYs that only decks of the older program have."""
-    found = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
-    return frozenset(key for slots in found for key, slot in slots if slot.about.older is True)
+    fields = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
+    return frozenset(key for slots in fields for key, slot in slots if slot.about.older is True)
 
 
 def schemas_of(part: type[Part]) -> list[RecordSchema]:

@@ -15,8 +15,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError, to_json
 from mudline.basics.short_repr import counted
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.values import Equation, Kind, Label
-from mudline.language.syntax.rows import Rows as RawRows
-from mudline.language.syntax.rows import read_rows
+from mudline.language.syntax.rows import RawRows, read_rows
 
 Cell = float | int | str | None
 LARGEST_WHOLE = 2**53
@@ -36,7 +35,7 @@ def misfit(message: str, *path: str | int) -> ValidationError:
     return ValidationError.from_exception_data("table", [InitErrorDetails(type=kind, loc=path, input=None)])
 
 
-class Part(NamedTuple):
+class RowChunk(NamedTuple):
     """Some rows of a table as lists; `plain` is True if all cells are numbers and all rows have the full width."""
 
     rows: list[list[Cell]]
@@ -113,17 +112,17 @@ class Table:
     def __getitem__(self, at: slice) -> list[tuple[Cell, ...]]: ...
     def __getitem__(self, at: int | slice) -> tuple[Cell, ...] | list[tuple[Cell, ...]]:
         numbers = np.atleast_1d(np.arange(len(self))[at])
-        found = [*self.chosen(numbers)]
-        return found if isinstance(at, slice) else found[0]
+        rows = [*self.chosen(numbers)]
+        return rows if isinstance(at, slice) else rows[0]
 
     def chosen(self, numbers: Sequence[int] | NDArray[np.intp]) -> Table:
         """Return the table of the rows with these numbers, in that order."""
         rows = np.asarray(numbers, dtype=np.intp)
         place = {row: number for number, row in enumerate(rows.tolist())}
         words = {(place[row], column): word for (row, column), word in self.words.items() if row in place}
-        found = Table(self.values[rows], self.lengths[rows], words)
-        found.columns = self.columns
-        return found
+        table = Table(self.values[rows], self.lengths[rows], words)
+        table.columns = self.columns
+        return table
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):
@@ -174,7 +173,7 @@ class Table:
         """Return the rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
         return [row for part in self.parts(columns) for row in part.rows]
 
-    def parts(self, columns: Sequence[Column]) -> Iterator[Part]:
+    def parts(self, columns: Sequence[Column]) -> Iterator[RowChunk]:
         """Yield the rows as lists, in chunks of some thousand."""
         odd = (self.lengths != self.values.shape[1]) | np.isnan(self.values).any(axis=1)
         words: dict[int, list[tuple[int, int]]] = {}
@@ -190,7 +189,7 @@ class Table:
                     rows[row - start][column] = None if word is None else str(word)
                 for cells, length in zip(rows, self.lengths[part].tolist(), strict=True):
                     del cells[length:]
-            yield Part(rows, plain)
+            yield RowChunk(rows, plain)
 
 
 def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[Cell]]:
@@ -245,8 +244,8 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
     values = np.full((len(rows), width), math.nan)
     words: dict[tuple[int, int], Equation | Label | None] = {}
     for row, fields in enumerate(rows):
-        for column, given in enumerate(fields):
-            cell = given.item() if isinstance(given, np.generic) else given
+        for column, value in enumerate(fields):
+            cell = value.item() if isinstance(value, np.generic) else value
             if isinstance(cell, int | float) and not isinstance(cell, bool):
                 values[row, column] = _finite(cell, row, column)
             elif cell is not None and (not isinstance(cell, str) or not cell):
@@ -401,16 +400,16 @@ class Listing:
                 yield "\n".join(map(spelled, rows))
 
 
-def read_table(given: object, columns: Sequence[Column]) -> Table:
+def read_table(rows: object, columns: Sequence[Column]) -> Table:
     """Return the table of rows, or of a text of rows; raises ValidationError with row and column, or ValueError."""
-    if isinstance(given, Table):
-        table = given
-    elif isinstance(given, str):
-        table = from_text(given, columns)
-    elif isinstance(given, list) and set(map(type, given)) <= {list}:
-        table = from_cells(given, columns)
-    elif isinstance(given, list | tuple | np.ndarray):
-        table = from_cells(plain(list(given)), columns)
+    if isinstance(rows, Table):
+        table = rows
+    elif isinstance(rows, str):
+        table = from_text(rows, columns)
+    elif isinstance(rows, list) and set(map(type, rows)) <= {list}:
+        table = from_cells(rows, columns)
+    elif isinstance(rows, list | tuple | np.ndarray):
+        table = from_cells(plain(list(rows)), columns)
     else:
         raise ValueError("expected rows: a list of lists, or a text with a row a line")
     table.columns = columns

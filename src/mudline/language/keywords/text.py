@@ -160,30 +160,30 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
 
 def missing_comma(fields: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
     """Return the problem of a field of several numbers if commas between them make the row's count right."""
-    given = fields
-    while given and not given[-1].text:
-        given = given[:-1]
-    joined = [at for at, field in enumerate(given) if field.text[:1] in _BEGINS and blank_separated(field.text)]
-    words = [given[at].text.split() for at in joined]
-    count = len(given) + sum(len(each) - 1 for each in words)
+    filled = fields
+    while filled and not filled[-1].text:
+        filled = filled[:-1]
+    joined = [at for at, field in enumerate(filled) if field.text[:1] in _BEGINS and blank_separated(field.text)]
+    words = [filled[at].text.split() for at in joined]
+    count = len(filled) + sum(len(each) - 1 for each in words)
     if not joined or not fewest <= count <= len(kinds) or any(kinds[at] not in _NUMBERS for at in joined):
         return None
-    if len(words[0]) == 2 and is_grouped(given[joined[0]].text) and len(given) >= fewest:
+    if len(words[0]) == 2 and is_grouped(filled[joined[0]].text) and len(filled) >= fewest:
         return None
-    one, two = words[0][:2]
-    span, meant = given[joined[0]].span, ", ".join(words[0])
-    message = f"a comma is missing between {one} and {two}: write {meant}"
-    return Problem(SYN003, message, span, repair=Repair("unsafe", f"write {meant}", ((span, meant),)))
+    first, second = words[0][:2]
+    span, repaired = filled[joined[0]].span, ", ".join(words[0])
+    message = f"a comma is missing between {first} and {second}: write {repaired}"
+    return Problem(SYN003, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
 
 
-def _is_tight(one: Field, two: Field) -> bool:
+def _is_tight(first: Field, second: Field) -> bool:
     """Return True if there is a comma and no blank between two fields."""
-    return one.start + len(one.text) + 1 == two.start
+    return first.start + len(first.text) + 1 == second.start
 
 
-def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
-    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
-    return Problem(SYN015, message, one.span._replace(end=two.span.end), severity)
+def _two_fields(first: Field, second: Field, severity: Severity | None = None) -> Problem:
+    message = f"decimal comma? {first.text},{second.text} is two fields here: write {first.text}.{second.text}"
+    return Problem(SYN015, message, first.span._replace(end=second.span.end), severity)
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
@@ -192,7 +192,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     A single comma without space may be a slip. It is a decimal comma if the second part begins with a zero, or all
     other numbers have a point. Several such commas in place of real numbers are decimal commas.
     """
-    tight = [_is_tight(one, two) for one, two in pairwise(values)]
+    tight = [_is_tight(first, second) for first, second in pairwise(values)]
     if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]
@@ -210,11 +210,9 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
 def _is_split(values: list[Field], at: int) -> bool:
     """Return True if two fields are the halves of one number: `0,05`, or `9,81` among numbers that have a point."""
     half = values[at + 1].text
-    others = [field.text for i, field in enumerate(values) if i not in (at, at + 1)]
-    pointed = sum("." in other for other in others)
-    return half.strip("0") != "" and (
-        (half[0] == "0" and len(half) > 1) or (pointed > 0 and pointed >= len(others) - 1)
-    )
+    texts = [field.text for i, field in enumerate(values) if i not in (at, at + 1)]
+    pointed = sum("." in text for text in texts)
+    return half.strip("0") != "" and ((half[0] == "0" and len(half) > 1) or (pointed > 0 and pointed >= len(texts) - 1))
 
 
 def _choice(field: Field, slot: FieldSpec) -> str:
@@ -222,7 +220,7 @@ def _choice(field: Field, slot: FieldSpec) -> str:
     if word in slot.choices:
         return word
     known = list(slot.choices)
-    known = [*(["a number"] if slot.kind else []), *known, *([record_schema(slot.row).wanted] if slot.row else [])]
+    known = [*(["a number"] if slot.kind else []), *known, *([record_schema(slot.row).layout] if slot.row else [])]
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
     near = nearest(word, slot.choices)
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
@@ -323,11 +321,11 @@ def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
 
 def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
     """Return the span of the remark on the line of each problem, None for problems without remark or field."""
-    found: list[Span | None] = []
+    remarks: list[Span | None] = []
     line, remark = _NO_LINE, None
     for problem in problems:
         if problem.span is None or problem.code not in _OF_FIELDS:
-            found.append(None)
+            remarks.append(None)
             continue
         if not line.start <= problem.span.start < line.end:
             end = text.find("\n", problem.span.start)
@@ -335,5 +333,5 @@ def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
             words = remark_of(text[slice(*line)])
             start = text.find(words, line.start)
             remark = Span(start, start + len(words)) if words else None
-        found.append(remark)
-    return found
+        remarks.append(remark)
+    return remarks

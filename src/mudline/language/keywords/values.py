@@ -77,9 +77,9 @@ class Kind(Enum):
     OTHER = "another value"
 
 
-def _whole(given: object) -> object:
+def _whole(value: object) -> object:
     """Return an integral float as int: 1.0 is a whole number in JSON."""
-    return int(given) if isinstance(given, float) and given.is_integer() else given
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 class _Either:
@@ -221,7 +221,7 @@ class Names(Enum):
     __hash__ = object.__hash__  # that of `Enum` is a function of Python, and names are looked up by kind
 
 
-class Contents(Enum):
+class DataFile(Enum):
     """Contents of a file that a deck names; the words are for a reader."""
 
     OPERATORS = "response amplitude operators"
@@ -316,5 +316,5 @@ _WITH_LETTERS = re.compile(r"(?=[^.]*[0-9])[-+]?[0-9OolI]+\.[0-9OolI]*[0-9][0-9O
 
 def number_meant(text: str) -> str:
     """Return the number that was meant by a text with letters in place of digits and a point, or ""."""
-    meant = text.translate(_LETTERS)
-    return meant if meant != text and _WITH_LETTERS.fullmatch(text) else ""
+    number = text.translate(_LETTERS)
+    return number if number != text and _WITH_LETTERS.fullmatch(text) else ""

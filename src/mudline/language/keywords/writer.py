@@ -33,8 +33,8 @@ def _record_lines(record: Record) -> Iterator[str]:
 
 
 def _opens(record: Record) -> bool:
-    found = record_schema(type(record))
-    first = next((slot for slot in found.slots if getattr(record, slot.name) is not None), None)
+    schema = record_schema(type(record))
+    first = next((slot for slot in schema.slots if getattr(record, slot.name) is not None), None)
     return first is not None and isinstance(first.about, Setting)
 
 
@@ -59,11 +59,11 @@ def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable
 
 def _items(record: Record) -> Iterator[Item]:
     """Yield the items of a record in the order of its fields: a line, an inner record, or rows of a table."""
-    found = record_schema(type(record))
-    plain = [slot for slot in found.columns if not slot.row]
-    own_row = plain if len(plain) == len(found.columns) else []
+    schema = record_schema(type(record))
+    plain = [slot for slot in schema.columns if not slot.row]
+    own_row = plain if len(plain) == len(schema.columns) else []
     pending: str = ""
-    for slot in found.slots:
+    for slot in schema.slots:
         if slot in own_row[1:]:
             continue
         value = getattr(record, slot.name)
@@ -77,8 +77,8 @@ def _items(record: Record) -> Iterator[Item]:
             yield [pending], 1
             pending = ""
         if slot in own_row:
-            given = any(own.required or own.name in record.model_fields_set for own in own_row)
-            pending = " " + _row(record, own_row) if given else ""
+            has_row = any(own.required or own.name in record.model_fields_set for own in own_row)
+            pending = " " + _row(record, own_row) if has_row else ""
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
@@ -107,8 +107,8 @@ def _value(value: Any) -> str:
 
 
 def _row(part: Part, columns: list[FieldSpec]) -> str:
-    given = [getattr(part, slot.name) is not None for slot in columns]
-    length = max((index + 1 for index, here in enumerate(given) if here), default=1)
+    present = [getattr(part, slot.name) is not None for slot in columns]
+    length = max((index + 1 for index, here in enumerate(present) if here), default=1)
     values = [getattr(part, slot.name) for slot in columns[:length]]
     if len(values) == 1 and isinstance(values[0], list):
         values = values[0]

@@ -34,7 +34,7 @@ class Field(NamedTuple):
 
 
 @dataclass(slots=True)
-class Group:
+class FieldGroup:
     """Fields that belong together: the positional fields of a line (key ""), or a KEY with its values."""
 
     key: str
@@ -42,11 +42,11 @@ class Group:
     fields: list[Field] = field(default_factory=list)
 
 
-class Line(NamedTuple):
+class FieldLine(NamedTuple):
     """Line split into groups, with its problems."""
 
     span: Span
-    groups: list[Group]
+    groups: list[FieldGroup]
     problems: list[Problem]
 
 
@@ -64,27 +64,27 @@ def canonical_key(key: str) -> str:
     return key.upper() if key.isalpha() else _BLANKS.sub(" ", key).upper()
 
 
-def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
+def read_line(text: str, span: Span, *, slashes: bool = False) -> FieldLine:
     """Return one line of `text`, split into groups of fields; with `slashes`, `/.../` is one field."""
     body = trimmed(text, *span)
     fields, problems = _split(text, body, slashes=slashes)
     if text.find("=", body.start, body.end) < 0:
-        return Line(body, [Group("", body, fields)] if fields else [], problems)
-    groups: list[Group] = []
-    for given in fields:
-        match = _KEY.match(given.text) if "=" in given.text else None
+        return FieldLine(body, [FieldGroup("", body, fields)] if fields else [], problems)
+    groups: list[FieldGroup] = []
+    for item in fields:
+        match = _KEY.match(item.text) if "=" in item.text else None
         if match is None:
             if not groups:
-                groups.append(Group("", body))
-            groups[-1].fields.append(given)
+                groups.append(FieldGroup("", body))
+            groups[-1].fields.append(item)
             continue
-        value = given.text[match.end() :].lstrip(_OUTER)
-        first = Field(value, given.start + (len(given.text) - len(value) if value else match.end()))
-        groups.append(Group(canonical_key(match[1]), given.span, [first]))
+        value = item.text[match.end() :].lstrip(_OUTER)
+        first = Field(value, item.start + (len(item.text) - len(value) if value else match.end()))
+        groups.append(FieldGroup(canonical_key(match[1]), item.span, [first]))
     for group in groups:
         if group.key and len(group.fields) > 1:
             group.span = Span(group.span.start, group.fields[-1].span.end)
-    return Line(body, groups, problems)
+    return FieldLine(body, groups, problems)
 
 
 def first_key(text: str, span: Span) -> str:
@@ -132,12 +132,12 @@ def _parted(body: str, start: int) -> list[Field]:
 
 
 def _commas(text: str, body: Span) -> list[int]:
-    found: list[int] = []
+    offsets: list[int] = []
     at = text.find(",", body.start, body.end)
     while at >= 0:
-        found.append(at)
+        offsets.append(at)
         at = text.find(",", at + 1, body.end)
-    return found
+    return offsets
 
 
 def _outside(commas: list[int], protected: list[Span]) -> list[int]:

@@ -57,8 +57,8 @@ def _compiled(name: str, start: str, makes: Makes | None) -> Lark:
 @cache
 def definitions(name: str) -> Grammar:
     """Return the rules and terminals of a grammar."""
-    made, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
-    return cast("Grammar", made)
+    grammar, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
+    return cast("Grammar", grammar)
 
 
 def _text(name: str) -> str:
@@ -83,12 +83,12 @@ def _tables(name: str, makes: Makes | None) -> dict[str, bytes]:
 def _below(grammar: Grammar, start: str) -> Grammar:
     """Return the part of a grammar that a rule needs: lark compiles all rules that it gets."""
     rules = {str(rule[0]): rule for rule in grammar.rule_defs}
-    found: dict[str, None] = {}
-    wanted = [start]
-    while wanted:
-        name = wanted.pop()
-        if name not in found:
-            found[name] = None
+    needed: dict[str, None] = {}
+    waiting = [start]
+    while waiting:
+        name = waiting.pop()
+        if name not in needed:
+            needed[name] = None
             inside = rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))
-            wanted += [inner.name for inner in inside if inner.name in rules]  # another name is an alias
-    return Grammar([rules[name] for name in found], grammar.term_defs, grammar.ignore)
+            waiting += [inner.name for inner in inside if inner.name in rules]  # another name is an alias
+    return Grammar([rules[name] for name in needed], grammar.term_defs, grammar.ignore)

@@ -42,10 +42,10 @@ def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
     Columns that are in line only because all fields are of equal length are not aligned.
     """
     span = row.fields[index].span
-    others = [(one.fields[index].span, one.start) for one in _neighbours(source, span, index)]
-    if any(span.end - row.start == other.end - start for other, start in others):
+    neighbours = [(line.fields[index].span, line.start) for line in _neighbours(source, span, index)]
+    if any(span.end - row.start == near.end - start for near, start in neighbours):
         return _wide_blanks_before(source, row, span)
-    if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
+    if index + 1 < len(row.fields) and any(span.start - row.start == near.start - start for near, start in neighbours):
         return _wide_blanks_before(source, row, row.fields[index + 1].span)
     return None
 

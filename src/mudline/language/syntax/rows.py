@@ -41,7 +41,7 @@ _PARTS, _SMALLEST = 8, 4096
 """Number of parts of a piece that is not all numbers, and characters of a part that is not divided further."""
 
 
-class Rows(NamedTuple):
+class RawRows(NamedTuple):
     """Values of a run of rows.
 
     Attributes:
@@ -71,7 +71,7 @@ def spells_number(text: str) -> bool:
     return NUMBER.fullmatch(text) is not None
 
 
-def read_rows(text: str, span: Span, columns: int) -> Rows:
+def read_rows(text: str, span: Span, columns: int) -> RawRows:
     """Return the lines of a run as at most `columns` columns; `text` must have LF or CRLF line ends."""
     if span.end - span.start <= _SMALLEST:
         values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
@@ -79,7 +79,7 @@ def read_rows(text: str, span: Span, columns: int) -> Rows:
     return _together(_parts(text, span, columns, PIECE), span.end - span.start)
 
 
-def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, Rows]]:
+def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, RawRows]]:
     """Yield the rows of consecutive parts of a text, each with its number of characters; odd rows split parts."""
     for start, end in _pieces(text, span, size):
         lines = text[start:end]
@@ -92,7 +92,7 @@ def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int
             yield end - start, _mixed_rows(lines, columns)
 
 
-def _mixed_rows(lines: str, columns: int) -> Rows:
+def _mixed_rows(lines: str, columns: int) -> RawRows:
     """Return the rows of lines, some of which hold more than numbers: these are read singly, the others together."""
     texts = lines.split("\n")
     odd = np.array([_ODD.search(text) is not None for text in texts])
@@ -100,14 +100,14 @@ def _mixed_rows(lines: str, columns: int) -> Rows:
     if numbers is None or not odd.any():
         return read_rows_slow(lines, Span(0, len(lines)), columns)
     text = "\n".join(compress(texts, odd))
-    others = read_rows_slow(text, Span(0, len(text)), columns)
-    values = np.full((len(texts), max(numbers.shape[1], others.values.shape[1])), math.nan)
+    mixed = read_rows_slow(text, Span(0, len(text)), columns)
+    values = np.full((len(texts), max(numbers.shape[1], mixed.values.shape[1])), math.nan)
     values[~odd, : numbers.shape[1]] = numbers
-    values[odd, : others.values.shape[1]] = others.values
+    values[odd, : mixed.values.shape[1]] = mixed.values
     lengths = np.full(len(texts), numbers.shape[1], dtype=np.intp)
-    lengths[odd] = others.lengths
+    lengths[odd] = mixed.lengths
     places = np.flatnonzero(odd).tolist()
-    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
+    return RawRows(values, lengths, {(places[row], column): word for (row, column), word in mixed.words.items()})
 
 
 def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
@@ -148,7 +148,7 @@ def _doubles(numbers: bytes) -> Sequence[float]:
     return [float(word) for word in words]
 
 
-def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
+def read_rows_slow(text: str, span: Span, columns: int) -> RawRows:
     """Return the rows of a run, read field by field; slower than `read_rows`, with the same result."""
     values: list[list[float]] = []
     lengths: list[int] = []
@@ -166,14 +166,14 @@ def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
         values.append(row)
     array = np.array(values, dtype=np.float64).reshape(len(values), columns)
     width = min(max(lengths, default=0), columns)
-    return Rows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
+    return RawRows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
 
 
-def _plain(values: NDArray[np.float64]) -> Rows:
-    return Rows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
+def _plain(values: NDArray[np.float64]) -> RawRows:
+    return RawRows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
 
 
-def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
+def _together(parts: Iterable[tuple[int, RawRows]], size: int) -> RawRows:
     """Return the rows of consecutive parts of a text of `size` characters as one run.
 
     Rows are copied to one array as they come; its size is estimated from the first part. Copying all parts at the end
@@ -194,7 +194,7 @@ def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
         lengths.append(part.lengths)
         words |= {(row + start, column): word for (row, column), word in part.words.items()}
         start = end
-    return Rows(values[:start], _all_lengths(lengths), words)
+    return RawRows(values[:start], _all_lengths(lengths), words)
 
 
 def _grown(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.float64]:
@@ -207,9 +207,9 @@ def _grown(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.f
 
 def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
     """Return the lengths of all rows; equal lengths are stored as one number, broadcast to all rows."""
-    found = {int(length) for part in parts if len(part) for length in (part.min(), part.max())}
-    if len(found) == 1:
-        return np.broadcast_to(np.intp(found.pop()), sum(map(len, parts)))
+    extremes = {int(length) for part in parts if len(part) for length in (part.min(), part.max())}
+    if len(extremes) == 1:
+        return np.broadcast_to(np.intp(extremes.pop()), sum(map(len, parts)))
     return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
 
 
@@ -244,15 +244,15 @@ def line_spans(text: str, span: Span) -> Iterator[Span]:
 
 def row_starts(text: str, span: Span) -> array[int]:
     """Return the offsets of the rows of a run, like `line_spans`, ten times as fast for a million lines."""
-    found = array("q")
+    starts = array("q")
     for start, end in _pieces(text, span):
         letters = np.frombuffer(text[start:end].encode("latin-1", "replace"), np.uint8)
         lines = np.append(0, np.flatnonzero(letters == ord("\n")) + 1)
         blank = _BLANK.take(letters)
         lines = lines[: len(lines) - (lines[-1] == end - start)]
         lines = lines[~np.logical_and.reduceat(blank, lines)] + start
-        found.frombytes(lines.astype(np.int64).tobytes())
-    return found
+        starts.frombytes(lines.astype(np.int64).tobytes())
+    return starts
 
 
 def row_fields(text: str, line: Span, columns: int) -> list[Field]:

@@ -75,8 +75,8 @@ class Source:
         if foreign := _not_a_deck(text):
             return cls(name, text, encoding, bom, readable=False, problems=(foreign,))
         clean = not body.translate(None, _NO_CONTROLS) and (body.isascii() or _BOM not in body)
-        found = [] if clean else _control_characters(text)
-        return cls(name, text, encoding, bom, problems=(*problems, *found), clean=clean)
+        controls = [] if clean else _control_characters(text)
+        return cls(name, text, encoding, bom, problems=(*problems, *controls), clean=clean)
 
     def to_bytes(self, text: str | None = None) -> bytes:
         """Return the bytes of `text` (default: the text as read) in the file's encoding, with byte-order mark, if any.
@@ -101,7 +101,7 @@ class Source:
         text = self.unified
         starts = array("q", [0])
         if len(text) < _SHORT:
-            starts.extend(found.end() for found in _LINE_FEED.finditer(text))
+            starts.extend(match.end() for match in _LINE_FEED.finditer(text))
             return starts
         import numpy as np  # noqa: PLC0415 - what lints unchanged decks, or short ones, does without arrays here
 
@@ -136,12 +136,12 @@ def _heads_found(text: str) -> str:
     """Return a text of LF lines with blanks in place of the control characters before a `*` or `$`."""
     pieces: list[str] = []
     done = at = 0
-    while found := _CONTROL.search(text, at):
-        start = max(text.rfind("\n", at, found.start()) + 1, at)
+    while control := _CONTROL.search(text, at):
+        start = max(text.rfind("\n", at, control.start()) + 1, at)
         if match := _BEFORE_HEAD.match(text, start):
             pieces += (text[done:start], " " * (match.end() - start))
             done = match.end()
-        at = text.find("\n", found.end()) + 1 or len(text)
+        at = text.find("\n", control.end()) + 1 or len(text)
     return "".join((*pieces, text[done:])) if pieces else text
 
 
@@ -164,12 +164,12 @@ _INSTEAD = {
 
 def _not_a_deck(text: str) -> Problem | None:
     """Return the problem of a text that is not a deck; None if it may be a deck."""
-    if found := _NO_DECK.match(text):
-        return Problem(SYN018, _INSTEAD[str(found.lastgroup)], Span(*found.span()))
+    if match := _NO_DECK.match(text):
+        return Problem(SYN018, _INSTEAD[str(match.lastgroup)], Span(*match.span()))
     marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern takes long in a large file
-    if marks and (found := _MERGE_MARK.search(text)):
+    if marks and (match := _MERGE_MARK.search(text)):
         message = "a merge conflict is not solved: keep one of its versions, and remove its marks"
-        return Problem(SYN018, message, Span(*found.span()))
+        return Problem(SYN018, message, Span(*match.span()))
     return None
 
 
@@ -205,8 +205,8 @@ def _excess(body: bytes) -> str:
     return _divide(f"{LONGEST_LINE} bytes on one line") if -2 in ends else ""
 
 
-def _divide(found: str) -> str:
-    return f"more than {found}: is this a deck? If so, divide it, as by *RESTART"
+def _divide(limit: str) -> str:
+    return f"more than {limit}: is this a deck? If so, divide it, as by *RESTART"
 
 
 def _looks_like_utf16(sample: bytes) -> bool:

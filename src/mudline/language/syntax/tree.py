@@ -97,9 +97,9 @@ def _lines() -> re.Pattern[str]:
     """
     order = sorted(
         parser("deck").terminals,
-        key=lambda one: (-one.priority, -one.pattern.max_width, -len(one.pattern.value), one.name),
+        key=lambda token: (-token.priority, -token.pattern.max_width, -len(token.pattern.value), token.name),
     )
-    return re.compile("|".join(f"(?P<{one.name}>{one.pattern.to_regexp()})" for one in order))
+    return re.compile("|".join(f"(?P<{token.name}>{token.pattern.to_regexp()})" for token in order))
 
 
 def canonical_name(line: str) -> str:

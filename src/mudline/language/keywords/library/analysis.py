@@ -99,9 +99,9 @@ class TimeSpan(Block):
     limits: Records[StepLimits] = Records()
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the span of the chosen STEP=."""
-        return str(given.get("step") or "FIXED").lower()
+        return str(values.get("step") or "FIXED").lower()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -113,7 +113,7 @@ class TimeSpan(Block):
             raise ValueError("STEP=VARIABLE needs a line of suggested, least and largest step below its first line")
         if step == "FIXED" and self.limits:
             raise ValueError("STEP=FIXED takes one line: start, end, step and ramp")
-        if any(one.since is None for one in self.limits[1:]):
+        if any(limit.since is None for limit in self.limits[1:]):
             raise ValueError("of several lines of step limits each but the first needs the time from which it holds")
         return self
 
@@ -191,9 +191,9 @@ class Tolerances(Record):
     frequency: Annotated[FrequencyTolerances | None, about("of FREQUENCY")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the line for the kind of run in ANALYSIS=."""
-        return "frequency" if given.get("analysis") == "FREQUENCY" else "steps"
+        return "frequency" if values.get("analysis") == "FREQUENCY" else "steps"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -219,7 +219,7 @@ class Tolerance(Block):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         """Raise ValueError unless each kind of run has at most one line."""
-        kinds = [one.analysis or "STATIC/TIME" for one in self.tolerances]
+        kinds = [line.analysis or "STATIC/TIME" for line in self.tolerances]
         if len(set(kinds)) < len(kinds):
             raise ValueError("each ANALYSIS= may stand once: keep one line of each")
         return self
@@ -425,9 +425,9 @@ class TimeStepping(Block):
     hilber_hughes: Annotated[HilberHughes | None, about("parameter of HILBER-HUGHES")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the parameters of the scheme in TYPE=."""
-        return "hilber_hughes" if given.get("type_", given.get("type")) == "HILBER-HUGHES" else "alphas"
+        return "hilber_hughes" if values.get("type_", values.get("type")) == "HILBER-HUGHES" else "alphas"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

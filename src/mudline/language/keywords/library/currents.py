@@ -61,9 +61,9 @@ class CurrentProfile(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of the form in TYPE=."""
-        return "uniform" if given.get("type") == "UNIFORM" else "profile"
+        return "uniform" if values.get("type") == "UNIFORM" else "profile"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

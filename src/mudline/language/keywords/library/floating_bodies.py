@@ -11,7 +11,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import ANY, DIRECTION, Usual
-from mudline.language.keywords.values import Contents, Name, Names, Real
+from mudline.language.keywords.values import DataFile, Name, Names, Real
 
 Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
 
@@ -91,7 +91,7 @@ class BodyMatrices(Record):
     body: Body
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=Contents.NUMBERS),
+        setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     types: Records[MatrixType] = Records()
 
@@ -197,7 +197,7 @@ class BodyCoefficients(Record):
     body: Body
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
@@ -215,12 +215,12 @@ class VesselCoefficients(Record):
     tag: Annotated[Literal["MOORED VESSEL"], about(TAG)]
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of a row: the first line is the tag."""
         return "tag" if number == 0 else "headings"
 

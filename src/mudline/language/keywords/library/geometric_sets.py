@@ -183,9 +183,9 @@ class GeometricSet(Record):
     compression_check: Annotated[Name | None, setting("COMPRESSION CHECK", "check for compression")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the format in OPTION=, here or at an earlier set."""
-        return str(given.get("option") or last or "FLEXIBLE").lower()
+        return str(values.get("option") or last or "FLEXIBLE").lower()
 
     @property
     def section(self) -> FlexibleSection | RigidSection | MooringSection | TrussSection | None:
@@ -229,10 +229,10 @@ class GeometricSets(Block):
         option = "FLEXIBLE"
         for index, entry in enumerate(self.sets):
             option = entry.option or option
-            given = [name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None]
-            if given != [option.lower()]:
-                found = " and ".join(given) or "none"
-                message = f"OPTION={option} needs the section {option.lower()!r}, found {found}"
+            names = [name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None]
+            if names != [option.lower()]:
+                listed = " and ".join(names) or "none"
+                message = f"OPTION={option} needs the section {option.lower()!r}, found {listed}"
                 raise misfit(message, "sets", index)
             for slot in record_schema(GeometricSet).slots:
                 if slot.key in FORMATS_OF and option not in FORMATS_OF[slot.key] and getattr(entry, slot.name):

@@ -37,10 +37,10 @@ Fixation = Annotated[
 ]
 
 
-def _counted(given: object) -> object:
+def _counted(value: object) -> object:
     """Return a whole number as int, so that a degree of freedom is written as it was; the sign of -0.0 is kept."""
-    whole = isinstance(given, float) and given.is_integer() and math.copysign(1.0, given) > 0
-    return int(given) if whole and isinstance(given, float) and given <= LARGEST_WHOLE else given
+    whole = isinstance(value, float) and value.is_integer() and math.copysign(1.0, value) > 0
+    return int(value) if whole and isinstance(value, float) and value <= LARGEST_WHOLE else value
 
 
 Either = Annotated[Count | Finite | Equation, Field(union_mode="left_to_right"), BeforeValidator(_counted), Kind.REAL]
@@ -183,7 +183,7 @@ class FluidSet(Record):
             "mass density",
             unit="M/L3",
             at_least=0,
-            usual=(Usual(1.0, 2600.0, "from gas to heavy mud", meant=850.0, within=8.0), LIQUID),
+            usual=(Usual(1.0, 2600.0, "from gas to heavy mud", typical=850.0, within=8.0), LIQUID),
         ),
     ]
     pressure: Annotated[

@@ -194,9 +194,9 @@ class LabelLine(Record):
     ]
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the kind of object in TYPE=, here or on an earlier line."""
-        return str(given.get("thing") or last or "NODE").lower()
+        return str(values.get("thing") or last or "NODE").lower()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -89,9 +89,9 @@ class PipCurve(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of the form in TYPE=."""
-        return "law" if given.get("type") == "POWER LAW" else "points"
+        return "law" if values.get("type") == "POWER LAW" else "points"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -194,7 +194,7 @@ class Spacing(Row):
     end: Annotated[Real | None, about("distance of the last", unit="L", at_least=0, usual=ALONG)] = None
 
 
-class _Stiffness(Row):
+class _ConnectionStiffness(Row):
     stiffness: Annotated[Real, about("stiffness", unit="F/L", at_least=0, usual=ANY)]
 
 
@@ -206,7 +206,7 @@ class _Bulkhead(Row):
     bulkhead: Annotated[Literal["BULKHEAD"], about("the word")]
 
 
-class StiffConnections(Spacing, _Stiffness):  # the last base's fields first
+class StiffConnections(Spacing, _ConnectionStiffness):  # the last base's fields first
     """Values of STIFFNESS=."""
 
 

@@ -73,8 +73,8 @@ class VariedParameter(Record):
     def _given(self) -> Self:
         """Raise ValueError unless the values come from either a list or a range."""
         if (self.values is None) == (self.generate is None):
-            found = "neither" if self.values is None else "both"
-            raise ValueError(f"PARA={self.parameter} needs VALUE= or GEN=, found {found}")
+            count = "neither" if self.values is None else "both"
+            raise ValueError(f"PARA={self.parameter} needs VALUE= or GEN=, found {count}")
         return self
 
 

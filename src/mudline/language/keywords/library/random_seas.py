@@ -95,17 +95,17 @@ class JonswapSea(OpenRecord):
     progression_height: Annotated[ProgressionHeight | None, about("of GP and HSTZ or HSTP")] = None
 
     @classmethod
-    def carries(cls, given: dict[str, object], last: object) -> object:
+    def carries(cls, values: dict[str, object], last: object) -> object:
         """Return the name of the field that the next lines fill."""
-        return cls.row_slot(0, 0, given, last)
+        return cls.row_slot(0, 0, values, last)
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the form in FREQUENCY= and SPEC=, here or on an earlier line."""
-        if not given.get("frequency"):
+        if not values.get("frequency"):
             return str(last or "area_shape")
-        chosen = "area" if given["frequency"] == "AREA" else "progression"
-        return f"{chosen}_shape" if given.get("spec") in (None, "NORMAL") else f"{chosen}_height"
+        chosen = "area" if values["frequency"] == "AREA" else "progression"
+        return f"{chosen}_shape" if values.get("spec") in (None, "NORMAL") else f"{chosen}_height"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -139,9 +139,9 @@ class _Sea(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the form in FREQUENCY=, here or on an earlier line."""
-        return "progression" if (given.get("frequency") or last) == "GP" else "area"
+        return "progression" if (values.get("frequency") or last) == "GP" else "area"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

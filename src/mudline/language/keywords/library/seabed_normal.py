@@ -214,7 +214,7 @@ class SuctionSet(Record):
             "undrained shear strength of the soil; gives force and depth after Bridge et al. (2004)",
             unit="F/L2",
             at_least=0,
-            usual=Usual(95.0, 1e6, "less is a fluid, more is rock", code="UNT002", meant=3e3, within=30.0),
+            usual=Usual(95.0, 1e6, "less is a fluid, more is rock", code="UNT002", typical=3e3, within=30.0),
         ),
     ] = None
     force: Annotated[MaximumForce | None, setting("FORCE", "law of the largest suction force")] = None

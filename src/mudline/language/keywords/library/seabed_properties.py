@@ -213,7 +213,7 @@ class Surface(Block):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of a row: properties first; then one value is a slope, two are a point of the profile."""
         return "properties" if number == 0 else "slope" if fields == 1 else "profile"
 

@@ -134,11 +134,11 @@ class SeabedProfile(Block):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         """Raise ValueError unless the settings are those of the type."""
-        given = [key for key in _SETTINGS if getattr(self, key.lower()) is not None]
+        keys = [key for key in _SETTINGS if getattr(self, key.lower()) is not None]
         for key in _NEEDS[self.type_]:
-            if key not in given:
+            if key not in keys:
                 raise ValueError(f"TYPE={self.type_} needs {key}=")
-        for key in given:
+        for key in keys:
             if key not in _TAKES[self.type_]:
                 raise ValueError(f"TYPE={self.type_} takes no {key}=")
         if self.type_ == "3D" and self.direction is not None:

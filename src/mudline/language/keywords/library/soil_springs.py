@@ -28,7 +28,7 @@ class SoilPoint(Row):
         about(
             "displacement of the pipe against the soil",
             unit="L",
-            usual=Usual(-5.0, 5.0, "soil yields within a few diameters", meant=0.05, within=30.0),
+            usual=Usual(-5.0, 5.0, "soil yields within a few diameters", typical=0.05, within=30.0),
         ),
     ]
 

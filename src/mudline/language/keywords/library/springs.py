@@ -41,9 +41,9 @@ class Springs(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of the form in TYPE=."""
-        return "points" if given.get("type") == "NONLINEAR" else "stiffness"
+        return "points" if values.get("type") == "NONLINEAR" else "stiffness"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -172,11 +172,11 @@ class FlexJoint(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of a row: weights before TYPE=, then the form in TYPE=."""
-        if "type" not in given:
+        if "type" not in values:
             return "weights"
-        return "points" if given["type"] == "NONLINEAR" else "stiffness"
+        return "points" if values["type"] == "NONLINEAR" else "stiffness"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

@@ -21,7 +21,7 @@ from mudline.language.keywords.usual import (
     VERTICAL_OFFSET,
     Usual,
 )
-from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
+from mudline.language.keywords.values import DataFile, Facts, Name, Names, Real
 
 _VESSEL = "vessel of *VESSEL or *VESSEL,INTEGRATED"
 Vessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL)]
@@ -105,7 +105,7 @@ class VesselMotion(Record):
     file: Annotated[
         Name,
         setting(
-            "FILE", "text file of seven columns: time, six displacements", names=Names.FILE, holds=Contents.MOTIONS
+            "FILE", "text file of seven columns: time, six displacements", names=Names.FILE, holds=DataFile.MOTIONS
         ),
     ]
 
@@ -156,7 +156,7 @@ class VesselDrift(Record):
             "FILE",
             "of FILE: text file of seven columns, time and six displacements",
             names=Names.FILE,
-            holds=Contents.MOTIONS,
+            holds=DataFile.MOTIONS,
         ),
     ] = None
 
@@ -221,7 +221,7 @@ class FrequencyRao(Record):
     phases: Annotated[SixPhases, about("phases, positive for a lag")]
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the field of the next line: frequency, amplitudes, phases."""
         return ("frequency", "amplitudes", "phases")[min(number, 2)]
 
@@ -267,7 +267,7 @@ class VesselRao(Record):
     ] = None
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=Contents.OPERATORS),
+        setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=DataFile.OPERATORS),
     ] = None
     first: Annotated[
         Literal["YES", "NO"] | None,

@@ -12,7 +12,7 @@ from mudline.language.keywords.usual import (
     VESSEL_HEIGHT,
     VESSEL_SIZE,
 )
-from mudline.language.keywords.values import Contents, Ident, Name, Names, Real
+from mudline.language.keywords.values import DataFile, Ident, Name, Names, Real
 
 
 class Position(Row):
@@ -79,7 +79,7 @@ class IntegratedVessel(OpenRecord):
     ] = None
     position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
     rao: Annotated[
-        Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE, holds=Contents.OPERATORS)
+        Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE, holds=DataFile.OPERATORS)
     ] = None
     format: Annotated[
         Name | None,

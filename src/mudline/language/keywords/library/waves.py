@@ -21,7 +21,7 @@ from mudline.language.keywords.usual import (
     SEA_PERIOD,
     WAVE_PERIOD,
 )
-from mudline.language.keywords.values import Contents, Name, Names, Real, Whole
+from mudline.language.keywords.values import DataFile, Name, Names, Real, Whole
 
 _AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0, usual=AMPLITUDE)
 _LEAST = about("smallest period", unit="T", above=0, usual=WAVE_PERIOD)
@@ -73,9 +73,9 @@ class RegularWave(Record):
     directed_band: Annotated[DirectedBand | None, about("the same with a direction", inferred=_FIELDS)] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
         """Return the form in OPTION=, here or on an earlier line."""
-        if (given.get("option") or last) != "MANY":
+        if (values.get("option") or last) != "MANY":
             return "wave"
         return "band" if fields == len(Band.model_fields) else "directed_band"
 
@@ -172,7 +172,7 @@ class WaveTimeHistory(Block):
     keyword: Literal["WAVE-TIME-HISTORY"] = "WAVE-TIME-HISTORY"
     file: Annotated[
         Name,
-        setting("FILE", "text file with a time and an elevation a line", names=Names.FILE, holds=Contents.ELEVATIONS),
+        setting("FILE", "text file with a time and an elevation a line", names=Names.FILE, holds=DataFile.ELEVATIONS),
     ]
     direction: Direction = None
     y: Annotated[Real | None, about("Y of the point where it was measured", unit="L", default="0", usual=POSITION)] = (
