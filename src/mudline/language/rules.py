@@ -154,7 +154,7 @@ def described_by(code: Code, docstring: str) -> RulePage:
     place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
-    example = sections[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 makes blanks of TABs in docstrings
+    example = sections[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 expands TABs in docstrings
     base = heading.partition(" on ")[2]
     rows = _rows_on(base, code, example) if base else _rows(code, example, _MARKS)
     bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != left_out) for left_out in "+-")

@@ -76,7 +76,7 @@ class DocumentOrigin(Origin):
         if problem.where is None:
             return START
         section, block, path = problem.where
-        if path[:1] == ("lines",):  # a piece of a line has no place of its own
+        if path[:1] == ("lines",):  # a document has no places within a line
             path = path[:2]
         elif path[-3:-2] == ("text",):
             path = path[:-2]

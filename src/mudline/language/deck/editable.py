@@ -124,7 +124,7 @@ def _name_of(keyword: str | type[Block]) -> str:
         return canonical_name(f"*{keyword.removeprefix('*')}")
     fields: dict[str, FieldInfo] = getattr(keyword, "model_fields", {})
     if "keyword" not in fields or not isinstance(fields["keyword"].default, str):
-        raise ValueError(f"{keyword.__name__} is no keyword: expected a class of mudline.keywords")
+        raise ValueError(f"{keyword.__name__} is not a keyword: expected a class of mudline.keywords")
     return fields["keyword"].default
 
 

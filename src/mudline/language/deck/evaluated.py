@@ -136,7 +136,7 @@ def _has_equation(value: Any) -> bool:
     if not isinstance(value, list):
         kind: type[BaseModel] = type(value)
         names = _evaluated_slots(kind)
-        held = map(value.__dict__.__getitem__, names) if names else ()  # sooner than `getattr` of a model
+        held = map(value.__dict__.__getitem__, names) if names else ()  # faster than `getattr` of a model
     for item in held:  # noqa: SIM110 - `any` takes twice the time
         if type(item) not in _PLAIN and _has_equation(item):
             return True
@@ -194,7 +194,7 @@ class _Evaluator:
         except NoValueError as reason:
             if reason.problem:
                 self.problems.append(replace(reason.problem, blocks=self.blocks))
-            elif self.blocks is Blocks.ALWAYS:  # the problem is placed where the parameter is defined
+            elif self.blocks is Blocks.ALWAYS:  # the problem is reported at the parameter's definition
                 self.lacks_parameter = True
             return nothing
         if isinstance(value, str):

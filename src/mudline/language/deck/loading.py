@@ -43,7 +43,7 @@ def load_bytes(
     form = form or form_of(name)
     if form == KEYWORD:
         source = Source.from_bytes(data, name)
-        del data  # where nobody else has it, its memory is free for the tables
+        del data  # frees its memory for the tables, unless the caller keeps it
         deck = read_source(source, units=units, read=read)
     else:
         if len(data) > LARGEST_FILE:

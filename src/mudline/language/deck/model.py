@@ -181,7 +181,7 @@ class Deck:
 
     def _repr_html_(self) -> str:
         """Return the keywords of each section with their numbers, for notebooks."""
-        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - needed only in notebooks
 
         blocks = [(section.name, block.keyword, block) for section in self.sections for block in section.blocks]
         contents = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)

@@ -255,7 +255,7 @@ class _DeckReader:
             place = trimmed(self.text, *foreign.head.span)
             message = (
                 f"this seems to be a deck of DeepLines: it has *{foreign.name.split()[0]} and no $SECTION, and its "
-                "values are separated by blanks; mudline does not read such decks"
+                "values are separated only by spaces; mudline does not read such decks"
             )
             self.problems.append(Problem(SYN007, message, place))
         for block in preamble.blocks if not foreign else ():
@@ -372,7 +372,7 @@ def units_of(deck: Deck) -> str:
 
     A file of user units is not metric if the density of its water is in t/m3: its forces are then in kN.
     """
-    at = deck.source.rfind(".")  # a path would take longer, for each of many decks
+    at = deck.source.rfind(".")  # faster than a path, for many decks
     suffix = deck.source[at:].lower() if at > 0 else ""
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]

@@ -20,7 +20,7 @@ _HEAD = 4096
 
 def is_deck(path: str) -> bool:
     """Return True if a path has the suffix of a deck."""
-    return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - asked for each of many files
+    return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - called for many files
 
 
 def is_document(path: str) -> bool:
@@ -131,7 +131,7 @@ class Search:
 
     def _above(self) -> list[_Rules]:
         """Return the rules of the folders above the directory, the nearest first."""
-        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
+        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - keeps the names of links
         rules: list[_Rules] = []
         for folder in (here, *here.parents):
             if folder != here:

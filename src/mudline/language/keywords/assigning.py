@@ -111,7 +111,7 @@ class ValidatedList(list[Any]):
     def __setitem__(self, at: Any, value: Any) -> None:
         super().__setitem__(at, self._valid(value) if isinstance(at, slice) else self._valid([value])[0])
 
-    def __iadd__(self, values: Iterable[Any]) -> Self:  # type: ignore[misc]  # that of a list takes any values
+    def __iadd__(self, values: Iterable[Any]) -> Self:  # type: ignore[misc]  # `list` accepts any values
         self.extend(values)
         return self
 

@@ -17,7 +17,7 @@ from mudline.language.keywords.text import reads_as_name
 
 
 class Between(NamedTuple):
-    """Comment (its text after the C) or `kept` line, with its offset and its position among the lines."""
+    """Comment or `kept` line between other lines; `text` is that of a comment without its C."""
 
     position: int
     text: str
@@ -50,7 +50,7 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
             _hold(held, whole.path(comment.position, within=True)[-1], comment)
         else:
             trailing.append(comment.text)
-    for record, lines in held.values():  # a setting may be read in another place than it is written back to
+    for record, lines in held.values():  # settings may be written in another order than read
         _write(record, sorted(lines))
     return trailing
 

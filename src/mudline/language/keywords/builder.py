@@ -145,7 +145,7 @@ class Builder:
             return
         for group in groups:
             slot = schema.keys.get(group.key)
-            if slot and slot.json in built.values:  # a key that may stand twice has a field for each
+            if slot and slot.json in built.values:  # a key that may occur twice has two fields
                 slot = next((s for s in schema.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
                 self._unknown_key(group, schema.keys)
@@ -261,7 +261,7 @@ class Builder:
             before = len(self.problems)
             values, _ = self._fields(columns, self._cut(built, line, keys=False)[0], line)
             if any(problem.code not in (SYN002, SYN016) for problem in self.problems[before : before + 1]):
-                del self.problems[before + 1 :]  # of a row that is cut wrongly nothing more is said
+                del self.problems[before + 1 :]  # a row that is split wrongly has one problem
             labels = ((at, value) for at, value in enumerate(values.values()) if isinstance(value, Label))
             table.words.update(((row, at), label) for at, label in labels)
 
@@ -296,7 +296,7 @@ class Builder:
         schema = record_schema(built.part)
         if slot.row and slot.json in built.values:
             expected = record_schema(slot.row).layout
-            self.report(SYN001, f"one line only has its place here (`{expected}`): remove it, or the one above", line)
+            self.report(SYN001, f"only one line `{expected}` is allowed here: remove this line, or the one above", line)
         elif slot.row:
             self._inner_row(built, slot, fields, line)
         elif slot.many:
@@ -334,7 +334,7 @@ class Builder:
         """Return the values of a row, and its fields without those beyond the last column."""
         before = len(self.problems)
         fields = self._counted(columns, fields, line)
-        # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
+        # With a wrong count any value may belong to another column, except the number or name that begins the row.
         wrong = any(problem.weight is Severity.ERROR for problem in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
@@ -375,7 +375,7 @@ class Builder:
             ):
                 self.problems.append(problem)
             return fields
-        if self.unclosed:  # the open bracket holds the fields that are missing
+        if self.unclosed:  # the open bracket contains the missing fields
             return fields[: len(columns)]
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)

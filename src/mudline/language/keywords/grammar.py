@@ -89,7 +89,7 @@ def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> 
     state = _begin(rule)
     mismatches: list[Mismatch] = []
     for content in contents:
-        if _takes(state, content):  # a parser that refuses a token has closed what it could before
+        if _takes(state, content):  # a parser that refuses a token has already closed rules
             _feed(state, content)
             continue
         expected = tuple(sorted(state.accepts()))

@@ -99,7 +99,7 @@ class Rows(FieldInfo):
         return table
 
     def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
-        if table is None:  # of a block that could not be read
+        if table is None:  # the block could not be read
             return None
         listing = Listing(table, self.columns())
         return listing if info.context == AS_TABLES else listing.rows()
@@ -152,7 +152,7 @@ class Part(BaseModel):
         extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True, validate_assignment=True
     )
 
-    if not TYPE_CHECKING:  # a checker takes any attribute of a class that has this
+    if not TYPE_CHECKING:  # with this method type checkers accept any attribute
 
         def __setattr__(self, name: str, value: Any) -> None:
             """Set a field; raises ValueError for an unknown field or an invalid value, and leaves it unchanged."""
@@ -243,7 +243,7 @@ class Record(Part):
 
     rule: ClassVar[str]
     sticky: ClassVar[str] = ""
-    # Of the class `list` pydantic parses the signature, in each model that has the field.
+    # With the class `list`, pydantic parses its signature in each model that has the field.
     comments: list[Comment] = Field(default_factory=lambda: [])  # noqa: PIE807 - as above
 
     def known_as(self) -> Any:
@@ -404,7 +404,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
     return schema
 
 
-_is_part = cache(lambda kind: issubclass(kind, Part))  # to ask a model itself takes several times as long
+_is_part = cache(lambda kind: issubclass(kind, Part))  # several times as fast as `issubclass` of a model
 
 
 def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[PartValue]) -> None:

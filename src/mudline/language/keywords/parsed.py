@@ -119,7 +119,7 @@ def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
     of_child: dict[int, list[int]] = {}
     for position in positions:
         of_child.setdefault(bisect_right(firsts, position) - 1, []).append(position)
-    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above it may be that of its name
+    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above the child may be the one with its name
         for slot in record_schema(child.part).slots[:1]:
             if slot.key:
                 child.values.setdefault(slot.json, UNKNOWN)

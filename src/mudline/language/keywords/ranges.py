@@ -24,7 +24,7 @@ def in_words(slot: FieldSpec) -> str:
     meaning = re.split("[;,]", slot.about.meaning)[0]
     if slot.key:
         return slot.label
-    if slot.label.islower():  # words of the meaning; a symbol has capitals
+    if slot.label.islower():  # a word; symbols have capitals
         return meaning
     return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
 

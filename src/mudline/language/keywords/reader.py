@@ -171,7 +171,7 @@ class _BlockParser:
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
-            first = min(kept.span.start for kept in self.kept)  # what stands before it has no other form
+            first = min(kept.span.start for kept in self.kept)  # lines before it are of known form
             lines = [item.found.span for item in mismatches if item.found and item.found.span.start < first]
             certain = [item for item in problems if item.span and any(a <= item.span.start < b for a, b in lines)]
             rest = [problem for problem in problems if problem not in certain]

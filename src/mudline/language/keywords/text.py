@@ -86,7 +86,7 @@ def reads_as_name(text: str) -> bool:
 
 
 def maybe_label(text: str) -> Label | None:
-    """Return the text as a label if its braces may be forgotten: it begins with a letter, but is not NaN."""
+    """Return a text without braces as a label, if it begins with a letter and is not a NaN or infinity."""
     if not text[:1].isalpha() or not_finite(text):
         return None
     return Label.match("{" + text + "}")

@@ -218,7 +218,7 @@ class Names(Enum):
     S_N_CURVE = "an S-N curve"
     VARIABLE = "an output variable"
 
-    __hash__ = object.__hash__  # that of `Enum` is a function of Python, and names are looked up by kind
+    __hash__ = object.__hash__  # that of `Enum` is slow Python, and names are looked up by kind
 
 
 class DataFile(Enum):

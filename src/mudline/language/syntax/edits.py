@@ -63,14 +63,14 @@ class Undoing:
 
     def before(self, span: Span) -> Span:
         """Return the span of the original text that corresponds to a span of the edited text."""
-        # all before the first that ends behind the start only move it
+        # edits that end before the span only shift it
         first = (bisect_right if span.end > span.start else bisect_left)(self._ends, span.start)
         start, end = span.moved(-self._grown[first])
         for edit in islice(self._edits, first, None):
             if edit.span.start >= end:
                 break
             grown = len(edit.text) - (edit.span.end - edit.span.start)
-            if edit.span.start < start + (not edit.text):  # what stands at the place of something left out is behind it
+            if edit.span.start < start + (not edit.text):  # text at the place of a deletion is behind it
                 start = max(start - grown, edit.span.start)
             end = max(end - grown, edit.span.start)
         return Span(start, max(start, end))

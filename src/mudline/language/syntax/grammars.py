@@ -90,5 +90,5 @@ def _below(grammar: Grammar, start: str) -> Grammar:
         if name not in needed:
             needed[name] = None
             inside = rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))
-            waiting += [inner.name for inner in inside if inner.name in rules]  # another name is an alias
+            waiting += [inner.name for inner in inside if inner.name in rules]  # other names are aliases
     return Grammar([rules[name] for name in needed], grammar.term_defs, grammar.ignore)

@@ -83,7 +83,7 @@ def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int
     """Yield the rows of consecutive parts of a text, each with its number of characters; odd rows split parts."""
     for start, end in _pieces(text, span, size):
         lines = text[start:end]
-        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer: one line without end
+        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer pieces are a single line
         if values is not None:
             yield end - start, _plain(values)
         elif size > _SMALLEST and end - start > _SMALLEST:
@@ -216,8 +216,8 @@ def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
 def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
     """Yield spans of whole lines of about `size` characters each, without the line end of the last line.
 
-    Pieces limit the size of arrays: a C library reuses memory of small blocks, but returns large blocks to the system,
-    which has to clear them for each new array.
+    A large block is allocated and freed first: afterwards a C library keeps smaller freed blocks for reuse. Otherwise
+    the system would have to clear new memory for every array of a piece.
     """
     start, end = span
     while end > start and text[end - 1] in "\r\n":

@@ -103,7 +103,7 @@ class Source:
         if len(text) < _SHORT:
             starts.extend(match.end() for match in _LINE_FEED.finditer(text))
             return starts
-        import numpy as np  # noqa: PLC0415 - what lints unchanged decks, or short ones, does without arrays here
+        import numpy as np  # noqa: PLC0415 - not needed for short decks and cached results
 
         for at in range(0, len(text), _CHUNK):
             letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
@@ -166,7 +166,7 @@ def _not_a_deck(text: str) -> Problem | None:
     """Return the problem of a text that is not a deck; None if it may be a deck."""
     if match := _NO_DECK.match(text):
         return Problem(SYN018, _INSTEAD[str(match.lastgroup)], Span(*match.span()))
-    marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern takes long in a large file
+    marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern is slow in a large file
     if marks and (match := _MERGE_MARK.search(text)):
         message = "a merge conflict is not solved: keep one of its versions, and remove its marks"
         return Problem(SYN018, message, Span(*match.span()))
@@ -194,7 +194,7 @@ def _excess(body: bytes) -> str:
     """Return the message for an exceeded limit: memory grows with the lines, most with lines of words."""
     if len(body) > LARGEST_DECK:
         return _divide(f"{LARGEST_DECK} bytes")
-    words = body.translate(None, _OF_NUMBERS)  # counting the lines of all would take twice the time
+    words = body.translate(None, _OF_NUMBERS)  # counting all lines would take twice the time
     lines = words.count(b"\n") + words.count(b"\r")
     if lines > MOST_LINES:
         return _divide(f"{MOST_LINES} lines")

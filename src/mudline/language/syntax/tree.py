@@ -127,7 +127,7 @@ def parse(source: Source) -> SyntaxTree:
     preamble = section = RawSection(None, "")
     sections: list[RawSection] = []
     leaves = section.leaves
-    new = tuple.__new__  # what the classes call, in a third of the time: a deck has a leaf for nearly every line
+    new = tuple.__new__  # a third of the time of the classes: a deck has a leaf for nearly every line
     for line in _lines().finditer(source.unified):
         kind = _KINDS[line.lastgroup]
         leaf = new(Leaf, (kind, new(Span, line.span())))

@@ -92,7 +92,7 @@ class TimeSpan(Block):
     keyword: Literal["TIME"] = "TIME"
     step: Annotated[
         Literal["FIXED", "VARIABLE"] | None,
-        setting("STEP", "one length of the steps, or limits", default="FIXED", inferred="its default, FIXED"),
+        setting("STEP", "fixed length of the steps, or limits", default="FIXED", inferred="its default, FIXED"),
     ] = None
     fixed: Annotated[FixedSpan | None, about("span under STEP=FIXED")] = None
     variable: Annotated[VariableSpan | None, about("span under STEP=VARIABLE")] = None
@@ -114,7 +114,7 @@ class TimeSpan(Block):
         if step == "FIXED" and self.limits:
             raise ValueError("STEP=FIXED takes one line: start, end, step and ramp")
         if any(limit.since is None for limit in self.limits[1:]):
-            raise ValueError("of several lines of step limits each but the first needs the time from which it holds")
+            raise ValueError("each line of step limits after the first needs the time from which it holds")
         return self
 
 
@@ -244,7 +244,7 @@ class Criterion(Record):
         ],
         setting("CRITERION", "quantity"),
     ]
-    monitor: Annotated[Name, setting("MONITOR", "element, element set or guide where it is looked at", inline=True)]
+    monitor: Annotated[Name, setting("MONITOR", "element, element set or guide to be monitored", inline=True)]
     target: Annotated[Real, setting("TARGET", "value to be reached", inline=True, usual=ANY)]
     tolerance: Annotated[
         Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True, usual=ANY)

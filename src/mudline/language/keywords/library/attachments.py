@@ -63,7 +63,7 @@ class ChainRange(ListRow):
     """Chains like that of a master node, which is defined above them."""
 
     master: Annotated[Ident, about("node with the chain that is repeated", names=Names.NODE)]
-    number: Annotated[Whole, about("number of chains, with that of the master", at_least=1, usual=COUNT)]
+    number: Annotated[Whole, about("number of chains, including the master", at_least=1, usual=COUNT)]
     increment: Annotated[Whole | None, about("step between node numbers", default="1", usual=COUNT)] = None
 
 

@@ -91,7 +91,7 @@ class BodyMatrices(Record):
     body: Body
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=DataFile.NUMBERS),
+        setting("FILE", "file with the matrices, instead of lines", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     types: Records[MatrixType] = Records()
 
@@ -148,7 +148,7 @@ class BodyDrag(Record):
     type_: Annotated[Literal["MATRIX"], setting("TYPE", "the coefficients are a matrix")] = Field(alias="type")
     option: Annotated[
         Literal["ABSOLUTE", "RELATIVE"] | None,
-        setting("OPTION", "velocity of the body, or that against the water", default="ABSOLUTE"),
+        setting("OPTION", "velocity of the body, or relative to the water", default="ABSOLUTE"),
     ] = None
     matrix: Matrix
 

@@ -185,7 +185,7 @@ class LabelLine(Record):
     rule = "label_line"
     sticky = "thing"
     thing: Annotated[
-        Literal["NODE", "ELEMENT"] | None, setting("TYPE", "what the labels are of, until it is given again")
+        Literal["NODE", "ELEMENT"] | None, setting("TYPE", "kind of labelled object, until it is given again")
     ] = None
     node: Annotated[LabelledNode | None, about("of NODE: the node")] = None
     element: Annotated[LabelledElement | None, about("of ELEMENT: the element")] = None

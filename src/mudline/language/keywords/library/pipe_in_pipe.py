@@ -35,7 +35,7 @@ class PipSections(Block):
     ] = None
     auto_create: Annotated[
         Literal["YES", "NO"] | None,
-        setting("AUTO_CREATE", "connections are made of themselves", default="YES", inline=True),
+        setting("AUTO_CREATE", "create connections automatically", default="YES", inline=True),
     ] = None
     pipes: Records[PipSets] = Records()
 
@@ -74,7 +74,7 @@ class PipCurve(Record):
     ] = Field(default=None, alias="type")
     configuration: Annotated[
         Literal["PIP", "POP"] | None,
-        setting("CONFIGURATION", "of POWER LAW: pipe in pipe, or on pipe", default="PIP", inline=True),
+        setting("CONFIGURATION", "for POWER LAW: pipe in pipe, or pipe on pipe", default="PIP", inline=True),
     ] = None
     law: Annotated[PowerLaw | None, about("of POWER LAW: its line")] = None
     points: Annotated[
@@ -126,9 +126,9 @@ CurveName = Annotated[
 ]
 AxialStiffness = Annotated[
     Real | None,
-    setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True, usual=ANY),
+    setting("AXIAL_STIFF", "for sliding connections: axial stiffness", unit="F/L", at_least=0, inline=True, usual=ANY),
 ]
-AxialCurve = Annotated[Name | None, setting("AXIAL_NONLINEAR", "of sliding ones: axial curve", inline=True)]
+AxialCurve = Annotated[Name | None, setting("AXIAL_NONLINEAR", "for sliding connections: axial curve", inline=True)]
 
 
 class PipRange(ListRow):

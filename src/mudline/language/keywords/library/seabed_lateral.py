@@ -202,7 +202,7 @@ class TrenchResidual(Row):
         Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0, usual=MODEL)
     ]
     displacement: Annotated[
-        Real, about("distance from the centreline from which on it holds", unit="L", above=0, usual=MODEL)
+        Real, about("distance from the centreline beyond which it holds", unit="L", above=0, usual=MODEL)
     ]
 
 

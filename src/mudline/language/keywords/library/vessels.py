@@ -90,7 +90,7 @@ class IntegratedVessel(OpenRecord):
         LocalDistance | None, setting("REF", "point that the operators hold for, from the reference point")
     ] = None
     profile: Annotated[Name | None, setting("PROFILE", "shape that is drawn")] = None
-    file: Annotated[Name | None, setting("FILE", "file with a shape of one's own", names=Names.FILE)] = None
+    file: Annotated[Name | None, setting("FILE", "file with a user-defined shape", names=Names.FILE)] = None
     dimensions: Annotated[Dimensions | None, setting("DIMENSIONS", "size of the shape")] = None
 
 

@@ -254,8 +254,9 @@ class ScatterOptions(Block):
 
     keyword: Literal["OPTIONS"] = "OPTIONS"
     overwrite: Annotated[
-        Literal["YES", "NO"] | None, setting("OVERWRITE DATA", "write summaries that are there again", default="NO")
+        Literal["YES", "NO"] | None, setting("OVERWRITE DATA", "overwrite existing summaries", default="NO")
     ] = None
     rating: Annotated[
-        Real | None, setting("POWER RATING", "average powers are cut off at", default="no limit", at_least=0, usual=ANY)
+        Real | None,
+        setting("POWER RATING", "upper limit of the average powers", default="no limit", at_least=0, usual=ANY),
     ] = None
