@@ -181,9 +181,7 @@ OUTER_WIDTH = Usual(
     high=8.0, why="one of them is in another unit", of="times the drag and buoyancy diameters", code="UNT006"
 )
 YOUNG = (
-    Usual(
-        low=1e5, why="rubber has 1E6, steel 2.07E11", code="UNT005", placeholder=True, typical=2.07e11, within=1000.0
-    ),
+    Usual(low=1e5, why="rubber has 1E6, steel 2.07E11", code="UNT005", placeholder=True, typical=2.07e11, within=1e3),
     Usual(185e9, 220e9, "steel", when="a steel wall", code="UNT005", placeholder=True, typical=2.07e11, explained=True),
 )
 SHEAR = (
@@ -220,13 +218,7 @@ WALL = (
     ),
     Usual(high=40_000.0, why="steel has 7850", code="UNT004", placeholder=True, typical=7850.0, explained=True),
     Usual(
-        low=7000.0,
-        why="steel",
-        when="the modulus of steel",
-        code="UNT004",
-        placeholder=True,
-        typical=7850.0,
-        within=1.1,
+        low=7e3, why="steel", when="the modulus of steel", code="UNT004", placeholder=True, typical=7850.0, within=1.1
     ),
     Usual(7.0, 8.4, "steel", of="times the density of the water", when="unknown units", code="UNT004", explained=True),
 )

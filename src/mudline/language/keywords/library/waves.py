@@ -257,6 +257,5 @@ class ScatterOptions(Block):
         Literal["YES", "NO"] | None, setting("OVERWRITE DATA", "overwrite existing summaries", default="NO")
     ] = None
     rating: Annotated[
-        Real | None,
-        setting("POWER RATING", "upper limit of the average powers", default="no limit", at_least=0, usual=ANY),
+        Real | None, setting("POWER RATING", "upper limit of average powers", default="no limit", at_least=0, usual=ANY)
     ] = None
