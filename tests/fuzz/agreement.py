@@ -65,7 +65,9 @@ _VERDICTS: dict[str, Callable[[bytes], bool | None]] = {
     "validate": lambda data: judge_content(data, NAME, None, None).verdict.ok,
     "evaluate": _evaluates,
     "show": lambda data: not overview(load_bytes(data, NAME)).errors,
-    "report": lambda data: report_on(DeckFile(data, NAME, None), LintSettings(rules()), ["verdict"]).json["verdict"][
+    "report": lambda data: (
+        report_on(DeckFile(data, NAME, None), LintSettings(rules()), ["verdict"]).json["verdict"]["ok"]
+    ),
         "ok"
     ],
 }

@@ -23,7 +23,7 @@ from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.diagnostics import DeckError, Severity
-from mudline.language.keywords.values import Contents
+from mudline.language.keywords.values import DataFile
 from mudline.language.syntax.source import Source
 from mudline.model.scene.data_files import fault_of, has_uneven_times
 from mudline.model.scene.seabed import read_profile
@@ -151,8 +151,8 @@ def _configuration(data: bytes) -> None:
 
 def _data(data: bytes) -> None:
     with _file(data, "data.txt") as path:
-        for contents in Contents:
-            if not fault_of(path, contents) and contents is Contents.ELEVATIONS:
+        for contents in DataFile:
+            if not fault_of(path, contents) and contents is DataFile.ELEVATIONS:
                 has_uneven_times(path)
         for columns in (2, 3):
             with suppress(ValueError):

@@ -151,8 +151,8 @@ def meant_unit(
     away: dict[str, float] = {}
     for name, size in SLIPS.get(unit, {}).items():
         quantity = measured(value * size)
-        if abs(size / units.size(unit) - 1.0) > 1e-3 and quantity / usual.meant > 0.0:
-            away[name] = abs(math.log(quantity / usual.meant))
+        if abs(size / units.size(unit) - 1.0) > 1e-3 and quantity / usual.typical > 0.0:
+            away[name] = abs(math.log(quantity / usual.typical))
     nearest = min(away, key=away.__getitem__, default="")
     if nearest and away[nearest] <= math.log(min(_STRICT, usual.within)):
         return nearest
@@ -163,7 +163,7 @@ def meant_unit(
 def likely_slips(usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float) -> str:
     """Return the other units, in words, in which a number (as in the deck) would be usual; "" for none, or too many."""
     own = units.size(unit)
-    known = SLIPS.get(unit, {}) if math.isnan(usual.meant) else {}
+    known = SLIPS.get(unit, {}) if math.isnan(usual.typical) else {}
     names = [name for name, size in known.items() if size != own and usual.holds(measured(value * size))]
     return " or ".join(names[:_MOST])
 
@@ -171,6 +171,6 @@ def likely_slips(usual: Usual, value: float, unit: str, units: DeckUnits, measur
 def lacks_point(usual: Usual, value: float, measured: Measured = float) -> bool:
     """Return True if a number (in SI) would be usual with its decimal point elsewhere."""
     quantities = [measured(value * factor) for factor in _POINTS]
-    if math.isnan(usual.meant):
+    if math.isnan(usual.typical):
         return any(map(usual.holds, quantities))
-    return any(usual.meant / _STRICT <= each <= usual.meant * _STRICT for each in quantities)
+    return any(usual.typical / _STRICT <= each <= usual.typical * _STRICT for each in quantities)

@@ -1,1 +1,1 @@
-"""The language of decks: source text, grammar, equations, keywords and the deck they make; findings and rules."""
+"""Language of decks: source text, grammar, equations, keywords and the deck they make; findings and rules."""

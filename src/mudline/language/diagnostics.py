@@ -1,7 +1,7 @@
-"""What every package may report about a deck: codes, problems with a place, and finished diagnostics.
+"""Findings about a deck, for every package: codes, problems with a place, and finished diagnostics.
 
-A *problem* is what a package finds: a code, a sentence and where it is, in the terms of that package (a span of the
-text, or a path into the values). A *diagnostic* is the public form of the same thing: file, line, column, rule.
+A *problem* is a finding in the terms of the package that reports it: code, sentence, and place. The place is a span
+of the text or a path into the values. A *diagnostic* is its public form: file, line, column, rule.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, cut, outline, short_repr
 
 MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
-"""The message of the finding behind them, which replaces all the others."""
+"""Message of the last reported finding, which replaces all further ones."""
 
 
 class Severity(StrEnum):
-    """How bad a finding is; the order of the members is the order of badness."""
+    """Severity of a finding, in ascending order."""
 
     INFO = "info"
     WARNING = "warning"
@@ -35,45 +35,42 @@ _RANKS = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
 
 
 class Span(NamedTuple):
-    """A half-open range of code points of a source text."""
+    """Half-open range of code points of a source text."""
 
     start: int
     end: int
 
     def moved(self, by: int) -> Span:
-        """The same range so many code points further behind."""
+        """Return the span shifted by a number of code points."""
         return Span(self.start + by, self.end + by)
 
 
 class Where(NamedTuple):
-    """A place among the values of a deck: section, block in it, and the path inside the block; -1 stands for none."""
+    """Place among the values of a deck: section, block in the section, path in the block; -1 stands for none."""
 
     section: int = -1
     block: int = -1
     path: tuple[str | int, ...] = ()
 
     def inside(self, *steps: str | int) -> Where:
-        """The place that steps lead to from this one."""
+        """Return the place that is reached from this one by steps along the path."""
         return Where(self.section, self.block, self.path + steps)
 
 
 class Blocks(StrEnum):
-    """Whether a finding keeps a deck from being evaluated, whatever severity a configuration gives it.
-
-    The members are in ascending order.
-    """
+    """Condition under which a finding keeps a deck from being evaluated, whatever severity a configuration gives it."""
 
     NEVER = "never"
     WITH_TENSION = "with tension keep"
-    """Only where the pull of curves is kept, which is the default."""
+    """Only if the suction of curves is kept, which is the default."""
     ALWAYS = "always"
 
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """The name of a kind of finding: code, slug, and the severity it has unless something says otherwise.
+    """Name of a kind of finding: code, slug, and default severity.
 
-    `page` explains the findings of a code that has no function of its own, in the form of a rule's docstring.
+    `page` explains the findings of a code without a function of its own, in the form of a rule's docstring.
     """
 
     code: str
@@ -84,9 +81,9 @@ class Code:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Repair:
-    """What clears a problem: spans of the deck's text, and what is to stand there.
+    """Correction of a problem: spans of the deck's text, and the text that replaces each.
 
-    `applicability` is "safe" where the deck means the same afterwards, "unsafe" where it changes or is guessed.
+    `applicability` is "safe" if the meaning of the deck stays the same, "unsafe" if it changes or is guessed.
     """
 
     applicability: str
@@ -98,13 +95,19 @@ class Repair:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Problem:
-    """Something noticed in a deck, at a span of its text or among its values.
+    """Finding in a deck, at a span of its text or among its values.
 
-    `severity` None means the severity of the code. Only a deck that was read from text has repairs. `blocks` None means
-    that the problem keeps the deck from being evaluated if it is an error. `following` are the problems that would be
-    gone without this one. `maybe_defined_by` is the keyword that may define what is missing, where it is misspelt or
-    misplaced and the error therefore a warning. `lacks` is the name or number that the deck uses and nothing defines,
-    "" for other problems.
+    Attributes:
+        code: kind of finding.
+        message: sentence for the user.
+        span: place in the text.
+        severity: severity that replaces the one of the code; None keeps that of the code.
+        where: place among the values.
+        repair: correction; only a deck that was read from text has it.
+        blocks: condition under which the deck cannot be evaluated; None: always if the problem is an error.
+        following: problems that disappear together with this one.
+        maybe_defined_by: misspelt or misplaced keyword that may define the missing object; the error is then a warning.
+        lacks: name or number that is used but not defined; "" for problems of another kind.
     """
 
     code: Code
@@ -122,22 +125,22 @@ class Problem:
 
     @property
     def weight(self) -> Severity:
-        """The severity that holds."""
+        """Severity of the problem itself, else that of its code."""
         return self.severity or self.code.severity
 
     @property
     def blocking(self) -> Blocks:
-        """Whether the deck can be evaluated in spite of it."""
+        """Condition under which the problem keeps the deck from being evaluated."""
         return self.blocks or (Blocks.ALWAYS if self.weight is Severity.ERROR else Blocks.NEVER)
 
 
 def strongest(problems: Iterable[Problem]) -> Blocks:
-    """Return how far problems keep a deck from being evaluated: as the one that does so the most."""
-    return max((one.blocking for one in problems), key=[*Blocks].index)
+    """Return the strictest condition under which any of the problems keeps the deck from being evaluated."""
+    return max((problem.blocking for problem in problems), key=[*Blocks].index)
 
 
 class Edit(NamedTuple):
-    """Replace the text from `start` to `end` (line, column; from 1, end exclusive) by `text`."""
+    """Replacement of the text from `start` to `end` (line, column; from 1, end exclusive) by `text`."""
 
     start: tuple[int, int]
     end: tuple[int, int]
@@ -157,10 +160,11 @@ class Fix(NamedTuple):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Diagnostic:
-    """A finding with its place in the file; lines and columns count from 1, the end is exclusive.
+    """Finding with its place in the file; lines and columns count from 1, the end is exclusive.
 
-    `blocks` says that the deck cannot be evaluated, unless its curves are cut where they pull and that is the reason.
-    `following` are the findings that follow from this one and are left out of every output; the message counts them.
+    Attributes:
+        blocks: True if the deck cannot be evaluated, unless the reason is suction and the curves are cut there.
+        following: consequences of this finding, which are left out of every output; the message counts them.
     """
 
     file: str
@@ -189,7 +193,7 @@ class Diagnostic:
 
 
 class DeckError(ValueError):
-    """A deck that cannot be read or resolved; `diagnostics` says why, each with its place."""
+    """Deck that cannot be read or resolved; `diagnostics` gives the reasons, each with its place."""
 
     def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
         self.diagnostics = tuple(diagnostics)
@@ -204,7 +208,7 @@ class DeckError(ValueError):
 
 
 class PluginError(RuntimeError):
-    """Installed packages with rules that cannot be used; the message has a line for each."""
+    """Installed packages whose rules cannot be used; the message has a line for each package."""
 
     def __init__(self, faults: Sequence[str]) -> None:
         self.faults = tuple(faults)
@@ -212,18 +216,18 @@ class PluginError(RuntimeError):
 
 
 _MOST_NAMES = 20
-"""Names of keywords that were not read in one sentence."""
+"""Greatest number of unread keywords named in one sentence."""
 
 
 @dataclass(slots=True)
 class Coverage:
-    """How many keywords of a deck, or of several, were read.
+    """Number of keywords that were read, in one or more decks.
 
     Attributes:
-        total: all of them, each as often as it occurs.
-        read: those of which each line was read, or has a finding.
-        partly: those of which a line or part was passed over, by name.
-        unread: those whose lines were passed over, by name.
+        total: number of keywords, repeated ones included.
+        read: number of keywords of which each line was read or has a finding.
+        partly: keywords of which a line or a part was skipped, with their numbers by name.
+        unread: keywords whose lines were all skipped, with their numbers by name.
     """
 
     total: int = 0
@@ -238,11 +242,11 @@ class Coverage:
 
     @property
     def share(self) -> str:
-        """`31 of 38 keywords`."""
+        """Share as text: `31 of 38 keywords`."""
         return f"{self.read} of {counted(self.total, 'keyword')}"
 
     def add(self, other: Coverage) -> None:
-        """Count the keywords of another deck too."""
+        """Add the counts of another deck."""
         self.total += other.total
         self.read += other.read
         for mine, theirs in ((self.partly, other.partly), (self.unread, other.unread)):
@@ -250,7 +254,7 @@ class Coverage:
                 mine[keyword] = mine.get(keyword, 0) + count
 
     def __str__(self) -> str:
-        """`31 of 38 keywords, 5 in part; not read: *GUIDE (2)`."""
+        """Return a summary: `31 of 38 keywords, 5 in part; not read: *GUIDE (2)`."""
         partly = sum(self.partly.values())
         names = [f"*{cut(name, 40)}" + (f" ({count})" if count > 1 else "") for name, count in self.unread.items()]
         names[_MOST_NAMES:] = [f"and {len(names) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
@@ -258,5 +262,5 @@ class Coverage:
         return text + (f"; not read: {', '.join(names)}" if names else "")
 
     def sentence(self) -> str:
-        """The same for people who asked for findings."""
+        """Return the summary as a sentence for a list of findings."""
         return f"All {counted(self.total, 'keyword')} read." if self.whole else f"Read {self}."

@@ -1,4 +1,4 @@
-"""What a rule is: a code, a function that finds, a docstring that becomes its page; and the registry of all rules."""
+"""Rules of the checks: code, function, and the docstring that becomes the rule's page; registry of all rules."""
 
 from __future__ import annotations
 
@@ -23,15 +23,21 @@ _MARKED = re.compile(r"    ([ +|-])(.*)")
 _BASES = Path(__file__).parent / "codes" / "examples"
 """Folder of the decks that examples stand on."""
 RULES: dict[str, Rule] = {}
-"""The rules that are registered, by code, in the order of their registration."""
+"""Registered rules by code, in the order of their registration."""
 
 
 class RulePage(NamedTuple):
-    """What the docstring of a rule says.
+    """Parts of a rule's docstring.
 
-    `title` is the first sentence, `why` the text after it, `bad` a deck that the rule finds something in at `place`
-    (line and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is
-    that of the bad deck's bytes, `dialect` the one under which it is at fault.
+    Attributes:
+        title: first sentence.
+        why: text after the title.
+        bad: deck with the fault.
+        good: the same deck, corrected.
+        place: line and column of the finding in the bad deck.
+        file: file name of both decks.
+        encoding: encoding of the bad deck's bytes.
+        dialect: dialect under which the bad deck has the fault.
     """
 
     title: str
@@ -45,17 +51,17 @@ class RulePage(NamedTuple):
 
     @property
     def bad_bytes(self) -> bytes:
-        """The bad deck as a file."""
+        """Bytes of the bad deck's file."""
         return self.bad.encode(self.encoding)
 
     @property
     def good_bytes(self) -> bytes:
-        """The good deck as a file."""
+        """Bytes of the good deck's file."""
         return self.good.encode()
 
     @property
     def remark(self) -> str:
-        """What the text of the bad deck does not show about its file, or ""."""
+        """Property of the bad deck's file that its text does not show, or ""."""
         if self.dialect != "mudline":
             return f"with --dialect {self.dialect}"
         if self.encoding != "utf-8":
@@ -64,10 +70,15 @@ class RulePage(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """A rule: its code, the function that finds, and the docstring that becomes its page.
+    """Rule: code, function that checks, and the docstring that becomes its page.
 
-    A rule that is `off` runs only where it is selected. The function takes the `ResolvedDeck` of a rule that `blocks`,
-    the `LintContext` of another one; it is None where reading or resolving a deck finds what the rule reports.
+    Attributes:
+        code: code and slug.
+        check: function that takes the `ResolvedDeck` if the rule `blocks`, else the `LintContext`; None if reading or
+            resolving a deck reports the findings.
+        docstring: text of the page, in the form that `rule` describes.
+        off: True if the rule runs only where it is selected.
+        blocks: True if the findings can keep a deck from being evaluated.
     """
 
     code: Code
@@ -78,33 +89,36 @@ class Rule(NamedTuple):
 
     @property
     def page(self) -> RulePage:
-        """What the docstring says; raises ValueError for one that lacks a part."""
+        """Page described by the docstring; raises ValueError if the docstring lacks a part."""
         return described_by(self.code, self.docstring)
 
     def findings(self, subject: object) -> list[Problem]:
-        """Return what the function finds in its subject, without the rest where it is very much."""
+        """Return the findings in a subject; a very long list ends early (see `first_reported`)."""
         return first_reported(self.check(subject) if self.check else ())
 
 
 def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F], F]:
-    """Register a function as the rule of a code; `off` keeps it from running unless it is selected.
+    """Register a function as the rule of a code; `off` keeps the rule from running unless it is selected.
 
-    A rule that `blocks` needs nothing but the resolved deck, and stands in `mudline.model.scene.rules`: each of its
-    findings says whether it keeps the deck from being evaluated. The findings of other rules never do, whatever their
-    severity.
+    A rule that `blocks` needs only the resolved deck, and stands in `mudline.model.scene.rules`. Each of its findings
+    tells whether it keeps the deck from being evaluated. Findings of other rules never do, whatever their severity.
 
-    The docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
-    are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
-    deck only, one after `+` in the good deck only. `Example on clay:` stands on the deck clay.keyxm of
-    `mudline/language/codes/examples` and has only the lines around each change, with an empty line between two changes.
-    The lines of a change after a space, with those after `+` or without them, stand once in that deck, one below the
-    other; the other lines of the deck are in both decks, and a line after `|` is added to both. `Finds: line:column` is
-    the place of the only finding in the bad deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes:
-    encoding` saves the bad deck in another encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect:
-    name` reads both decks in a dialect.
+    The docstring begins with the title: one sentence on a line of its own. The text after the title gives the reason.
+    The other parts:
 
-    Raises ValueError for a code or slug that another rule has. A docstring that lacks a part, a line of the example
-    that has no mark or no place, and two decks that are the same are faults of a plugin, found when it is loaded.
+    * `Example:` has a bad and a good deck in one text, indented by four spaces. A line after a space is in both decks,
+      a line after `-` only in the bad deck, a line after `+` only in the good deck.
+    * `Example on clay:` changes the deck clay.keyxm of `mudline/language/codes/examples`. It has only the lines around
+      each change, and an empty line between two changes. The lines after a space, with or without those after `+`,
+      must be consecutive lines of that deck, and occur once. A line after `|` is added to both decks.
+    * `Finds: line:column` is the place of the only finding in the bad deck.
+    * `File: name` is the name of both decks; default deck.keyxm.
+    * `Bytes: encoding` saves the bad deck in another encoding than UTF-8.
+    * `Cut: yes` leaves out the last line end of the bad deck.
+    * `Dialect: name` reads both decks in a dialect.
+
+    Raises ValueError if another rule has the code or slug. Faults of the docstring are reported when the plugin is
+    loaded: a missing part, a line without a mark or without a place in the base deck, two equal decks.
     """
 
     def register(check: F) -> F:
@@ -124,26 +138,26 @@ def add(declared: Rule) -> None:
 
 @cache
 def described_by(code: Code, docstring: str) -> RulePage:
-    """Return what a docstring says of a rule (see `rule`).
+    """Return the parts of a rule's docstring (see `rule`).
 
-    Raises ValueError for a docstring that lacks a part, or an example that makes no two decks.
+    Raises ValueError if a part is missing, or if the example does not give two different decks.
     """
     first, _, rest = docstring.partition("\n")
     parts = re.split(_HEADINGS, f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
-    found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
-    heading = next((name for name in found if name.startswith("Example")), "Example")
-    lacking = [name for name in (heading, "Finds") if name not in found]
+    sections = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
+    heading = next((name for name in sections if name.startswith("Example")), "Example")
+    lacking = [name for name in (heading, "Finds") if name not in sections]
     if lacking or not title or not why.strip():
         raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
-    words = {name: line.strip() for name, (line, _) in found.items()}
+    words = {name: line.strip() for name, (line, _) in sections.items()}
     place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
-    example = found[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 makes blanks of TABs in docstrings
+    example = sections[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 expands TABs in docstrings
     base = heading.partition(" on ")[2]
     rows = _rows_on(base, code, example) if base else _rows(code, example, _MARKS)
-    bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != other) for other in "+-")
+    bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != left_out) for left_out in "+-")
     described = RulePage(
         title=title.strip(),
         why=why.strip(),
@@ -160,19 +174,19 @@ def described_by(code: Code, docstring: str) -> RulePage:
 
 
 def _rows(code: Code, example: str, marks: str) -> list[tuple[str, str]]:
-    """The mark and the text of each line of an example; an empty line is in both decks."""
+    """Return mark and text of each line of an example; an empty line is in both decks."""
     rows: list[tuple[str, str]] = []
     for line in example.split("\n"):
         marked = _MARKED.fullmatch(line or "     ")
         if marked is None or marked[1] not in marks:
-            wanted = "a space, - or +" if marks == _MARKS else "a space, |, - or +"
-            raise ValueError(f"the line {line!r} of the example of {code.code} must have four spaces, then {wanted}")
+            expected = "a space, - or +" if marks == _MARKS else "a space, |, - or +"
+            raise ValueError(f"the line {line!r} of the example of {code.code} must have four spaces, then {expected}")
         rows.append((marked[1], marked[2]))
     return rows
 
 
 def _rows_on(base: str, code: Code, example: str) -> list[tuple[str, str]]:
-    """The marks and the texts of an example on a base deck, and of the lines of that deck around them."""
+    """Return mark and text of each line of a base deck with the changes of an example."""
     bases = {file.stem: file for file in sorted(_BASES.glob("*.keyxm"))}
     if base not in bases:
         raise ValueError(f"the example of {code.code} must be on {', '.join(bases)}, and is on {base}")
@@ -195,20 +209,20 @@ def _rows_on(base: str, code: Code, example: str) -> list[tuple[str, str]]:
 
 
 def _places(lines: list[str], sought: list[str]) -> list[slice]:
-    """Where lines stand one below the other in a deck; nowhere if there are none."""
+    """Return the slices of a deck that equal the sought lines; none if no line is sought."""
     count = len(sought)
     places = [slice(at, at + count) for at in range(len(lines)) if count]
     return [place for place in places if lines[place] == sought]
 
 
 def findings(rules: Iterable[Rule], subject: object) -> list[list[Problem]]:
-    """Return what the function of each of some rules finds in their subject."""
-    return [one.findings(subject) for one in rules]
+    """Return the findings of each rule in a subject."""
+    return [rule.findings(subject) for rule in rules]
 
 
 def first_reported(problems: Iterable[Problem]) -> list[Problem]:
-    """As many findings as are reported one by one; the next one says that there are more."""
-    found = list(islice(problems, MOST_REPORTED + 1))
-    if len(found) > MOST_REPORTED:
-        found[-1] = replace(found[-1], message=MORE, repair=None)
-    return found
+    """Return the findings that are reported individually; the last one tells that there are more."""
+    first = list(islice(problems, MOST_REPORTED + 1))
+    if len(first) > MOST_REPORTED:
+        first[-1] = replace(first[-1], message=MORE, repair=None)
+    return first

@@ -17,7 +17,7 @@ INDEX = Path("src/mudline/language/keywords/index.py")
 
 
 _PAGE = '''\
-"""Every declaration of the library; `make index` makes this of them: change those."""
+"""Index of the declarations in the library; generated from them by `make index`, not to be edited."""
 
 # fmt: off
 from __future__ import annotations

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from mudline.language.diagnostics import Span
 from mudline.language.syntax import rows as reader
-from mudline.language.syntax.rows import Rows, read_number, read_rows, read_rows_slow
+from mudline.language.syntax.rows import RawRows, read_number, read_rows, read_rows_slow
 from tests.helpers.builders.spellings import ODD_NUMBERS, numbers
 
 NO_NUMBERS = [
@@ -37,7 +37,7 @@ def whole(text: str) -> Span:
     return Span(0, len(text))
 
 
-def is_same(one: Rows, other: Rows) -> bool:
+def is_same(one: RawRows, other: RawRows) -> bool:
     """Return True for rows that are equal to the last bit, NaN and the sign of zero included."""
     return (
         one.values.shape == other.values.shape
@@ -47,7 +47,7 @@ def is_same(one: Rows, other: Rows) -> bool:
     )
 
 
-def compared(text: str, columns: int) -> Rows:
+def compared(text: str, columns: int) -> RawRows:
     """The rows of a text by the slow reader, with which the fast one is compared on the whole and on small pieces."""
     slow = read_rows_slow(text, whole(text), columns)
     assert is_same(read_rows(text, whole(text), columns), slow)

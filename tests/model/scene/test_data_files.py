@@ -8,7 +8,7 @@ import pytest
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
-from mudline.language.keywords.values import Contents
+from mudline.language.keywords.values import DataFile
 from mudline.model.scene.data_files import fault_of, has_uneven_times
 
 SIX = "1, 0, 0, 0, 0, 2\n"
@@ -16,32 +16,32 @@ MCS = f"C heave, surge, sway, yaw, roll, pitch\nHEADING=0\n0.1\n{SIX}{SIX}0.2\n{
 LINE = f"0 0.1 {SIX.strip()} {SIX}0 0.2 {SIX.strip()} {SIX}".replace(",", "")
 
 CASES = [
-    (Contents.OPERATORS, MCS, ""),
-    (Contents.OPERATORS, LINE, ""),
-    (Contents.OPERATORS, MCS.replace("HEADING=90", "HEADING=190"), "line 9: the heading 190 must lie"),
-    (Contents.OPERATORS, MCS.replace("0.2\n", "0.2, 0.3\n"), "line 6: expected 1 number, found 2"),
-    (Contents.OPERATORS, MCS.replace(SIX, "1, 0, 0\n", 1), "line 4: expected 6 numbers, found 3"),
-    (Contents.OPERATORS, MCS.replace(f"0.2\n{SIX}", "0.2\n"), "line 8: a frequency above it lacks"),
-    (Contents.OPERATORS, MCS.removesuffix(SIX), "line 11: the last frequency lacks"),
-    (Contents.OPERATORS, MCS.replace("HEADING=0\n", "HEADING=N\n"), "line 2: 'N' is not a number"),
-    (Contents.OPERATORS, MCS.replace("0.1\n", "\t0.1\n"), "line 3: a TAB is not allowed"),
-    (Contents.OPERATORS, LINE + "90 0.1 1\n", "line 3: expected 14 numbers, found 3"),
-    (Contents.OPERATORS, LINE + LINE.replace("0 0.1", "90 0.1", 1)[: LINE.index("\n") + 2], "the headings 0 and 90"),
-    (Contents.OPERATORS, LINE + LINE, "the heading 0 has the frequency 0.1 twice"),
-    (Contents.OPERATORS, "C nothing\n", "the file has no operators"),
-    (Contents.MOTIONS, "0 1 2 3 4 5 6\n1, 1, 2, 3, 4, 5, 6\n", ""),
-    (Contents.MOTIONS, "0 1 2 3 4 5\n", "line 1: expected 7 numbers, found 6"),
-    (Contents.MOTIONS, "0 1 2 3 4 5 6\n0 1 2 3 4 5 6\n", "line 2: the time 0 does not come after 0"),
-    (Contents.MOTIONS, "", "the file has no line of numbers"),
-    (Contents.ELEVATIONS, "0.0, 1.0\n0.5, 1.O\n", "line 2: '1.O' is not a number"),
-    (Contents.NUMBERS, "C matrix\nTYPE=CONSTANT\n1 2 3\n", ""),
-    (Contents.NUMBERS, "1 2 x\n", "line 1: 'x' is not a number"),
-    (Contents.NUMBERS, "PK\0\0\x03", "line 1: "),
+    (DataFile.OPERATORS, MCS, ""),
+    (DataFile.OPERATORS, LINE, ""),
+    (DataFile.OPERATORS, MCS.replace("HEADING=90", "HEADING=190"), "line 9: the heading 190 must lie"),
+    (DataFile.OPERATORS, MCS.replace("0.2\n", "0.2, 0.3\n"), "line 6: expected 1 number, found 2"),
+    (DataFile.OPERATORS, MCS.replace(SIX, "1, 0, 0\n", 1), "line 4: expected 6 numbers, found 3"),
+    (DataFile.OPERATORS, MCS.replace(f"0.2\n{SIX}", "0.2\n"), "line 8: a frequency above it lacks"),
+    (DataFile.OPERATORS, MCS.removesuffix(SIX), "line 11: the last frequency lacks"),
+    (DataFile.OPERATORS, MCS.replace("HEADING=0\n", "HEADING=N\n"), "line 2: 'N' is not a number"),
+    (DataFile.OPERATORS, MCS.replace("0.1\n", "\t0.1\n"), "line 3: a TAB is not allowed"),
+    (DataFile.OPERATORS, LINE + "90 0.1 1\n", "line 3: expected 14 numbers, found 3"),
+    (DataFile.OPERATORS, LINE + LINE.replace("0 0.1", "90 0.1", 1)[: LINE.index("\n") + 2], "the headings 0 and 90"),
+    (DataFile.OPERATORS, LINE + LINE, "the heading 0 has the frequency 0.1 twice"),
+    (DataFile.OPERATORS, "C nothing\n", "the file has no operators"),
+    (DataFile.MOTIONS, "0 1 2 3 4 5 6\n1, 1, 2, 3, 4, 5, 6\n", ""),
+    (DataFile.MOTIONS, "0 1 2 3 4 5\n", "line 1: expected 7 numbers, found 6"),
+    (DataFile.MOTIONS, "0 1 2 3 4 5 6\n0 1 2 3 4 5 6\n", "line 2: the time 0 does not come after 0"),
+    (DataFile.MOTIONS, "", "the file has no line of numbers"),
+    (DataFile.ELEVATIONS, "0.0, 1.0\n0.5, 1.O\n", "line 2: '1.O' is not a number"),
+    (DataFile.NUMBERS, "C matrix\nTYPE=CONSTANT\n1 2 3\n", ""),
+    (DataFile.NUMBERS, "1 2 x\n", "line 1: 'x' is not a number"),
+    (DataFile.NUMBERS, "PK\0\0\x03", "line 1: "),
 ]
 
 
 @pytest.mark.parametrize(("contents", "text", "fault"), CASES)
-def test_the_first_fault_is_told_with_its_line(tmp_path: Path, contents: Contents, text: str, fault: str) -> None:
+def test_the_first_fault_is_told_with_its_line(tmp_path: Path, contents: DataFile, text: str, fault: str) -> None:
     path = tmp_path / "data.txt"
     path.write_text(text, encoding="utf-8")
     found = fault_of(path, contents)
@@ -51,9 +51,9 @@ def test_the_first_fault_is_told_with_its_line(tmp_path: Path, contents: Content
 def test_the_layout_that_a_deck_names(tmp_path: Path) -> None:
     path = tmp_path / "fpso.rao"
     path.write_text(LINE, encoding="utf-8")
-    assert fault_of(path, Contents.OPERATORS, layout="LINE") == ""
+    assert fault_of(path, DataFile.OPERATORS, layout="LINE") == ""
     assert (
-        fault_of(path, Contents.OPERATORS, layout="MCS") == "line 1: expected HEADING=angle before the first frequency"
+        fault_of(path, DataFile.OPERATORS, layout="MCS") == "line 1: expected HEADING=angle before the first frequency"
     )
 
 

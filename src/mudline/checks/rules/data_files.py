@@ -16,7 +16,7 @@ from mudline.language.deck.parameters import Parameters
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.values import Contents
+from mudline.language.keywords.values import DataFile
 from mudline.language.rules import rule
 from mudline.model.scene.data_files import fault_of, has_uneven_times, operators, unequal_frequencies
 from mudline.model.scene.deck_values import file_name, find_file
@@ -89,7 +89,7 @@ def operator_files(context: LintContext) -> list[OperatorRows]:
     """Return the files of operators that a deck names and that can be used."""
     files = []
     for named, path in _there(context):
-        if named.slot.about.holds is Contents.OPERATORS and _is_own(named):
+        if named.slot.about.holds is DataFile.OPERATORS and _is_own(named):
             with suppress(OSError, ValueError):  # DAT002 says why
                 files.append(OperatorRows(named.where, path.name, operators(path, _layout(named))))
     return files
@@ -114,12 +114,12 @@ def _layout(named: _Named) -> str:
 
 
 def _fault(named: _Named, path: Path) -> str:
-    contents = cast("Contents", named.slot.about.holds)
-    if contents is Contents.OPERATORS and not _is_own(named):
+    contents = cast("DataFile", named.slot.about.holds)
+    if contents is DataFile.OPERATORS and not _is_own(named):
         return ""
     if fault := fault_of(path, contents, layout=_layout(named)):
         return fault
-    if contents is Contents.ELEVATIONS and getattr(named.part, "increment", None) is None and has_uneven_times(path):
+    if contents is DataFile.ELEVATIONS and getattr(named.part, "increment", None) is None and has_uneven_times(path):
         return "its times are uneven: give a time step in the deck"
     return ""
 

@@ -18,7 +18,7 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords.model import Path
 from mudline.language.keywords.reader import ReadBlock
-from mudline.language.syntax.fields import Group, read_line, trimmed
+from mudline.language.syntax.fields import FieldGroup, read_line, trimmed
 from mudline.language.syntax.rows import blank_separated, row_fields
 from mudline.language.syntax.tree import Kind, Leaf
 
@@ -83,7 +83,7 @@ def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
     return Repair("safe", message, ((Span(line.start + start, line.start + end), new),))
 
 
-def _holds_tab(source: str, group: Group) -> bool:
+def _holds_tab(source: str, group: FieldGroup) -> bool:
     """Return True if a tab is part of a value of a group, or of its key."""
     within = any("\t" in field.text for field in group.fields)
     if group.key:

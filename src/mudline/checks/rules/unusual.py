@@ -221,7 +221,7 @@ def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> boo
 def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, strict: bool = False) -> str:
     """Return the likely unit of a value and the advice in words, if a unit explains it; else ""."""
     unit = slot.about.unit
-    if not math.isnan(usual.meant):
+    if not math.isnan(usual.typical):
         unit_name = meant_unit(
             usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number), strict=strict
         )

@@ -22,7 +22,7 @@ from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind as FieldKind
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.language.syntax.fields import Group, first_key, read_line, split
+from mudline.language.syntax.fields import FieldGroup, first_key, read_line, split
 from mudline.language.syntax.rows import blank_separated, line_spans
 from mudline.language.syntax.source import CONTROLS, END_MARK, Source
 from mudline.language.syntax.tree import Kind, Leaf, RawBlock
@@ -340,7 +340,7 @@ class _BlockLayout:
         texts = [text for group in line.groups for text in self._group(group)]
         return " " + ", ".join(texts).rstrip(" ") + "\n"
 
-    def _group(self, group: Group) -> list[str]:
+    def _group(self, group: FieldGroup) -> list[str]:
         """Return `KEY=` with its first value, then the other values.
 
         A value that begins with a bracket keeps a blank before it: without the blank it would be an equation.

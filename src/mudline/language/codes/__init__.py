@@ -1,8 +1,8 @@
-"""What is noticed while a deck is read or resolved, a module for each subject.
+"""Codes of findings that reading or resolving a deck reports, a module for each subject.
 
-A code with a page is a rule that needs no function of its own: the reader, or what resolves the deck, gives the
-findings. Codes of rules with a function stand beside it. A module of this package is all that such a code is declared
-in. The codes in this file are no rules: nothing leaves them out.
+A code with a page is a rule without a function of its own: the reader or the resolution of the deck reports its
+findings. It is declared only in a module of this package. The codes of rules with a function stand beside the
+function. The codes in this file are not rules: they cannot be ignored.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ RUN001 = Code("RUN001", "cannot-evaluate", Severity.ERROR)
 
 
 def all_codes() -> list[Code]:
-    """Every code of this package, those in this file first."""
+    """Return every code of this package, those in this file first."""
     package = sys.modules[__name__]
-    found = [value for module in (package, *modules_of(__name__)) for value in vars(module).values()]
-    return [code for code in found if isinstance(code, Code)]
+    values = [value for module in (package, *modules_of(__name__)) for value in vars(module).values()]
+    return [code for code in values if isinstance(code, Code)]

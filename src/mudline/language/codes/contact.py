@@ -1,7 +1,7 @@
-"""Codes that lint's rules and the warnings of an evaluated deck share, and those that such warnings alone have.
+"""Codes shared by rules of the checks and warnings of an evaluated deck, and codes of such warnings alone.
 
-The pages of the shared ones are the docstrings of their rules.
-RUN003 to RUN008 are no rules: they depend on positions.
+The pages of the shared codes are the docstrings of their rules.
+RUN003 to RUN008 are not rules: they depend on positions.
 """
 
 from __future__ import annotations

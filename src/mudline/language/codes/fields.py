@@ -1,4 +1,4 @@
-"""Fields of lines: numbers, brackets, labels, equations; and points that make no force-embedment curve."""
+"""Codes on fields of lines: numbers, brackets, labels, equations, and points without a force-embedment curve."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ SYN002 = Code(
     "bad-number",
     Severity.ERROR,
     """
-    A field that needs a number holds none.
+    A field that needs a number does not hold a number.
 
-    A letter O for a zero, two decimal points or a value that a spreadsheet wrote as NaN are easily overlooked, and
-    programs differ in what they make of them: some stop, some read the digits up to the first strange character. Values
-    that are infinite or too large for double precision are no numbers either. Nor is what a word processor made of
-    one: a dash or another minus sign, a blank that does not break, wide digits. Correct the field; an equation is
-    written `=[...]`.
+    A letter O for a zero, two decimal points or the NaN of a spreadsheet are easily overlooked. Some programs stop at
+    such a field, some read the digits up to the first strange character. Values that are infinite or too large for
+    double precision are not numbers either, nor are numbers with the characters of a word processor: a dash as minus
+    sign, a non-breaking space, wide digits. Correct the field; an equation is written `=[...]`.
 
     Example on ocean:
         - 5O0.0, 1025.0, 9.81
@@ -32,8 +31,8 @@ SYN003 = Code(
     """
     The line has too few or too many fields.
 
-    The place of a value on its line says what it is, so one comma too many or a value left out gives every later value
-    another meaning. The message shows the format of the line. A field that may be empty is still set off by its comma.
+    The place of a value on its line gives its meaning, so an extra comma or a missing value changes the meaning of
+    every later value. The message shows the format of the line. An empty field still needs its comma.
 
     Example on clay:
         - 0.1
@@ -50,9 +49,9 @@ SYN006 = Code(
     """
     A bracket, brace, slash list or quotation mark is opened and not closed on its line.
 
-    Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` do not separate fields. An opened one therefore
-    swallows the rest of the line, and the values after it are lost. Close it on the same line: nothing continues on
-    the next.
+    Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` do not separate fields. Without its closing mark, an
+    opening mark takes in the whole line after it, and the values there are lost. Close it on the same line: it cannot
+    continue on the next line.
 
     Example on parameters:
           od, 0.3239
@@ -70,10 +69,10 @@ SYN015 = Code(
     """
     A comma may have been meant as a decimal point.
 
-    A comma separates fields, so `0,1` is the two numbers 0 and 1. A line of whole numbers, twice as many as it should
-    have, or two numbers where one belongs, was probably written with decimal commas, as a spreadsheet does in many
-    countries. Write decimal points, and look at the other lines from the same source: one whose last fields may be left
-    out reads without an error and with other values.
+    A comma separates fields, so `0,1` is the two numbers 0 and 1. Spreadsheets in many countries write decimal commas.
+    They are likely if a line has whole numbers, twice as many as it should have, or two numbers in place of one. Write
+    decimal points, and check the other lines from the same source: a line with optional fields at its end is read
+    without an error, but with wrong values.
 
     Example on clay:
         - 0,1, 1200,0
@@ -88,11 +87,10 @@ SYN016 = Code(
     "label-without-braces",
     Severity.WARNING,
     """
-    Text is given where the number or the {label} of a node or element belongs.
+    Text is given in place of the number or the {label} of a node or element.
 
-    Nodes and elements that the lines facility makes have labels with spaces in them, and a label is written in braces
-    wherever a number could be. The text is read as if it had them; other programs may stop here, or read on with
-    nothing. Put the braces around it.
+    A label is written in braces wherever a number could be; labels of nodes and elements of *LINES have spaces in them.
+    The text is read as if it had braces; other programs may stop here, or read no label. Put braces around the text.
 
     Example:
          $MODEL
@@ -114,9 +112,9 @@ SYN017 = Code(
     """
     The equation cannot be read or has no value.
 
-    An operand or a bracket is missing, a number is divided by zero, a function gets the wrong number of arguments: the
-    field then has no value, and neither has anything that depends on it. Correct the equation at the place that the
-    message names. A function that is not known here may be known elsewhere; that is a warning only.
+    An operand or a bracket is missing, a number is divided by zero, a function gets the wrong number of arguments: then
+    the field has no value, and nor have fields that depend on it. Correct the equation at the place in the message. An
+    unknown function is only a warning, since the analysis program may know it.
 
     Example on parameters:
         - =[depth + ], 1025.0, 9.81
@@ -134,8 +132,8 @@ CRV001 = Code(
     """
     A curve has fewer than two points.
 
-    The slope of the curve is the stiffness of the seabed, and one point has no slope. The same point twice counts once.
-    Give the curve a second point; a straight line through the origin is the constant stiffness of a STIFFNESS= number.
+    The slope of the curve is the stiffness of the seabed, and one point has no slope. A repeated point counts once.
+    Give the curve a second point; a straight line through the origin equals a number in STIFFNESS=.
 
     Example on clay:
         + 0.0, 0.0
@@ -150,10 +148,10 @@ CRV003 = Code(
     "duplicate-ratio",
     Severity.ERROR,
     """
-    Two points of a curve have one embedment ratio and different forces.
+    Two points of a curve have the same embedment ratio and different forces.
 
-    The curve would rise at once, with an infinite stiffness, and no solver can follow it. Often the ratios were rounded
-    to too few digits. Give the points different ratios, or remove one.
+    The stiffness between them would be infinite, and no solver can follow such a curve. Often the ratios were rounded
+    to too few digits. Give the points different ratios, or remove one point.
 
     Example on clay:
           0.1, 1200.0

@@ -1,4 +1,4 @@
-"""Lines, blocks and files that cannot be read as they stand, and unknown names of sections, keywords and settings."""
+"""Codes on lines, blocks and files that cannot be read as written, and on unknown names in them."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ SYN001 = Code(
     The line fits none of the line formats of its keyword.
 
     The lines of a keyword come in a fixed order: a setting such as SET= opens a group, and only certain settings and
-    rows of numbers may follow it. A line that fits nowhere is left out, so whatever it was meant to define is missing
-    from the model. The message says which lines were expected: often a KEY= was forgotten in front of a number, or a
-    line is one place too early or too late.
+    rows of numbers may follow it. A line that does not fit is left out, so its data are missing from the model. The
+    message lists the expected lines: often a KEY= was forgotten in front of a number, or two lines were exchanged.
 
     Example on seabed:
         - 50000.0
@@ -31,8 +30,8 @@ SYN004 = Code(
     """
     The keyword has no such KEY=.
 
-    A setting that is misspelt is not read, and the default or nothing at all holds in its place: a seabed without its
-    stiffness carries nothing. The message lists the keys of the keyword and suggests the nearest.
+    A misspelt setting is not read: its default, if any, is used in its place. A seabed without its stiffness carries
+    no load. The message lists the keys of the keyword and suggests the nearest.
 
     Example on seabed:
         - STIFNESS=50000.0
@@ -47,11 +46,11 @@ SYN005 = Code(
     "bad-choice",
     Severity.ERROR,
     """
-    The setting takes one of a few words, and this is none of them.
+    The value is not one of the words that the setting allows.
 
-    A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
-    words and suggests the nearest. Upper or lower case does not matter. Some settings take more words than public pages
-    show: another one is an info where the lines behind it are passed through unchanged.
+    The word decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
+    words and suggests the nearest. Upper or lower case does not matter. Some settings allow more words than public
+    pages show: an unknown word is then an info, and the lines after it are passed through unchanged.
 
     Example on seabed:
         - TYPE=ELSTIC
@@ -68,9 +67,9 @@ SYN007 = Code(
     """
     A keyword comes before the first $SECTION.
 
-    What a keyword means depends on its section, and before the first one it has no meaning: the whole block is not
-    read. The section line may have been lost when decks were put together. Put the line that the message names, for
-    most keywords `$MODEL`, in front of it.
+    The meaning of a keyword depends on its section. Before the first section it has no meaning, and the whole block is
+    not read. The section line may have been lost when decks were merged. Put the line that the message names, for most
+    keywords `$MODEL`, in front of it.
 
     Example on ocean:
         +$MODEL
@@ -86,10 +85,10 @@ SYN008 = Code(
     """
     The keyword does not belong in this section.
 
-    The model is described once, in `$MODEL`, and a load case says what acts on it. A block in the wrong section is not
-    read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
-    Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause. It is
-    an error in `$PREPROCESSOR`, `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, else an info.
+    `$MODEL` describes the model, and `$LOAD CASE` the loads on it. A block in the wrong section has no effect: a
+    restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries no load. Move the block to a section that
+    the message names; a missing `$LOAD CASE` line above it is the usual cause. It is an error in `$PREPROCESSOR`,
+    `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, else an info.
 
     Example on ocean:
           500.0, 1025.0, 9.81
@@ -110,10 +109,11 @@ SYN009 = Code(
     """
     The keyword is not known.
 
-    There are more keywords than are known here, so this is a note: the block is passed through unchanged and not
-    checked. Where the name differs from a known one by a letter or two, has the same beginning or has words after it,
-    and its lines read as those of the known one, it is a warning: a misspelt keyword takes its whole block out of the
-    model. Correct the name, put a remark into a comment line, or ignore this rule where the keyword is right.
+    The block is passed through unchanged and not checked. This is an info, since there are more keywords than mudline
+    knows. It is a warning if the keyword was probably misspelt, since the whole block is then missing from the model.
+    Such a name differs from a known name by a letter or two, has the same beginning or has words after it, and its
+    lines can be read as those of the known keyword. Correct the name, put a remark into a comment line, or ignore this
+    rule if the keyword is right.
 
     Example on ocean:
         -*OCAEN
@@ -130,9 +130,9 @@ SYN010 = Code(
     """
     The section is not known.
 
-    All of it is passed through unchanged and not checked. This is a note, as there are sections that are not known
-    here; a name that differs from a known one by a letter or two, has the same beginning or has words after it is a
-    warning, as everything in a misspelt section is missing from the analysis. Correct the name.
+    The whole section is passed through unchanged and not checked. This is an info, since there are more sections than
+    mudline knows. It is a warning if the name differs from a known name by a letter or two, has the same beginning or
+    has words after it: all blocks of a misspelt section are missing from the analysis. Correct the name.
 
     Example on ocean:
           500.0, 1025.0, 9.81
@@ -152,9 +152,9 @@ SYN011 = Code(
     """
     A data line belongs to no keyword.
 
-    Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
-    Title lines at the top of a deck are common and do no harm: words above the first section are an info. Numbers there
-    are numbers that the model lacks. Turn a title into a comment (C and a space), and put data under their keyword.
+    Lines before the first section, or between a `$SECTION` and its first keyword, are not read. Title lines at the top
+    of a deck are common and do no harm: words above the first section are an info. Numbers there are missing from the
+    model. Turn a title into a comment (C and a space), and put data under their keyword.
 
     Example on ocean:
         -Flowline on soft clay, as laid
@@ -172,12 +172,12 @@ SYN012 = Code(
     """
     The file holds bytes that are not UTF-8 text, or control characters.
 
-    Letters beyond the English alphabet, in a set name for instance, are saved as different bytes by different editors.
-    A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
-    not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
-    file, are invisible and corrupt the line that holds them (in front of a * or a $ they are ignored). UTF-16 and
-    binary data are not read at all. Where only comments hold such letters, as a degree sign, it is an info. Save the
-    file as UTF-8, and remove what the message names.
+    Editors save non-English letters, for instance in the name of a set, as different bytes. A file that is not UTF-8 is
+    read as CP1252 or, if that fails, as Latin-1. This is a guess: afterwards a name may not match the same name in
+    another file. Control characters, such as the Ctrl-Z that old systems put at the end of a file, are invisible and
+    corrupt their line (before a * or a $ they are ignored). UTF-16 and binary data are not read at all. It is an info
+    if only comments have such letters, for instance a degree sign. Save the file as UTF-8, and remove the characters
+    that the message names.
 
     Example on ocean:
          $MODEL
@@ -195,10 +195,10 @@ SYN013 = Code(
     """
     The line begins with a C in column 1 and a letter: comment or data?
 
-    A C in column 1 makes a comment. Before a space there is no doubt, but `CURVE=` or `COMPRESSION CHECK=` in
-    column 1 is data to one reader and a comment to another. Here a line counts as data if it begins with a key that its
-    keyword knows; any other is taken for a comment, which is our reading and not a documented rule. A misspelt `CURV=`
-    drops a whole curve in this way. Put a space after the C of a comment, and in front of data.
+    A C in column 1 begins a comment. Before a space there is no doubt, but programs differ on lines such as `CURVE=` or
+    `COMPRESSION CHECK=` in column 1: some read data, some a comment. mudline reads data if the line begins with a key
+    of its keyword, else a comment; this is our reading and not a documented rule. So a misspelt `CURV=` drops a whole
+    curve. Put a space after the C of a comment, and in front of data.
 
     Example on ocean:
          *OCEAN
@@ -214,11 +214,11 @@ SYN014 = Code(
     "truncated-file",
     Severity.ERROR,
     """
-    The file ends in the middle of something.
+    The file ends in the middle of a line or block.
 
-    A copy that was broken off, or a full disk, cuts a deck anywhere: inside a number (`1.0E`), inside an equation, or
-    before a line that the last keyword must have. Everything after the cut is missing as well, and a deck may look
-    complete without it. Fetch the file again, or write what is missing, and end the last line with a line end.
+    An interrupted copy or a full disk cuts a deck anywhere: inside a number (`1.0E`), inside an equation, or before a
+    mandatory line of the last keyword. All text after the cut is missing as well, and a deck may look complete without
+    it. Fetch the file again, or add the missing text, and end the last line with a line end.
 
     Example:
          $MODEL
@@ -236,12 +236,12 @@ SYN018 = Code(
     "not-a-deck",
     Severity.ERROR,
     """
-    The file is not a deck, or holds two versions of one that were not merged.
+    The file is not a deck, or holds two unmerged versions of a deck.
 
-    A merge that stopped at a conflict leaves both versions in the file, between marks of `<`, `=` and `>`: nobody knows
-    which lines hold, so none is read. A pointer of Git LFS stands where `git lfs pull` was forgotten, a web page where
-    a download asked for a password, and password managers name their key files `.keyx`, too. The file is neither read
-    nor rewritten. Solve the conflict, or fetch the deck.
+    A merge that stopped at a conflict leaves both versions in the file, between marks of `<`, `=` and `>`. Other causes
+    are a pointer of Git LFS, if `git lfs pull` was forgotten, a web page, if a download asked for a password, and key
+    files of password managers, which have the suffix `.keyx` too. The file is neither read nor rewritten. Solve the
+    conflict, or fetch the deck.
 
     Example on ocean:
          *OCEAN

@@ -1,4 +1,4 @@
-"""Names, numbers and files that one place of a deck uses and another one defines."""
+"""Codes on names, numbers and files that one part of a deck uses and another part defines."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ REF001 = Code(
     """
     A SET= names a set that the deck does not define.
 
-    What is below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
+    The lines below the SET= reach no element: no stiffness, no diameter, no curve. Usually the name is spelt
     differently in two places: case is ignored in names, spaces are not. Define the set in *ELEMENT SETS, or correct
-    the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
-    is a warning. Two more names give warnings here too: a REPEAT= of *LINE PATH SECTIONS that names no group of
-    *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
-    names no variation is an error, as no deck could be made.
+    the name. It is a warning if *LINES, which creates sets, or the deck that *RESTART continues may define the set.
+
+    The rule also reports other names: as warnings a REPEAT= of *LINE PATH SECTIONS without a group of that name in
+    *LINE SECTION GROUPS, and a LINE= there without a line of that name in *LINE PATHS; as an error a VARIATIONS= of
+    *COMBINATIONS without a variation of that name, since no deck can be generated.
 
     Example on sets:
           GEN=3, 4
@@ -37,9 +38,9 @@ REF005 = Code(
     """
     A set or a GEN= uses an element that is not defined.
 
-    The set is smaller than it was meant to be, so elements miss their stiffness, diameter or curve. This happens when a
-    mesh is made coarser and the sets stay as they were. Correct the number, or define the element. A range of which
-    only some elements exist is a warning. Elements that only *CABLE can define are one info for it.
+    The set is smaller than intended, so elements lack their stiffness, diameter or curve. This happens when a mesh is
+    made coarser and the sets are not changed. Correct the number, or define the element. It is a warning if some
+    elements of a range exist. Elements that only a *CABLE can define are reported together, as one info.
 
     Example on sets:
         - 1, 2, 5
@@ -56,11 +57,12 @@ REF006 = Code(
     """
     An element or a GEN= uses a node that is not defined.
 
-    The element has no place and no length, and nothing can be said of its contact. Correct the number, or define the
-    node. The same holds for nodes that *BOUNDARY holds, of which a range may lack some as a warning, and of NODE= in
-    *P-Y and *T-Z. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that
-    is spelt nearly as one in *LINES or *LINE LOCATIONS. Nodes that only *CABLE or *NODE,CURVILINEAR can
-    define, whose lines are not read, are one info for the keyword.
+    The element has no position and no length, and its contact cannot be evaluated. Correct the number, or define the
+    node. Nodes in *BOUNDARY and in NODE= of *P-Y and *T-Z are checked too.
+
+    It is a warning if some nodes of a range in *BOUNDARY exist, if only *LINES or the deck before a *RESTART can define
+    the node, or if a label is spelt almost like a label in *LINES or *LINE LOCATIONS. Nodes that only unread lines of
+    *CABLE or *NODE,CURVILINEAR can define are reported together, as one info for the keyword.
 
     Example on sets:
           GEN=1, 4
@@ -77,8 +79,8 @@ REF007 = Code(
     """
     A node or an element is defined twice.
 
-    The later definition holds, and the earlier one is lost silently: a line copied and half changed puts a kink
-    into the pipe, or leaves an element out. Remove one of the two, or give it another number.
+    The later definition overrides the earlier one: a line that was copied and only partly changed puts a kink into the
+    pipe, or leaves an element out. Remove one of the two, or give it another number.
 
     Example on sets:
           GEN=1, 5
@@ -93,10 +95,10 @@ REF008 = Code(
     "subset-cycle",
     Severity.ERROR,
     """
-    A SUBSET= leads back to its own set, or names no set.
+    A SUBSET= leads back to its own set, or names an undefined set.
 
-    A set takes in all elements of its subsets. A set that is, through others, a subset of itself has no meaning, and a
-    subset that does not exist leaves elements out. Remove one of the SUBSET= lines of the cycle, or correct the name.
+    A set contains all elements of its subsets. A set cannot be a subset of itself, directly or through other sets; an
+    undefined subset leaves elements out. Remove one of the SUBSET= lines of the cycle, or correct the name.
 
     Example on sets:
           1, 2
@@ -117,8 +119,8 @@ REF009 = Code(
     """
     The predefined set ALL is defined again.
 
-    ALL holds every element of the model, whatever else the deck says, so the lines below this SET= have no effect,
-    although a reader may expect it. Choose another name, or remove the lines.
+    ALL always contains every element of the model, so the lines below this SET= have no effect. Choose another name, or
+    remove the lines.
 
     Example on sets:
         - SET=All
@@ -135,9 +137,9 @@ REF010 = Code(
     """
     A set has no element, or a GEN= generates nothing.
 
-    Properties given to an empty set reach no element. A set without a line is a warning; a GEN= whose end comes before
-    its start, whose increment does not lead to the end, or that would generate more than memory holds, is an error, as
-    start and end may be exchanged or a digit wrong. Give the set its elements, or remove it.
+    Properties of an empty set reach no element. A set without a line is a warning. A GEN= is an error if its end comes
+    before its start, if its increment does not lead to the end, or if the range exceeds the memory: start and end may
+    be exchanged, or a digit wrong. Give the set its elements, or remove it.
 
     Example on sets:
         - GEN=4, 3
@@ -154,9 +156,9 @@ REF013 = Code(
     """
     An equation uses a parameter that is not defined.
 
-    The field has no value then, and nothing that depends on it can be evaluated. Define the parameter in *PARAMETERS,
-    or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness. Also reported are a
-    PARA= of *VARIATION and a %name% in the names of files of *COMBINATIONS without a parameter: no deck could be made.
+    The field has no value, and fields that depend on it cannot be evaluated. Define the parameter in *PARAMETERS, or
+    correct its name. Names of list items begin with the name of the list, as in Soil_stiffness. Undefined parameters in
+    PARA= of *VARIATION and in a %name% of the file names of *COMBINATIONS are reported too: no deck can be generated.
 
     Example on parameters:
         - water depth, 850.0
@@ -173,7 +175,7 @@ REF014 = Code(
     """
     Parameters are defined through each other.
 
-    Each of them needs the value of the other first, so none has a value. Give one of them as a number.
+    Each of them needs the value of another first, so none has a value. Give one of them as a number.
 
     Example on parameters:
         - od, =[wall*17.0]

@@ -1,4 +1,4 @@
-"""A deck as a document of plain values, the form behind JSON and YAML, and back; the JSON Schema of that form."""
+"""Deck as a document of plain values, the form behind JSON and YAML, and back; JSON Schema of that form."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ Document = dict[str, Any]
 
 
 def to_document(deck: Deck) -> Document:
-    """The deck as dicts and lists, its tables as listings; empty things are left out.
+    """Return the deck as dicts and lists, its tables as listings; empty values are left out.
 
     A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes. Raises DeckError for what reading
     would refuse: a value out of range, a raw line that opens a block.
@@ -60,7 +60,7 @@ def _require_readable(deck: Deck) -> None:
     for one, whole in zip(light.sections, deck.sections, strict=True):
         pairs = zip(one.blocks, whole.blocks, strict=True)
         one.blocks = [block if is_refused(block) else each for each, block in pairs]
-    _Reader(_plain(_document(light)), deck.file, locate).read()
+    _DocumentReader(_plain(_document(light)), deck.file, locate).read()
 
 
 def _plain(value: Any) -> Any:
@@ -100,7 +100,7 @@ def _comments(comments: list[Comment]) -> Document:
 
 
 class DocumentOrigin(Origin):
-    """Where the values of a deck are in a JSON or YAML text. A document is whole or refused."""
+    """Places of a deck's values in a JSON or YAML text. A document is read completely or refused."""
 
     takes_edits = False
 
@@ -108,11 +108,11 @@ class DocumentOrigin(Origin):
         self.locate = locate
 
     def place(self, problem: Problem) -> Range:
-        """Lines and columns of a problem."""
+        """Return lines and columns of a problem."""
         if problem.where is None:
             return START
         section, block, path = problem.where
-        if path[:1] == ("lines",):  # a piece of a line has no place of its own
+        if path[:1] == ("lines",):  # a document has no places within a line
             path = path[:2]
         elif path[-3:-2] == ("text",):
             path = path[:-2]
@@ -120,7 +120,7 @@ class DocumentOrigin(Origin):
 
 
 def decoded(data: bytes, file: str, form: str) -> str:
-    """The text of a JSON or YAML file; raises DeckError when it is not UTF-8."""
+    """Return the text of a JSON or YAML file; raises DeckError if it is not UTF-8."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -131,16 +131,16 @@ def decoded(data: bytes, file: str, form: str) -> str:
 
 
 def from_document(document: object, file: str, locate: Locate) -> Deck:
-    """The deck of a document; raises DeckError with the path and place of everything that breaks the schema."""
-    return _Reader(document, file, locate).read()
+    """Return the deck of a document; raises DeckError with path and place of each violation of the schema."""
+    return _DocumentReader(document, file, locate).read()
 
 
 @cache
-def _adapter(wanted: Any) -> TypeAdapter[Any]:
-    return TypeAdapter(wanted)
+def _adapter(kind: Any) -> TypeAdapter[Any]:
+    return TypeAdapter(kind)
 
 
-class _Reader:
+class _DocumentReader:
     def __init__(self, document: object, file: str, locate: Locate) -> None:
         self.document = document
         self.faults = Faults(file, locate, document)
@@ -163,8 +163,8 @@ class _Reader:
         deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
         sections = document.get("sections")
         if isinstance(sections, list):
-            for index, given in enumerate(sections):
-                deck.sections.append(self._section(given, index))
+            for index, item in enumerate(sections):
+                deck.sections.append(self._section(item, index))
         else:
             self.faults.add(("sections",), "expected a list of sections")
         self.faults.raise_any()
@@ -186,31 +186,31 @@ class _Reader:
 
     def _format(self) -> dict[str, Any]:
         if isinstance(self.document, dict):
-            found = self.document.get("format")
-            if found == FORMAT:
+            name = self.document.get("format")
+            if name == FORMAT:
                 return self.document
-            self.faults.add(("format",), f"expected {FORMAT!r}, found {shown(found)}")
+            self.faults.add(("format",), f"expected {FORMAT!r}, found {shown(name)}")
         else:
-            found = type(self.document).__name__
-            self.faults.add((), f"expected an object whose format is {FORMAT!r}, found {found}")
+            name = type(self.document).__name__
+            self.faults.add((), f"expected an object whose format is {FORMAT!r}, found {name}")
         self.faults.raise_any()
         raise AssertionError
 
-    def _only(self, given: dict[str, Any], known: tuple[str, ...], path: DocumentPath) -> None:
-        for key in given:
+    def _only(self, mapping: dict[str, Any], known: tuple[str, ...], path: DocumentPath) -> None:
+        for key in mapping:
             if key not in known:
                 self.faults.add((*path, key), f"unknown key: expected {', '.join(known)}")
 
-    def _checked(self, wanted: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
-        """The value as a type; `otherwise` when it is none."""
+    def _checked(self, kind: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
+        """Return the value validated as a type; `otherwise` if it is invalid."""
         try:
-            return _adapter(wanted).validate_python(value, strict=True)
+            return _adapter(kind).validate_python(value, strict=True)
         except ValidationError as error:
             self.faults.extend(path, error)
             return otherwise
 
     def _lines(self, value: object, path: DocumentPath, openers: str) -> list[str]:
-        """Raw lines, none of which opens a section or a block."""
+        """Return raw lines; a line that opens a section or a block is a fault."""
         lines: list[str] = self._checked(list[Text], value, path, [])
         for index, line in enumerate(lines):
             mark = mark_of(line)
@@ -219,7 +219,7 @@ class _Reader:
         return lines
 
     def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:
-        """Report lines under no keyword or in no section; data lines, and the texts of comments."""
+        """Report lines under no keyword or in no section; return the data lines and the texts of comments."""
         text = "\n".join(lines)
         tree = parse(Source("", text)).preamble
 
@@ -237,22 +237,22 @@ class _Reader:
             self.findings.before_sections(block.name, None, place(block.head))
         return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is Kind.COMMENT]
 
-    def _section(self, given: object, index: int) -> Section:
+    def _section(self, item: object, index: int) -> Section:
         path: DocumentPath = ("sections", index)
         section = Section("")
-        if not isinstance(given, dict):
+        if not isinstance(item, dict):
             self.faults.add(path, "expected a section: an object with name and blocks")
             return section
-        self._only(given, ("name", "lines", "comments", "blocks"), path)
-        section.name = canonical_name("$" + self._checked(Text, given.get("name"), (*path, "name"), ""))
-        section.lines = self._lines(given.get("lines", []), (*path, "lines"), "$*")
-        section.comments = self._checked(list[Comment], given.get("comments", []), (*path, "comments"), [])
+        self._only(item, ("name", "lines", "comments", "blocks"), path)
+        section.name = canonical_name("$" + self._checked(Text, item.get("name"), (*path, "name"), ""))
+        section.lines = self._lines(item.get("lines", []), (*path, "lines"), "$*")
+        section.comments = self._checked(list[Comment], item.get("comments", []), (*path, "comments"), [])
         if section.name not in catalogue.SECTIONS:
             self.findings.unknown_section(section.name, Where(index))
         if section.lines:
             section.lines, texts = self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
             section.comments[:0] = [Comment(before=0, text=text) for text in texts]
-        blocks = given.get("blocks")
+        blocks = item.get("blocks")
         if not isinstance(blocks, list):
             self.faults.add((*path, "blocks"), "expected a list of blocks")
             return section
@@ -268,9 +268,9 @@ class _Reader:
         return section
 
     def _with_model(self, block: Opaque, section: Section, where: Where) -> Block | Opaque:
-        """The model that raw lines describe, as keyword text is read, if their keyword has one.
+        """Return the model that raw lines describe, read like keyword text, if the keyword has a model.
 
-        `where` is the block, or the lines in it if the document has it as these.
+        `where` is the block, or its lines if the document gives the block as raw lines.
         """
         declared = catalogue.block_class(section.name, block.keyword)
         source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
@@ -300,29 +300,29 @@ class _Reader:
         section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
         return read.model
 
-    def _block(self, section: str, given: object, path: DocumentPath) -> Block | Opaque | None:
-        if not isinstance(given, dict) or not isinstance(given.get("keyword"), str):
+    def _block(self, section: str, item: object, path: DocumentPath) -> Block | Opaque | None:
+        if not isinstance(item, dict) or not isinstance(item.get("keyword"), str):
             self.faults.add(path, "expected a block: an object with its keyword")
             return None
-        declared = None if "lines" in given else catalogue.block_class(section, given["keyword"])
-        if declared is None and "lines" not in given:
-            message = f"*{given['keyword']} in ${section} has no model: expected its raw lines under `lines`"
-            meant = catalogue.meant_in(given["keyword"], section)
-            declared = catalogue.block_class(section, meant) if meant else None
+        declared = None if "lines" in item else catalogue.block_class(section, item["keyword"])
+        if declared is None and "lines" not in item:
+            message = f"*{item['keyword']} in ${section} has no model: expected its raw lines under `lines`"
+            near = catalogue.meant_in(item["keyword"], section)
+            declared = catalogue.block_class(section, near) if near else None
             if declared is None:
                 self.faults.add(path, message)
                 return None
-            self.faults.respell((*path, "keyword"), f"{message}{hint(meant)}")
-            given = {**given, "keyword": meant}
+            self.faults.respell((*path, "keyword"), f"{message}{hint(near)}")
+            item = {**item, "keyword": near}
         try:
             if declared:
-                return declared.model_validate(given)
-            block = Opaque.model_validate(given)
+                return declared.model_validate(item)
+            block = Opaque.model_validate(item)
         except ValidationError as error:
-            if declared and (found := respelt(given, declared, error)):
-                for inner, message in found.faults:
+            if declared and (corrected := respelt(item, declared, error)):
+                for inner, message in corrected.faults:
                     self.faults.respell((*path, *inner), message)
-                return found.block
+                return corrected.block
             self.faults.extend(path, error)
             return None
         block.keyword = canonical_name("*" + block.keyword)
@@ -331,10 +331,11 @@ class _Reader:
 
 
 def normalise_comments(deck: Deck) -> None:
-    """Move comments so that they belong to what keyword text gives them to; what is written of the deck is the same.
+    """Move comments to the owner that keyword text would give them; the written deck stays the same.
 
-    Before the first section they are lines of the preamble, behind a block without a model they are lines of it, and
-    at the end of a section they stand before the next one. An index beyond the last item means behind it.
+    Comments before the first section become lines of the preamble. Comments behind a block without a model become lines
+    of the block. Comments at the end of a section move before the next section. An index beyond the last item means
+    behind the last item.
     """
     waiting = sorted(deck.comments, key=lambda comment: comment.before)[::-1]
     deck.comments = []
@@ -354,7 +355,7 @@ def normalise_comments(deck: Deck) -> None:
 
 
 def _normalise_section(section: Section) -> list[str]:
-    """The texts of the comments behind the last block."""
+    """Move the comments of a section to their owners; return the texts behind the last block."""
     following: list[str] = []
     comments = sorted(section.comments, key=lambda comment: comment.before)
     section.comments = []
@@ -375,14 +376,14 @@ _REFERENCE = "#/$defs/{model}"
 
 
 def json_schema() -> dict[str, Any]:
-    """The schema: document, sections, every block with a model, the block without one.
+    """Return the schema: document, sections, every block with a model, the block without a model.
 
-    In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
+    The schema does not restrict keywords to their sections, since a deck may hold a keyword in the wrong section.
     """
     blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
-    made, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
-    references = {model: made[model, "validation"] for model in models}
+    schemas, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
+    references = {model: schemas[model, "validation"] for model in models}
     for block in blocks:
         definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
         definition["required"] = sorted({"keyword", *definition.get("required", [])})

@@ -1,4 +1,4 @@
-"""Decks in the hands of a program: blocks found by keyword or class, added and removed, and copies."""
+"""Decks for use in programs: finding, adding and removing blocks, and copying decks."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from mudline.language.syntax.tree import canonical_name
 
 
 class EditableDeck(Deck):
-    """A deck whose blocks can be changed; `TypedDeck` knows their classes."""
+    """Deck whose blocks can be changed; `TypedDeck` adds their classes."""
 
     def all_of(self, keyword: str | type[Block], section: str | None) -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks of a keyword, or of its class, each with its place, in the order of the file."""
+        """Return the modelled blocks of a keyword or class, each with its place, in the order of the file."""
         expect(keyword, "keyword", (str, type), "a str or a class of mudline.keywords")
         name = _name_of(keyword)
         if section is None:
@@ -37,16 +37,16 @@ class EditableDeck(Deck):
         else:
             expect(section, "section", str, "a str")
             sections = (section,)
-        found = chain.from_iterable(Deck.blocks(self, name, one) for one in sections)
-        return ((where, block) for where, block in found if isinstance(keyword, str) or type(block) is keyword)
+        blocks = chain.from_iterable(Deck.blocks(self, name, place) for place in sections)
+        return ((where, block) for where, block in blocks if isinstance(keyword, str) or type(block) is keyword)
 
     def one_of(self, keyword: str | type[Block], section: str | None) -> Any:
-        """The only block of a keyword; raises UnknownNameError where there is none, ValueError for several."""
-        found = [block for _, block in self.all_of(keyword, section)]
+        """Return the only block of a keyword; raises UnknownNameError if there is none, ValueError for several."""
+        blocks = [block for _, block in self.all_of(keyword, section)]
         name = _name_of(keyword)
-        if len(found) > 1:
-            raise ValueError(f"the deck has {len(found)} blocks of *{name}: go through deck.blocks({name!r})")
-        if not found:
+        if len(blocks) > 1:
+            raise ValueError(f"the deck has {len(blocks)} blocks of *{name}: go through deck.blocks({name!r})")
+        if not blocks:
             there = {block.keyword for each in self.sections for block in each.blocks}
             known = catalogue.sections_of(name) is not None
             near = "" if known else catalogue.suggest_keyword(name)
@@ -55,34 +55,34 @@ class EditableDeck(Deck):
                 if name in there
                 else f"the deck has no *{name}{hint(near)}"
             )
-        return found[0]
+        return blocks[0]
 
     def add(self, block: Block, section: str | None = None) -> None:
-        """Put a block at the end of the last section where it belongs, which is made if there is none.
+        """Add a block at the end of the last section where it belongs; the section is created if there is none.
 
-        Raises ValueError for a section where it does not belong.
+        Raises ValueError for a section where the block does not belong.
         """
         expect(block, "block", Block, "a block, such as mudline.keywords.Ocean(depth=100)")
         belongs = type(block).sections
         if section is not None:
             expect_word(section, "section", belongs, f"{' or '.join(belongs)}, where *{block.keyword} belongs")
-        wanted = (section,) if section else belongs
-        found = next((one for one in reversed(self.own_sections) if one.name in wanted), None)
-        if found is None:
+        names = (section,) if section else belongs
+        target = next((item for item in reversed(self.own_sections) if item.name in names), None)
+        if target is None:
             order = catalogue.SECTIONS.index
             before = [
-                one.name in catalogue.SECTIONS and order(one.name) > order(wanted[0]) for one in self.own_sections
+                item.name in catalogue.SECTIONS and order(item.name) > order(names[0]) for item in self.own_sections
             ]
             at = before.index(True) if True in before else len(before)
-            found = Section(wanted[0])
-            self.sections.insert(at, found)
-            self.comments[:] = [_moved(one, 1) if one.before > at else one for one in self.comments]
-        found.blocks.append(block)
+            target = Section(names[0])
+            self.sections.insert(at, target)
+            self.comments[:] = [_moved(item, 1) if item.before > at else item for item in self.comments]
+        target.blocks.append(block)
 
     def remove(self, what: str | Block | Opaque) -> None:
-        """Take a block out, or all blocks of a keyword; comments stay.
+        """Remove a block, or all blocks of a keyword; comments stay.
 
-        Raises UnknownNameError for a keyword that the deck lacks, and ValueError for a block that is not in it.
+        Raises UnknownNameError for a keyword that the deck lacks, and ValueError for a block that is not in the deck.
         """
         expect(what, "what", (str, Block, Opaque), "a block or a keyword")
         keyword = _name_of(what) if isinstance(what, str) else ""
@@ -92,7 +92,7 @@ class EditableDeck(Deck):
                 block = section.blocks[number]
                 if block is what or block.keyword == keyword:
                     del section.blocks[number]
-                    section.comments[:] = [_moved(one, -1) if one.before > number else one for one in section.comments]
+                    section.comments[:] = [_moved(c, -1) if c.before > number else c for c in section.comments]
                     gone += 1
         if not gone and isinstance(what, str):
             raise UnknownNameError(f"the deck has no *{keyword}")
@@ -100,14 +100,14 @@ class EditableDeck(Deck):
             raise ValueError("the block is not in the deck: take it from deck.block or deck.blocks")
 
     def copy(self) -> Self:
-        """Return a deck of its own blocks, whose changes leave this one as it is."""
+        """Return a copy; changes of the copy leave this deck unchanged."""
         own = {name: deepcopy(getattr(self, name)) for name in ("sections", "comments", "preamble")}
         return replace(self, **own, problems=[*self.problems])
 
     def placed(self) -> Self:
-        """The deck; where blocks were added or removed, one whose places are those of the text that it is written as.
+        """Return the deck with the places of its blocks: after blocks were added or removed, those of the written text.
 
-        Raises DeckError for what keyword text cannot say.
+        Raises DeckError for values that keyword text cannot express.
         """
         origin = self.origin
         if not isinstance(origin, TextOrigin):
@@ -124,7 +124,7 @@ def _name_of(keyword: str | type[Block]) -> str:
         return canonical_name(f"*{keyword.removeprefix('*')}")
     fields: dict[str, FieldInfo] = getattr(keyword, "model_fields", {})
     if "keyword" not in fields or not isinstance(fields["keyword"].default, str):
-        raise ValueError(f"{keyword.__name__} is no keyword: expected a class of mudline.keywords")
+        raise ValueError(f"{keyword.__name__} is not a keyword: expected a class of mudline.keywords")
     return fields["keyword"].default
 
 

@@ -1,4 +1,4 @@
-"""The deck with numbers in place of its equations and of the labels that `*LABEL` gives."""
+"""Deck with numbers in place of its equations and of the labels that `*LABEL` defines."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import Labels
 
 LabelNumbers = dict[tuple[Names | None, str], int]
-"""Numbers of nodes and elements by what they are of and their folded label."""
+"""Numbers of nodes and elements by kind (nodes or elements) and casefolded label."""
 
 
 def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> LabelNumbers:
-    """The labels that `*LABEL` gives; one that is given twice keeps its first number, and is a problem."""
-    found: LabelNumbers = {}
+    """Return the labels that `*LABEL` defines; a label defined twice keeps its first number, and is a problem."""
+    numbers: LabelNumbers = {}
     own = len(deck.own_sections)
     for where, block in deck.blocks("LABEL"):
         kind = Names.NODE
@@ -40,56 +40,57 @@ def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> La
             if number is None or not number.is_integer() or not line.label:
                 continue
             name = name_key(line.label)
-            if found.setdefault((kind, name), int(number)) != int(number) and where.section < own:
+            if numbers.setdefault((kind, name), int(number)) != int(number) and where.section < own:
                 thing = kind.name.lower()
                 message = (
-                    f"label {shown(line.label)} is that of {thing} {found[kind, name]} and of {thing} {int(number)}: "
+                    f"label {shown(line.label)} is that of {thing} {numbers[kind, name]} and of {thing} {int(number)}: "
                     "give one of them another label"
                 )
                 place = where.inside("labels", index, "label")
                 problems.append(Problem(REF007, message, where=place, blocks=Blocks.NEVER))
-    return found
+    return numbers
 
 
 def labels_given(deck: Deck, kind: Names) -> dict[str, str]:
-    """The labels of nodes or of elements that `*LABEL` gives, as written, by their folded form."""
-    found: dict[str, str] = {}
+    """Return the labels of nodes or of elements that `*LABEL` defines, as written, by their casefolded form."""
+    labels: dict[str, str] = {}
     for _, block in deck.blocks("LABEL"):
         thing: str | None = Names.NODE.name
         for line in cast("Labels", block).labels:
             thing = line.thing or thing
             if thing == kind.name and line.label:
-                found.setdefault(name_key(line.label), bare(line.label))
-    return found
+                labels.setdefault(name_key(line.label), bare(line.label))
+    return labels
 
 
 def all_labels_read(deck: Deck) -> bool:
-    """Return False if a line of `*LABEL` could not be read, which may give any label."""
+    """Return False if a line of `*LABEL` could not be read: it may define any label."""
     lines = (line for _, block in deck.blocks("LABEL") for line in cast("Labels", block).labels)
     return all(line.label for line in lines)
 
 
 def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> Problem:
-    """An equation in a field of whole numbers that gives something else."""
+    """Return the problem of an equation in a field of whole numbers whose value is not whole."""
     return Problem(SYN002, f"{equation} gives {value!r}: {label} needs a whole number", None, None, where)
 
 
 _PLAIN = frozenset({float, int, str, NoneType})
 _EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
-"""A deck without equations in the sections of the model and of the analysis; only `evaluated` makes one.
+"""Deck without equations in the sections of the model and of the analysis; created only by `evaluated`.
 
-A value that an equation did not give is unknown. A label of `*LABEL` is the number of its node or element; others stay.
+A value is unknown if its equation gave none. A label that `*LABEL` defines is replaced by the number of its node or
+element; other labels stay.
 """
 
 
 def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
-    """The deck with numbers for its equations and for the labels of `*LABEL`, and a problem for each without a value.
+    """Return the deck with numbers for equations and labels of `*LABEL`, and a problem for each missing value.
 
-    Without a value of `$MODEL` nothing can be evaluated, were it only because a function is not known, which is a
-    warning. What other sections hold has no influence on the contact.
+    A missing value in `$MODEL` prevents the evaluation of the deck, even if its only cause is an unknown function,
+    which is a warning. Values of other sections have no influence on the contact.
     """
-    copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
+    copies = [type(each)(each.name, [*each.blocks], each.comments, each.lines) for each in deck.sections]
     ready = EvaluatedDeck(replace(deck, sections=copies))
     labelled = "LABEL" in deck.keywords()
     plain = deck.origin.no_equations and not deck.bases and not labelled
@@ -117,16 +118,16 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
 
 @cache
 def _evaluated_slots(kind: type[BaseModel]) -> tuple[str, ...]:
-    """Names of the fields of a part that can hold an equation, or parts that can; none of anything else.
+    """Return the fields of a part that can hold an equation, directly or in an inner part; none for other classes.
 
-    The question whether a class is one of parts takes longer than this cache.
+    The check whether a class is a part takes longer than this cache.
     """
     slots = record_schema(kind).slots if issubclass(kind, Part) else ()
     return tuple(slot.name for slot in slots if slot.row or slot.record or slot.kind in _EVALUATED)
 
 
 def _has_equation(value: Any) -> bool:
-    """Whether there is an equation in a value or below it; most values are none that can hold one."""
+    """Return True if there is an equation in a value or below it; most values cannot hold an equation."""
     if isinstance(value, Equation):
         return True
     if isinstance(value, Table):
@@ -135,7 +136,7 @@ def _has_equation(value: Any) -> bool:
     if not isinstance(value, list):
         kind: type[BaseModel] = type(value)
         names = _evaluated_slots(kind)
-        held = map(value.__dict__.__getitem__, names) if names else ()  # sooner than `getattr` of a model
+        held = map(value.__dict__.__getitem__, names) if names else ()  # faster than `getattr` of a model
     for item in held:  # noqa: SIM110 - `any` takes twice the time
         if type(item) not in _PLAIN and _has_equation(item):
             return True
@@ -151,7 +152,7 @@ class _Evaluator:
         self.blocks = Blocks.ALWAYS
 
     def part(self, part: Any, where: Where) -> Any:
-        """A part without equations; the same object if it has none."""
+        """Return a part without equations; the same object if it has none."""
         changed: dict[str, object] = {}
         kind: type[Part] = type(part)
         for slot in record_schema(kind).slots:
@@ -179,13 +180,13 @@ class _Evaluator:
         return value
 
     def _labelled(self, value: object, slot: FieldSpec) -> object:
-        """The number of a label that `*LABEL` gives; any other value stays."""
+        """Return the number of a label that `*LABEL` defines; any other value unchanged."""
         if not isinstance(value, Label):
             return value
         return self.labels.get((slot.about.names or slot.about.defines, name_key(value)), value)
 
     def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
-        """The value of an equation."""
+        """Return the value of an equation."""
         whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
         nothing: Value = UNKNOWN
         try:
@@ -193,7 +194,7 @@ class _Evaluator:
         except NoValueError as reason:
             if reason.problem:
                 self.problems.append(replace(reason.problem, blocks=self.blocks))
-            elif self.blocks is Blocks.ALWAYS:  # the problem is placed where the parameter is defined
+            elif self.blocks is Blocks.ALWAYS:  # the problem is reported at the parameter's definition
                 self.lacks_parameter = True
             return nothing
         if isinstance(value, str):

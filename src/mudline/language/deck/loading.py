@@ -1,4 +1,4 @@
-"""A file in any form to a deck and back, and how much of it was read."""
+"""Reading and writing a deck in any form, and the share of it that was read."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from mudline.language.syntax.source import Source
 
 
 def load_path(path: Path, name: str | None = None, *, form: str | None = None, units: str | None = None) -> Deck:
-    """The deck of a file; raises OSError, or DeckError for a JSON or YAML file that holds no deck."""
+    """Return the deck of a file; raises OSError, or DeckError for a JSON or YAML file without a deck."""
     return load_bytes(path.read_bytes(), name or path.as_posix(), form=form, units=units, folder=path.parent)
 
 
@@ -35,15 +35,15 @@ def load_bytes(
     folder: Path | None = None,
     read: BlockReader = read_block,
 ) -> Deck:
-    """The deck of a file's content. A keyword text never fails: what is wrong is in the deck's problems.
+    """Return the deck of a file's content. Keyword text never fails: its faults are in the deck's problems.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for. `read` reads the blocks of
-    a keyword text.
+    Files that the deck names are looked for in `folder`; without a folder none is looked for. `read` reads the blocks
+    of a keyword text.
     """
     form = form or form_of(name)
     if form == KEYWORD:
         source = Source.from_bytes(data, name)
-        del data  # where nobody else has it, its memory is free for the tables
+        del data  # frees its memory for the tables, unless the caller keeps it
         deck = read_source(source, units=units, read=read)
     else:
         if len(data) > LARGEST_FILE:
@@ -55,37 +55,37 @@ def load_bytes(
 
 
 def dump(deck: Deck, form: str) -> str:
-    """The text of a deck in a form."""
+    """Return the text of a deck in a form: keyword text, JSON or YAML."""
     return cast("str", _form(form).write(deck))
 
 
 def _form(form: str) -> ModuleType:
-    """The module of a form, imported when a file has it: keyword decks need neither JSON nor YAML."""
+    """Return the module of a form, imported when it is needed: keyword decks need neither JSON nor YAML."""
     return import_module(f"{forms.__name__}.{form}")
 
 
 def coverage_of(deck: Deck) -> Coverage:
-    """Count the keywords of a deck itself by how much of them was read.
+    """Count the keywords of the deck itself by the share of them that was read.
 
-    An unread keyword has its section behind its name if a keyword of that name is read in another section.
+    The name of an unread keyword is followed by its section if a keyword of that name is read in another section.
     """
-    found = Coverage()
+    coverage = Coverage()
     for section in deck.own_sections:
         for block in section.blocks:
-            found.total += 1
+            coverage.total += 1
             if extent(block) == "read":
-                found.read += 1
+                coverage.read += 1
             else:
                 unread = type(block) is Opaque
-                names, name = found.unread if unread else found.partly, block.keyword
+                names, name = coverage.unread if unread else coverage.partly, block.keyword
                 if unread and is_read_somewhere(name):
                     name += f" in ${section.name}"
                 names[name] = names.get(name, 0) + 1
-    return found
+    return coverage
 
 
 def extent(block: Block | Opaque) -> str:
-    """How much of a block was read: "read", "partly" or "unread"."""
+    """Return "read", "partly" or "unread": the share of a block that was read."""
     if type(block) is Opaque:
         return "unread"
     return "read" if is_read(block) else "partly"

@@ -1,4 +1,4 @@
-"""A deck: sections and blocks as models, and where each of them stands in the file that was read."""
+"""Deck: sections and blocks as models, and their places in the file that was read."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from mudline.language.keywords.values import Names, Text
 
 
 class Opaque(Part):
-    """A block without a model: its lines are passed through unchanged, without their ends.
+    """Block without a model: its lines are passed through unchanged, without their line ends.
 
-    It has no subclasses: to ask for the very class takes a fifth of the time of `isinstance` with a pydantic model.
+    It has no subclasses: comparing the class itself takes a fifth of the time of `isinstance` with a pydantic model.
     """
 
     keyword: Text
@@ -44,7 +44,7 @@ class Opaque(Part):
 
 @dataclass(slots=True, repr=False)
 class Section:
-    """A `$SECTION`; `lines` are stray ones before its first keyword."""
+    """`$SECTION` of a deck; `lines` are stray lines before its first keyword."""
 
     name: str
     blocks: list[Block | Opaque] = field(default_factory=list)
@@ -88,13 +88,13 @@ _INTERNAL = frozenset(
         "written",
     ]
 )
-"""What the rest of the program uses of a deck; `dir` leaves it out."""
+"""Names that the program itself uses; `dir` leaves them out."""
 
 START = Range(1, 1, 1, 1)
 
 
 class NamedPlace(NamedTuple):
-    """A name in a deck: the kind of the thing, the role of the field, the name as written, its place."""
+    """Name in a deck: kind of the object, role of the field, name as written, place."""
 
     kind: Names
     role: Role
@@ -103,29 +103,29 @@ class NamedPlace(NamedTuple):
 
 
 class Origin:
-    """What a deck was read from; this class itself: nothing, as a program made the deck.
+    """Source of a deck; this base class stands for a deck that a program created.
 
-    `no_equations` says that no value is an equation: it is known of a text that nobody changes once it is read.
-    `takes_edits` says that places in its text are places in the file, which repairs can change.
+    no_equations: True if no value is an equation, which is known of a text that is not changed after reading.
+    takes_edits: True if places in its text are places in the file, which repairs can change.
     """
 
     no_equations = False
     takes_edits = True
 
     def place(self, problem: Problem) -> Range:
-        """Lines and columns of a problem."""
+        """Return lines and columns of a problem."""
         return START
 
     def place_in_file(self, problem: Problem) -> Range:
-        """Lines and columns of a problem in the file, whose text may be that of a document."""
+        """Return lines and columns of a problem in the file, whose text may be that of a document."""
         return self.place(problem)
 
     def lost(self, section: int, block: int) -> int:
-        """How many lines of a block could not be used at all."""
+        """Return the number of lines of a block that could not be used at all."""
         return 0
 
     def written(self, where: Where) -> bool:
-        """Whether exactly this value stands in the file."""
+        """Return True if the file contains exactly this value."""
         return True
 
 
@@ -137,14 +137,14 @@ _KINDS: dict[str, tuple[Any, str]] = {
     "bases": (tuple, "a tuple"),
     "incomplete": (bool, "True or False"),
 }
-"""The fields of a deck by what they hold."""
+"""Types of the fields of a deck, with their description for messages."""
 
 
 @dataclass(repr=False)
 class Deck:
-    """A deck: its sections and blocks as validated models, equations as written.
+    """Deck: its sections and blocks as validated models, equations as written.
 
-    `mudline.Deck` is this class with the methods that make texts and scenes of a deck.
+    `mudline.Deck` is this class with the methods that create texts and scenes from a deck.
 
     Attributes:
         file: name of the file in messages.
@@ -153,12 +153,12 @@ class Deck:
         preamble: lines before the first section.
         sections: `$SECTION`s in the order of the file, with their blocks.
         comments: comments before sections.
-        problems: what reading noticed; `require` raises those that are errors.
-        origin: tells where in the file a value stands.
-        folder: where files that the deck names are looked for; None for a deck that came from no path: nothing is then
-            read but the deck itself.
-        bases: the decks that it continues, the nearest first, once they are found; their models are the last sections.
-        incomplete: the first of them all was not found.
+        problems: findings of reading; `require` raises the errors among them.
+        origin: gives the place of each value in the file.
+        folder: folder of the files that the deck names; None for a deck without a path: no other file is then read.
+        bases: decks that this deck continues, the nearest first, once they are found; their models are the last
+            sections.
+        incomplete: True if the first of the continued decks was not found.
     """
 
     file: str
@@ -174,7 +174,7 @@ class Deck:
     incomplete: bool = False
 
     def __post_init__(self) -> None:
-        """Raise ValueError for what a caller of `mudline.Deck` gave in the place of a text or a list."""
+        """Raise ValueError if a caller of `mudline.Deck` gave a value of the wrong type."""
         expect_fields(self, _KINDS)
         checked_units(self.units)
 
@@ -186,12 +186,12 @@ class Deck:
         return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
 
     def _repr_html_(self) -> str:
-        """The keywords of each section with their numbers, for notebooks."""
-        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+        """Return the keywords of each section with their numbers, for notebooks."""
+        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - needed only in notebooks
 
         blocks = [(section.name, block.keyword, block) for section in self.sections for block in section.blocks]
-        said = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)
-        rows = [(section, keyword, number, text) for (section, keyword, text), number in Counter(said).items()]
+        contents = ((*names, getattr(block, "summary", "lines are kept, not read")) for *names, block in blocks)
+        rows = [(section, keyword, number, text) for (section, keyword, text), number in Counter(contents).items()]
         errors = [counted(len(self.errors()), "error")] if self.errors() else []
         summary = ", ".join([self.file, self.units, *errors])
         return html_page(
@@ -203,16 +203,16 @@ class Deck:
 
     @property
     def alone(self) -> Self:
-        """The deck without those that it continues."""
+        """Deck without the decks that it continues."""
         return replace(self, sections=[*self.own_sections], bases=(), incomplete=False) if self.bases else self
 
     @property
     def own_sections(self) -> Sequence[Section]:
-        """The sections of this file; the models of the decks that it continues stand behind them."""
+        """Sections of this file; the models of the decks that it continues follow them."""
         return self.sections[: len(self.sections) - sum(len(base.sections) for base in self.bases)]
 
     def base_of(self, where: Where | None) -> tuple[Deck, Where] | None:
-        """The deck that a value was taken from, and its place there; None for one of the deck itself."""
+        """Return the continued deck that a value comes from, and its place there; None for a value of this deck."""
         if where is None or not self.bases:
             return None
         places = [(base.deck, number) for base in reversed(self.bases) for number in base.sections]
@@ -223,55 +223,55 @@ class Deck:
         return self.base_of(where) or (self, where)
 
     def _owned(self, problem: Problem) -> tuple[Deck, Problem]:
-        """The deck that a problem belongs to, and the problem in that deck's own terms."""
+        """Return the deck that a problem belongs to, and the problem in the terms of that deck."""
         if isinstance(problem, BaseProblem):
             return problem.deck, problem
-        found = self.base_of(problem.where)
-        return (found[0], replace(problem, where=found[1])) if found else (self, problem)
+        base = self.base_of(problem.where)
+        return (base[0], replace(problem, where=base[1])) if base else (self, problem)
 
     def place(self, problem: Problem) -> Range:
-        """Lines and columns of a problem, in the file that it belongs to."""
+        """Return lines and columns of a problem, in the file that it belongs to."""
         deck, own = self._owned(problem)
         return deck.origin.place_in_file(own)
 
     def lost(self, where: Where) -> int:
-        """How many lines of a block could not be used at all."""
+        """Return the number of lines of a block that could not be used at all."""
         deck, inner = self._at(where)
         return deck.origin.lost(inner.section, inner.block)
 
     def written(self, where: Where) -> bool:
-        """Whether exactly this value stands in its file."""
+        """Return True if the file of the value contains exactly this value."""
         deck, inner = self._at(where)
         return deck.origin.written(inner)
 
     def folder_of(self, where: Where) -> Path | None:
-        """Where the files are looked for that the deck names at a place."""
+        """Return the folder of the files that the deck names at a place."""
         return self._at(where)[0].folder
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks of a keyword in all sections of a name, in the order of the file.
+        """Yield the modelled blocks of a keyword in all sections of a name, in the order of the file.
 
-        What the deck continues comes first, so that what it says itself holds. The caller knows the class that the
-        keyword has; it is not imported for a deck that lacks the keyword.
+        Blocks of continued decks come first, so that the deck's own blocks override them. The caller knows the class of
+        the keyword; it is not imported for a deck that lacks the keyword.
         """
-        for index, found in self._in_order():
-            if found.name == section:
-                for number, block in enumerate(found.blocks):
+        for index, holder in self._in_order():
+            if holder.name == section:
+                for number, block in enumerate(holder.blocks):
                     if block.keyword == keyword and type(block) is not Opaque:
                         yield Where(index, number), block
 
     def blocks_with(self, fact: str, section: str = "MODEL") -> list[tuple[Where, Any]]:
-        """The modelled blocks whose declaration has one of its `Facts`, in the order of `blocks`."""
+        """Return the modelled blocks whose declaration has a flag of `Facts`, in the order of `blocks`."""
         return [
             (Where(index, number), block)
-            for index, found in self._in_order()
-            if found.name == section
-            for number, block in enumerate(found.blocks)
+            for index, holder in self._in_order()
+            if holder.name == section
+            for number, block in enumerate(holder.blocks)
             if type(block) is not Opaque and getattr(block.facts, fact)  # type: ignore[union-attr]  # as above
         ]
 
     def _in_order(self) -> Iterable[tuple[int, Section]]:
-        """The sections with their numbers: those of the decks that it continues first."""
+        """Return the sections with their numbers, those of continued decks first."""
         numbered = enumerate(self.sections)
         if not self.bases:
             return numbered
@@ -279,7 +279,7 @@ class Deck:
         return sorted(numbered, key=lambda placed: placed[0] < own)
 
     def every_block(self) -> list[tuple[Where, str, Block | Opaque]]:
-        """The blocks of all sections in their order, read or not: their place, the name of their section, the block."""
+        """Return the blocks of all sections in order, read or not: place, name of the section, block."""
         return [
             (Where(i, j), section.name, block)
             for i, section in enumerate(self.sections)
@@ -287,9 +287,9 @@ class Deck:
         ]
 
     def names(self) -> list[NamedPlace]:
-        """Return every name that the fields of the deck give, in its order, whether it is used or defined there.
+        """Return every name in the fields of the deck, in order, whether the field uses or defines it.
 
-        Numbers and labels of nodes and elements are no names.
+        Numbers and labels of nodes and elements are not included.
         """
         return [
             NamedPlace(kind, role, name, where._replace(path=path))
@@ -299,36 +299,36 @@ class Deck:
         ]
 
     def keywords(self, section: str = "MODEL") -> set[str]:
-        """Names of the keywords in the sections of a name."""
+        """Return the names of the keywords in the sections of a name."""
         expect(section, "section", str, "a str")
-        return {block.keyword for found in self.sections if found.name == section for block in found.blocks}
+        return {block.keyword for holder in self.sections if holder.name == section for block in holder.blocks}
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
-        """Problems as diagnostics, each in the file that it belongs to, in the order of the file."""
-        return sorted(map(self._diagnosed, problems), key=lambda found: found.sort_key)
+        """Return problems as diagnostics, each in the file that it belongs to, in the order of the file."""
+        return sorted(map(self._diagnosed, problems), key=lambda diagnostic: diagnostic.sort_key)
 
     def _diagnosed(self, problem: Problem) -> Diagnostic:
-        found = _diagnostic(*self._owned(problem))
-        return replace(found, following=tuple(self.diagnose(problem.following))) if problem.following else found
+        finding = _diagnostic(*self._owned(problem))
+        return replace(finding, following=tuple(self.diagnose(problem.following))) if problem.following else finding
 
     def require(self) -> Self:
-        """The deck itself; raises DeckError when something in it could not be read."""
+        """Return the deck itself; raises DeckError if a part of it could not be read."""
         if errors := self.errors():
             raise DeckError(self.diagnose(errors))
         return self
 
     def errors(self) -> list[Problem]:
-        """What could not be read."""
+        """Return the problems that are errors."""
         return [problem for problem in self.problems if problem.weight is Severity.ERROR]
 
 
 def raw_lines(block: Block | Opaque) -> list[str]:
-    """The lines of a block that are passed through: those that its model keeps, of a block without one all."""
+    """Return the lines of a block that are passed through: all without a model, else those that the model keeps."""
     return block.lines if isinstance(block, Opaque) else kept_lines(block)
 
 
 def comment_texts(deck: Deck) -> Iterator[str]:
-    """The text of every comment of a deck, without its mark."""
+    """Yield the text of every comment of a deck, without its mark."""
     yield from deck.preamble
     yield from (comment.text for comment in deck.comments)
     for section in deck.sections:
@@ -345,9 +345,9 @@ def _comments_in(part: Part) -> Iterator[str]:
 
 
 class Base(NamedTuple):
-    """A deck that another one continues: as written, its `$MODEL` sections evaluated, and what is wrong in it.
+    """Deck that another deck continues: as written, with its `$MODEL` sections evaluated, and its problems.
 
-    `sections` has them by their number in the deck.
+    `sections` maps the number of a section in the deck to the evaluated section.
     """
 
     deck: Deck
@@ -359,13 +359,13 @@ class Base(NamedTuple):
 
     @property
     def errors(self) -> list[Problem]:
-        """What keeps its model from being used."""
+        """Errors that keep the model of the deck from being used."""
         return [problem for problem in self.problems if problem.blocking is Blocks.ALWAYS]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class BaseProblem(Problem):
-    """A problem of a deck that is continued, in that deck's own terms."""
+    """Problem of a continued deck, in the terms of that deck."""
 
     deck: Deck
 
@@ -384,7 +384,7 @@ def _diagnostic(deck: Deck, problem: Problem) -> Diagnostic:
 
 
 def _fix(origin: Origin, repair: Repair, code: Code) -> Fix:
-    """A repair in lines and columns."""
+    """Return a repair in lines and columns."""
     places = [(origin.place(Problem(code, "", span)), text) for span, text in repair.edits]
     edits = tuple(Edit((p.line, p.column), (p.end_line, p.end_column), text) for p, text in places)
     return Fix(repair.applicability, repair.message, edits)

@@ -1,4 +1,4 @@
-"""The parameters of a deck, and the values of equations that use them."""
+"""Parameters of a deck, and the values of equations that use them."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
 
 Value = float | str
 _CONVERT = "convert"
-"""A function that exists, and whose arguments are not public: a deck with it is no worse for that."""
+"""Name of a function whose arguments are not published: a deck that calls it has no fault for that reason."""
 PLACEHOLDER = re.compile(r"%([^%]+)%")
-"""The name of a parameter in a text that is filled with its value."""
+"""Placeholder in a text: the name of a parameter, to be replaced by its value."""
 _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
 
 
 def folded(name: str) -> str:
-    """A name as names compare: without case, blanks inside count."""
+    """Return a name in the form in which names are compared: without case; blanks inside count."""
     return name.strip(" \t").casefold()
 
 
 def bare(name: str) -> str:
-    """A name without blanks, quotes or braces around it."""
+    """Return a name without blanks, quotes or braces around it."""
     text = name.strip(" \t")
     if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
         text = text[1:-1].strip(" \t")
@@ -44,12 +44,12 @@ def bare(name: str) -> str:
 
 
 def name_key(name: str) -> str:
-    """A name of a thing as such names compare: without case, blanks, quotes and braces."""
+    """Return the name of an object in the form in which such names compare: without case, blanks, quotes, braces."""
     return bare(name).casefold()
 
 
 class ListItem(NamedTuple):
-    """An item of a list: the name of its parameter, its value as written, and where that begins in the list."""
+    """Item of a list: name of its parameter, value as written, and offset of the value in the list."""
 
     name: str
     value: str
@@ -57,7 +57,7 @@ class ListItem(NamedTuple):
 
 
 def list_items(prefix: str, text: str) -> tuple[list[ListItem], str]:
-    """The items of `/a:1 b:2 3/`, named and counted ones, and what is none."""
+    """Return the items of `/a:1 b:2 3/`, named and counted ones, and the text that is not an item."""
     items: list[ListItem] = []
     counter = 0
     end = len(text) - text[1:].endswith("/")
@@ -75,9 +75,9 @@ def list_items(prefix: str, text: str) -> tuple[list[ListItem], str]:
 
 @dataclass(slots=True, eq=False)
 class Definition:
-    """A parameter: the name as written, its value or equation, and where it stands.
+    """Parameter: name as written, value or equation, and place.
 
-    `expression` is the equation once it is read, `used` the parameters in it.
+    `expression` is the parsed equation, `used` the parameters in it.
     """
 
     name: str
@@ -88,7 +88,7 @@ class Definition:
 
 
 class NoValueError(Exception):
-    """An equation without a value; `problem` is None when it has been reported elsewhere."""
+    """Equation without a value; `problem` is None if it has been reported elsewhere."""
 
     def __init__(self, problem: Problem | None = None) -> None:
         self.problem = problem
@@ -97,7 +97,7 @@ class NoValueError(Exception):
 
 @dataclass(eq=False)
 class Parameters:
-    """All parameters of a deck, evaluated when asked for; names compare without case, the last definition holds."""
+    """Parameters of a deck, evaluated on demand; names are compared without case, the last definition holds."""
 
     deck: Deck
     definitions: dict[str, Definition] = field(default_factory=dict)
@@ -115,7 +115,7 @@ class Parameters:
                 self._resolve(name)
 
     def number(self, value: object) -> float | None:
-        """A field as a number: evaluated if it is an equation; None when it has no numeric value."""
+        """Return the number in a field, evaluated if it is an equation; None if the field has no numeric value."""
         if isinstance(value, Equation):
             try:
                 value = self.evaluate(value, Where())
@@ -124,7 +124,7 @@ class Parameters:
         return float(value) if isinstance(value, int | float) else None
 
     def filled(self, text: str) -> str:
-        """A text with the value of each parameter in place of its `%name%`; what is not known stays."""
+        """Return a text with the values of parameters in place of `%name%`; unknown names stay."""
         return PLACEHOLDER.sub(self._placed, text)
 
     def _placed(self, match: re.Match[str]) -> str:
@@ -132,7 +132,7 @@ class Parameters:
         return f"{value:.15g}" if isinstance(value, float) else value
 
     def evaluate(self, equation: Equation, where: Where) -> Value:
-        """The value of an equation; raises NoValueError with the problem, placed at `where`."""
+        """Return the value of an equation; raises NoValueError with the problem, placed at `where`."""
         expression = self._parse(equation, where)
         for name, _, _ in expression.name_spans:
             if folded(name) in self.failed:
@@ -149,7 +149,7 @@ class Parameters:
         self._add(name, value, where)
 
     def _define_list(self, prefix: str, text: str, where: Where) -> None:
-        """`/a:1 b:2 3/`: named items and counted ones."""
+        """Define the named and counted parameters of a list: `/a:1 b:2 3/`."""
         items, rest = list_items(prefix, text)
         for item in items:
             self._add(item.name, item.value, where)
@@ -158,7 +158,7 @@ class Parameters:
             self.problems.append(Problem(SYN006, message, None, None, where))
 
     def _add(self, name: str, value: Value, where: Where) -> None:
-        """A text becomes an equation or a number where it reads as one; quotes around it are dropped."""
+        """Define a parameter; its text, without quotes, becomes an equation or a number if it reads like one."""
         if isinstance(value, str) and not isinstance(value, Equation):
             number = read_number(value)
             value = Equation.match(value) or (value.removeprefix('"').removesuffix('"') if number is None else number)
@@ -177,7 +177,7 @@ class Parameters:
             definition = definitions[current]
             if definition.expression is None and not self._read(current, definition):
                 continue
-            waiting = [other for other in definition.used if other not in values]
+            waiting = [parameter for parameter in definition.used if parameter not in values]
             useless = not failed.isdisjoint(waiting)
             if waiting and not useless and open_names.isdisjoint(waiting):
                 open_names.add(current)
@@ -196,7 +196,7 @@ class Parameters:
                 self._fail(current, Problem(REF014, message, None, None, definition.where))
 
     def _read(self, name: str, definition: Definition) -> bool:
-        """Read the equation of a parameter; returns whether it is still to be evaluated."""
+        """Read the equation of a parameter; return True if it is still to be evaluated."""
         value = definition.value
         if not isinstance(value, Equation):
             self.values[name] = value
@@ -207,18 +207,18 @@ class Parameters:
             self._fail(name, reason.problem)
             return False
         used = [folded(use.name) for use in expression.name_spans]
-        definition.used = [other for other in used if other in self.definitions]
+        definition.used = [key for key in used if key in self.definitions]
         return True
 
     def _settle(self, name: str, definition: Definition) -> None:
-        """Evaluate a parameter of which all that it uses has a value."""
+        """Evaluate a parameter whose used parameters all have values."""
         try:
             self.values[name] = self._value(cast("Expression", definition.expression), definition.where)
         except NoValueError as reason:
             self._fail(name, reason.problem)
 
     def _fail(self, name: str, problem: Problem | None) -> None:
-        """A parameter without value: reported once, not again for each of its users."""
+        """Mark a parameter as without value; the problem is reported once, not for each use of the parameter."""
         self.failed.add(name)
         if problem:
             self.problems.append(problem)
@@ -258,7 +258,7 @@ class Parameters:
 
 
 def _equation(expression: Expression) -> Equation:
-    """An expression as it is written in a deck."""
+    """Return an expression as it is written in a deck."""
     return Equation(f"=[{expression.text}]")
 
 
@@ -269,4 +269,4 @@ def _problem(code: Code, equation: Equation, error: ExpressionError, where: Wher
 
 
 DEFINING = "PREPROCESSOR"
-"""The section of the parameters; `Parameters` and `mudline.editing.variations` evaluate what stands there."""
+"""Section of the parameters; `Parameters` and `mudline.editing.variations` evaluate its lines."""

@@ -1,4 +1,4 @@
-"""Keyword text to a deck: sections, keywords, comments that belong to what follows them, and the unit system."""
+"""Reading of keyword text: sections, keywords, comments that belong to the following line, and the unit system."""
 
 from __future__ import annotations
 
@@ -31,49 +31,49 @@ if TYPE_CHECKING:
 
 
 _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=")
-"""A line of numbers, or a setting: no title."""
+"""Line of numbers, or a setting: not a title."""
 
 
 _DEEPLINES = frozenset({"SOIL", "TRENCH"})
-"""Keywords of another program, whose columns are separated by blanks."""
+"""Keywords of another program, whose columns are separated by spaces."""
 _NOT_READ = ("lines", "unread")
-"""The first step to a line that is not read: of a block without a model, or one that a model keeps."""
+"""First step of the path to an unread line: of a block without a model, or kept by a model."""
 _ENDS = 2
 _OF_EVERY_BLOCK = {"keyword", "comments"}
 
 
 class Findings:
-    """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
+    """Findings of reading, added to the problems of a deck; a place is a span of the text or a `Where`."""
 
     def __init__(self, problems: list[Problem]) -> None:
         self.problems = problems
         self.reported: Counter[str] = Counter()
 
     def unknown_section(self, name: str, where: Where, head: Span | None = None) -> None:
-        """A section that is not in the catalogue; `head` is its line in a text."""
+        """Report a section that is not in the catalogue; `head` is its line in a text."""
         if not self._reports(SYN010, None, where):
             return
         near = "" if catalogue.sections_of(name) else meant_section(name)
         instead_ = f"*{name}" if catalogue.sections_of(name) else f"${near}" if near else ""
-        meant = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
-        message = f"section ${name} is not known{meant}: it is passed through unchanged"
+        suggested = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
+        message = f"section ${name} is not known{suggested}: it is passed through unchanged"
         self._misspelt(SYN010, message, where, instead_, head)
 
     def no_model(self, keyword: str, section: str, where: Where, lines: RawLines, head: Span | None = None) -> None:
-        """A block that is passed through: no finding if its keyword is known and allowed in the section.
+        """Report a block that is passed through, unless its keyword is known and allowed in the section.
 
-        `lines` are those below its first one, `head` is that line in a text.
+        `lines` are the lines below the keyword line, `head` is the keyword line in a text.
         """
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
                 near = lines.meant(keyword, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                meant = f"*{near}" if catalogue.entries(near) else ""
+                replacement = f"*{near}" if catalogue.entries(near) else ""
                 if keyword.startswith("*"):
                     message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
-                    meant = f"C {keyword.lstrip('* ')}"
-                self._misspelt(SYN009, message, where, meant, head)
+                    replacement = f"C {keyword.lstrip('* ')}"
+                self._misspelt(SYN009, message, where, replacement, head)
         elif (
             sections
             and section not in sections
@@ -86,13 +86,13 @@ class Findings:
             certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
             self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
 
-    def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
-        """A name that is not known, which is a warning where another one was meant."""
-        repair = instead(meant, head) if head else None
-        self.problems.append(Problem(code, message, None, Severity.WARNING if meant else None, where, repair))
+    def _misspelt(self, code: Code, message: str, where: Where, replacement: str, head: Span | None) -> None:
+        """Report an unknown name: a warning if a known name was probably meant."""
+        repair = instead(replacement, head) if head else None
+        self.problems.append(Problem(code, message, None, Severity.WARNING if replacement else None, where, repair))
 
     def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
-        """A block before the first section."""
+        """Report a block before the first section."""
         if self._reports(SYN007, span, where):
             message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
             self.problems.append(Problem(SYN007, message, span, None, where))
@@ -100,9 +100,9 @@ class Findings:
     def stray(
         self, count: int, place: str, span: Span | None = None, where: Where | None = None, *, title: bool = False
     ) -> None:
-        """Data lines of a place under no keyword, the first of which is given: one finding for all of them.
+        """Report the data lines of a place under no keyword, in one finding at the first of them.
 
-        `title` says that they are words above the first section, or of one that is not known: a note.
+        `title`: they are words above the first section or above an unknown section; the finding is then an info.
         """
         if self._reports(SYN011, span, where):
             lines = counted(count, "line")
@@ -110,7 +110,7 @@ class Findings:
             self.problems.append(Problem(SYN011, message, span, Severity.INFO if title else None, where))
 
     def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
-        """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
+        """Count a finding of a code; return True if it is reported: the wrong kind of file has one on each line."""
         self.reported[code.code] += 1
         count = self.reported[code.code]
         if count == MOST_REPORTED + 1:
@@ -130,7 +130,7 @@ def _belongs(keyword: str) -> str:
 
 @dataclass
 class TextOrigin(Origin):
-    """Where the values of a deck are in its text."""
+    """Places of the values of a deck in its text."""
 
     tree: SyntaxTree
     read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
@@ -143,7 +143,7 @@ class TextOrigin(Origin):
         self.source = self.tree.source
 
     def span(self, where: Where) -> Span | None:
-        """The span of a value, of its block or section where it has none."""
+        """Return the span of a value; without one that of its block or section."""
         block = self.read.get((where.section, where.block))
         if where.path and where.path[0] in _NOT_READ:
             return self._not_read(where)
@@ -152,7 +152,7 @@ class TextOrigin(Origin):
         return self.head(where)
 
     def head(self, where: Where) -> Span | None:
-        """The line that begins the section or block of a place; None where there is none."""
+        """Return the span of the line that begins the section or block of a place; None if there is none."""
         sections = self.tree.sections
         if not 0 <= where.section < len(sections):
             return None
@@ -163,12 +163,12 @@ class TextOrigin(Origin):
         return trimmed(self.source.unified, *leaf.span) if leaf else None
 
     def lines_of(self, where: Where) -> list[str]:
-        """The lines of a block below its first one, without their ends."""
+        """Return the lines of a block below its first one, without their ends."""
         leaves = self.tree.sections[where.section].blocks[where.block].leaves
         return [line for leaf in leaves for line in _lines(self.source.unified, leaf.span)]
 
     def kept_lines(self, section: int, block: int) -> list[str]:
-        """The lines that a block keeps as they are, in the order of the file."""
+        """Return the lines that a block keeps as they are, in the order of the file."""
         text = self.source.unified
         return [text[slice(*span)].rstrip("\r\n") for span in self._kept_spans(section, block)]
 
@@ -180,7 +180,7 @@ class TextOrigin(Origin):
         return Span(start, len(self.source.unified) if end < 0 else end)
 
     def _not_read(self, where: Where) -> Span:
-        """The place of a line that is not read, by its number, or of a piece of it, by where that begins and ends."""
+        """Return the span of an unread line by its number, or of a piece of the line by its first and last offset."""
         part, number, *piece = where.path
         at = int(number)
         if part == "unread":
@@ -194,7 +194,7 @@ class TextOrigin(Origin):
         return trimmed(self.source.unified, *line)
 
     def place(self, problem: Problem) -> Range:
-        """Lines and columns of a problem."""
+        """Return lines and columns of a problem."""
         span = problem.span
         if span is None and problem.where is not None:
             span = self.span(problem.where)
@@ -203,35 +203,35 @@ class TextOrigin(Origin):
         return Range(*self.source.position(span.start), *self.source.position(max(span.start, span.end)))
 
     def lost(self, section: int, block: int) -> int:
-        """How many lines of a block could not be used at all."""
-        found = self.read.get((section, block))
-        return found.lost if found else 0
+        """Return the number of lines of a block that could not be used at all."""
+        read = self.read.get((section, block))
+        return read.lost if read else 0
 
     def written(self, where: Where) -> bool:
-        """Whether exactly this value stands in the file."""
+        """Return True if the file contains exactly this value."""
         block = self.read.get((where.section, where.block))
         return block is not None and block.own.has(where.path)
 
 
 def read_source(source: Source, *, units: str | None = None, read: BlockReader = read_block) -> Deck:
-    """The deck of a keyword text, as far as it can be read; what was wrong is in its `problems`."""
-    reader = _Reader(parse(source), read)
+    """Return the deck of a keyword text, as far as it can be read; its faults are in `problems`."""
+    reader = _DeckReader(parse(source), read)
     return reader.read(units)
 
 
 def _own_name(path: str) -> str:
-    """The name of a file without its folder: what `PurePath` says, which takes long for each of many decks."""
+    """Return the name of a file without its folder, as `PurePath` does; `PurePath` is slow for many decks."""
     name = path.rpartition("/")[2]
     return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
 
 
 def _lines(text: str, span: Span) -> list[str]:
-    """The lines of a piece of text, without their ends."""
+    """Return the lines of a piece of text, without their ends."""
     lines = text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
     return [line.removesuffix("\r") for line in lines]
 
 
-class _Reader:
+class _DeckReader:
     def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
         self.tree = tree
         self.read_block = read
@@ -261,26 +261,26 @@ class _Reader:
             self._stray(
                 preamble.leaves, "before the first section", title=bool(self.tree.sections) and not preamble.blocks
             )
-        if other := self._of_deeplines():
-            place = trimmed(self.text, *other.head.span)
+        if foreign := self._of_deeplines():
+            place = trimmed(self.text, *foreign.head.span)
             message = (
-                f"this seems to be a deck of DeepLines: it has *{other.name.split()[0]} and no $SECTION, and its "
-                "values are separated by blanks; mudline does not read such decks"
+                f"this seems to be a deck of DeepLines: it has *{foreign.name.split()[0]} and no $SECTION, and its "
+                "values are separated only by spaces; mudline does not read such decks"
             )
             self.problems.append(Problem(SYN007, message, place))
-        for block in preamble.blocks if not other else ():
+        for block in preamble.blocks if not foreign else ():
             self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
         self.deck.preamble = self._lines(Span(0, end)) if end else []
 
     def _of_deeplines(self) -> RawBlock | None:
-        """The first block that only decks of DeepLines have, in a text without sections and commas."""
+        """Return the first block that only decks of DeepLines have, in a text without sections and commas."""
         blocks = self.tree.preamble.blocks if not self.tree.sections and "," not in self.text else []
         return next((block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES), None)
 
     def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
-        """One finding for all data lines of a place; where these may be a title, they are one if none is data."""
+        """Report all data lines of a place in one finding; they may be a `title` if no line looks like data."""
         data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
         if data:
             first = data[0].span
@@ -344,7 +344,7 @@ class _Reader:
         self.findings.no_model(raw.name, section.name, where, RawLines(self.text, raw), head)
 
     def _truncated(self) -> None:
-        """A fault in the very last token of a file without a last line end means that the file was cut."""
+        """Report a file that was probably cut: its last token has a fault, and its last line end is missing."""
         end = len(self.text.rstrip(" \t"))
         if self.text.endswith("\n") or not self.problems:
             return
@@ -361,8 +361,8 @@ class _Reader:
                 self.problems[index] = replace(problem, code=SYN014, message=message)
 
     def _with_control_characters(self) -> None:
-        """A control character in a value that cannot be read is why: it is said there."""
-        for control in [one for one in self.problems if one.code is SYN012 and one.span]:
+        """Name the control character in the message of a value that cannot be read because of it."""
+        for control in [each for each in self.problems if each.code is SYN012 and each.span]:
             for index, problem in enumerate(self.problems):
                 span = problem.span
                 if problem.code is SYN002 and span and control.span and span.start <= control.span.start < span.end:
@@ -377,11 +377,11 @@ _NEAR = 0.02
 
 
 def units_of(deck: Deck) -> str:
-    """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %.
+    """Return "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %.
 
-    A file of user units whose water has the density of water in t/m3 is not metric: its forces are in kN.
+    A file of user units is not metric if the density of its water is in t/m3: its forces are then in kN.
     """
-    at = deck.source.rfind(".")  # a path would take longer, for each of many decks
+    at = deck.source.rfind(".")  # faster than a path, for many decks
     suffix = deck.source[at:].lower() if at > 0 else ""
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
@@ -401,15 +401,15 @@ _TONNES = (0.9, 1.3)
 
 
 def gravity_of(deck: Deck) -> float | None:
-    """Gravity of the last `*OCEAN` that gives one, evaluated; None when there is none."""
+    """Return the gravity of the last `*OCEAN` that has a value, evaluated; None if there is none."""
     return _of_ocean(deck, "gravity")
 
 
 def _of_ocean(deck: Deck, name: str) -> float | None:
-    """A value of the last `*OCEAN` that gives it, evaluated; None when there is none."""
+    """Return a value of the last `*OCEAN` that has it, evaluated; None if there is none."""
     parameters = Parameters(deck)
-    found: float | None = None
+    last: float | None = None
     for _, ocean in deck.blocks("OCEAN"):
         value = parameters.number(getattr(cast("Ocean", ocean), name))
-        found = value if value is not None else found
-    return found
+        last = value if value is not None else last
+    return last

@@ -1,4 +1,4 @@
-"""Decks in folders: files that are decks by their names or contents, without what a .gitignore hides."""
+"""Search for decks in folders: files that are decks by name or content, except those that a .gitignore hides."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.syntax.source import KEY_FILE
 
 _HEAD = 4096
-"""Bytes at the beginning of a JSON or YAML file that name its format."""
+"""Number of bytes at the beginning of a JSON or YAML file that are searched for its format."""
 
 
 def is_deck(path: str) -> bool:
-    """Whether the suffix is one of a deck."""
-    return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - asked for each of many files
+    """Return True if a path has the suffix of a deck."""
+    return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - called for many files
 
 
 def is_document(path: str) -> bool:
-    """Whether a file is a deck in JSON or YAML, by the format that its beginning names.
+    """Return True if a file is a deck in JSON or YAML, by the format name at its beginning.
 
-    One that cannot be opened is taken for it, and reported when it is read.
+    A file that cannot be opened counts as a deck; the error is reported when it is read.
     """
     if is_deck(path) or form_of(path) == "keyword" or not may_be_file(path):
         return False
@@ -38,12 +38,12 @@ def is_document(path: str) -> bool:
 
 
 def is_in_any_form(path: str) -> bool:
-    """Whether a file is a deck by its suffix or its content."""
+    """Return True if a file is a deck by its suffix or its content."""
     return is_deck(path) or is_document(path)
 
 
 def is_key_file(path: str) -> bool:
-    """Whether a `.keyx` file is a key of a password manager: these have the same suffix."""
+    """Return True if a `.keyx` file is a key of a password manager, which has the same suffix."""
     if not path.lower().endswith(".keyx"):
         return False
     try:
@@ -54,12 +54,12 @@ def is_key_file(path: str) -> bool:
 
 
 def may_be_deck(path: str) -> bool:
-    """Return whether a path is a file, or cannot be looked at, and not the key of a password manager."""
+    """Return True if a path may be a file (see `may_be_file`) and is not the key of a password manager."""
     return may_be_file(path) and not is_key_file(path)
 
 
 def may_be_file(path: str) -> bool:
-    """Whether a path is a file, or cannot be looked at; not a hidden link to nothing: editors lock files by such."""
+    """Return True if a path is a file or cannot be examined. A hidden dangling link is a lock of an editor: False."""
     try:
         return S_ISREG(os.stat(path).st_mode)  # noqa: PTH116 - Path raises for long names
     except FileNotFoundError:
@@ -72,10 +72,10 @@ GITIGNORE = ".gitignore"
 
 
 class _Rules(NamedTuple):
-    """The patterns of a `.gitignore`, the last first.
+    """Patterns of a `.gitignore`, the last first.
 
-    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
-    `below` letters of it are left out.
+    The patterns are for paths from the folder of the `.gitignore`. `above` is prepended to a path from the searched
+    directory, or the first `below` letters of the path are removed.
     """
 
     above: str
@@ -83,18 +83,18 @@ class _Rules(NamedTuple):
     patterns: Sequence[PathPattern]
 
     def hides(self, path: str, *, folder: bool) -> bool | None:
-        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
+        """Return True if a path from the searched directory is hidden; None if no pattern matches."""
         own = self.above + path[self.below :]
-        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
+        return next((not pattern.negated for pattern in self.patterns if pattern.fits(own, folder=folder)), None)
 
 
 @dataclass(slots=True, eq=False)
 class Search:
-    """A search of a directory and all below it; links to directories are not followed.
+    """Search of a directory and all its subdirectories; links to directories are not followed.
 
-    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
-    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
-    for what lies in the directory, not for the directory itself, which was asked for.
+    `unreadable` collects the paths that cannot be examined; `hidden` is True if a `.gitignore` hid a file. As in git,
+    the `.gitignore` files above the directory in the same repository count too. As in ripgrep, they count for the
+    contents of the directory, not for the directory itself, which was asked for.
     """
 
     given: str
@@ -103,45 +103,45 @@ class Search:
     hidden: bool = False
 
     def files(self, taken: Callable[[str], bool]) -> list[tuple[str, str]]:
-        """The files that are taken, sorted by the names in their paths: a path from the directory, one to open it."""
+        """Return the files that are taken, sorted by the names in their paths: path in the directory, path to open."""
         rules = {self.given: self._above() if self.gitignore else []}
         files: list[tuple[str, str]] = []
         for folder, folders, names in os.walk(self.given, onerror=self.unreadable.append):
-            found = rules.pop(folder)
+            applying = rules.pop(folder)
             inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
             start = f"{inside}/" if inside else ""
             shown = names
             if self.gitignore:
                 if GITIGNORE in names:
-                    found = [*self._read(Path(folder), "", len(start)), *found]
+                    applying = [*self._read(Path(folder), "", len(start)), *applying]
                 folders[:] = [
-                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
+                    name for name in folders if name != ".git" and not self._hides(applying, start + name, folder=True)
                 ]
-                if found:
-                    shown = [name for name in names if not self._hides(found, start + name, folder=False)]
-            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
+                if applying:
+                    shown = [name for name in names if not self._hides(applying, start + name, folder=False)]
+            rules.update((os.path.join(folder, name), applying) for name in folders)  # noqa: PTH118 - as os.walk does
             path = str(PurePath(folder, "-"))[:-1]
             files += ((start + name, path + name) for name in shown if taken(path + name))
         return sorted(files, key=lambda file: os.path.normcase(file[0]).split(os.sep))  # noqa: PTH206 - many files
 
     def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
-        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
-        self.hidden |= said
-        return said
+        hidden = next((hides for rule in rules if (hides := rule.hides(path, folder=folder)) is not None), False)
+        self.hidden |= hidden
+        return hidden
 
     def _above(self) -> list[_Rules]:
-        """The rules above the directory, the nearest first."""
-        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
-        found: list[_Rules] = []
+        """Return the rules of the folders above the directory, the nearest first."""
+        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - keeps the names of links
+        rules: list[_Rules] = []
         for folder in (here, *here.parents):
             if folder != here:
-                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
+                rules += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
             if (folder / ".git").exists():
-                return found
+                return rules
         return []
 
     def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
-        """The rules of a folder, if it has any."""
+        """Return the rules of a folder, if it has any."""
         path = folder / GITIGNORE
         try:
             text = os.fsdecode(path.read_bytes()) if path.is_file() else ""

@@ -1,4 +1,4 @@
-"""Decks that know the classes of their blocks: `typed.pyi`, made of the catalogue, says which a name means."""
+"""Decks with typed blocks: `typed.pyi`, generated from the catalogue, maps each keyword to its class."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from mudline.language.keywords.model import Block
 
 
 class TypedDeck(EditableDeck):
-    """A deck whose blocks are found by keyword or class."""
+    """Deck whose blocks are found by keyword or class."""
 
     def block(self, keyword: str | type[Block], section: str | None = None) -> Any:
-        """Return the only block of a keyword, which is given by its name or its class.
+        """Return the only block of a keyword, given by its name or its class.
 
-        Raises UnknownNameError, a KeyError, where there is none, and ValueError where there are several.
+        Raises UnknownNameError, a KeyError, if there is none, and ValueError if there are several.
         """
         return self.one_of(keyword, section)
 
     def blocks(self, keyword: str | type[Block], section: str | None = None) -> Iterator[tuple[Where, Any]]:
-        """The blocks of a keyword, given by its name or class, in the order of the file, each with its place.
+        """Return the blocks of a keyword, given by name or class, each with its place, in the order of the file.
 
-        Without `section` those in the sections where the keyword belongs; one that belongs in `MODEL` is looked for
-        there. A block whose lines are not read is none of them.
+        Without `section`, the sections where the keyword belongs are searched; a keyword that belongs in `MODEL` is
+        searched only there. Blocks whose lines are not read are left out.
         """
         return self.all_of(keyword, section)

@@ -1,11 +1,12 @@
-"""The value of an equation: what its operators and functions do, and when they refuse.
+"""Values of equations: operators, functions, and the errors that they raise.
 
 A part is evaluated by a generator that yields the parts whose values it needs, one after the other. So no depth of
-nesting can exhaust the interpreter's stack, and a part that is not asked for is not evaluated.
+nesting can exhaust the interpreter's stack, and a part that is not needed is not evaluated.
 
-The manual of the language names `if` and CONVERT and says that others exist; their list is not public. INFERRED: the
-functions here are the usual ones under their usual names, angles are radians, `log` is base 10 beside `ln` as in
-spreadsheets, `mod`, `int`, `round` and `atan2` follow Fortran. CONVERT is left out: how it is called is not public.
+The manual of the language names `if` and CONVERT and says that other functions exist; their list is not public.
+INFERRED: the functions here are the usual functions under their usual names. Angles are radians, `log` is base 10
+and `ln` natural as in spreadsheets; `mod`, `int`, `round` and `atan2` follow Fortran. CONVERT is left out, since
+its arguments are not public.
 """
 
 from __future__ import annotations
@@ -23,18 +24,18 @@ from mudline.basics.limits import LONGEST_TEXT
 from mudline.language.diagnostics import Span
 from mudline.language.expression.nodes import (
     LEAVES,
+    Brackets,
     Call,
-    Chain,
-    Comparison,
     EvaluationError,
     Expression,
-    Group,
     Logical,
     Name,
     Node,
     Number,
+    OperatorChain,
     Power,
     Prefix,
+    Relation,
     Text,
     UndefinedName,
     UnknownFunction,
@@ -42,12 +43,12 @@ from mudline.language.expression.nodes import (
 )
 
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
-"""Names that have a value when no parameter bears them; in lower case, and compared without case."""
+"""Values of names that no parameter has; in lower case, compared without case."""
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
-    """How a function is called; `most` None means any number of arguments."""
+class Signature:
+    """Signature of a function; `most` None means any number of arguments."""
 
     name: str
     least: int
@@ -56,7 +57,7 @@ class Form:
 
     @property
     def wants(self) -> str:
-        """The number of arguments in words."""
+        """Number of arguments in words."""
         if self.most is None:
             return f"at least {_arguments(self.least)}"
         if self.most > self.least:
@@ -64,13 +65,13 @@ class Form:
         return _arguments(self.least)
 
     def takes(self, count: int) -> bool:
-        """Whether that many arguments are right."""
+        """Return True if a call may have this number of arguments."""
         return self.least <= count and (self.most is None or count <= self.most)
 
 
 @dataclass(frozen=True, slots=True)
-class Function(Form):
-    """A function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
+class Function(Signature):
+    """Function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
 
     call: Callable[..., float]
 
@@ -128,16 +129,16 @@ FUNCTIONS: Final = _table(
     Function("tan", 1, 1, "tangent of radians", math.tan),
     Function("tanh", 1, 1, "hyperbolic tangent", math.tanh),
 )
-"""The functions of numbers, by their names in lower case; equations call them in any case."""
+"""Functions of numbers by their names in lower case; equations call them in any case."""
 
-FORMS: Final[Mapping[str, Form]] = MappingProxyType(
+FORMS: Final[Mapping[str, Signature]] = MappingProxyType(
     {
-        "and": Form("and", 1, None, "1 if no argument is 0, else 0; stops at the first that is 0"),
-        "if": Form("if", 3, 3, "if(condition, a, b): a if the condition is not 0, else b; the other is not evaluated"),
-        "or": Form("or", 1, None, "0 if every argument is 0, else 1; stops at the first that is not 0"),
+        "and": Signature("and", 1, None, "1 if no argument is 0, else 0; stops at the first that is 0"),
+        "if": Signature("if", 3, 3, "if(condition, a, b): a if the condition is not 0, else b; only that is evaluated"),
+        "or": Signature("or", 1, None, "0 if every argument is 0, else 1; stops at the first that is not 0"),
     },
 )
-"""What is called like a function but evaluates only the arguments it needs, by name in lower case."""
+"""Functions that evaluate only the arguments they need, by name in lower case."""
 
 
 Value = float | str
@@ -159,45 +160,45 @@ _ORDER: Final[Mapping[str, Callable[[float, float], bool]]] = {
 }
 
 
-class Operand(NamedTuple):
-    """A value and the part of the equation it came from."""
+class EvaluatedPart(NamedTuple):
+    """Value, and the part of the equation it came from."""
 
     value: Value
     span: Span
 
     @property
     def number(self) -> float:
-        """The value as a number; text raises EvaluationError."""
+        """Value as a number; text raises EvaluationError."""
         if isinstance(self.value, str):
             raise EvaluationError("expected a number, found text", *self.span)
         return self.value
 
     @property
     def truth(self) -> bool:
-        """Whether the value is a number other than 0; text raises EvaluationError."""
+        """True if the value is a number other than 0; text raises EvaluationError."""
         return self.number != 0.0
 
 
-def _across(left: Operand, right: Operand) -> Span:
+def _across(left: EvaluatedPart, right: EvaluatedPart) -> Span:
     return Span(left.span.start, right.span.end)
 
 
 def finite(value: float, span: Span) -> float:
-    """The value, unless it is beyond the range of a double."""
+    """Return the value; raise EvaluationError if it is beyond the range of a double."""
     if not math.isfinite(value):
         raise EvaluationError("the result is too large", *span)
     return value
 
 
-def arithmetic(operator: str, left: Operand, right: Operand) -> Operand:
-    """Sum, difference, product or quotient of two numbers; + also joins two texts."""
+def arithmetic(operator: str, left: EvaluatedPart, right: EvaluatedPart) -> EvaluatedPart:
+    """Return the sum, difference, product or quotient of two numbers; + also joins two texts."""
     whole = _across(left, right)
     if operator == "+" and isinstance(left.value, str) and isinstance(right.value, str):
-        return Operand(_joined(left.value, right.value, whole), whole)
+        return EvaluatedPart(_joined(left.value, right.value, whole), whole)
     a, b = left.number, right.number
     if operator == "/" and b == 0.0:
         raise EvaluationError("division by zero", *right.span)
-    return Operand(finite(ARITHMETIC[operator](a, b), whole), whole)
+    return EvaluatedPart(finite(ARITHMETIC[operator](a, b), whole), whole)
 
 
 def _joined(left: str, right: str, span: Span) -> str:
@@ -206,8 +207,8 @@ def _joined(left: str, right: str, span: Span) -> str:
     return left + right
 
 
-def power(base: Operand, exponent: Operand) -> float:
-    """A number to the power of another."""
+def power(base: EvaluatedPart, exponent: EvaluatedPart) -> float:
+    """Return a number to the power of another."""
     a, b = base.number, exponent.number
     whole = _across(base, exponent)
     try:
@@ -219,8 +220,8 @@ def power(base: Operand, exponent: Operand) -> float:
         raise EvaluationError(reason, *whole) from None
 
 
-def compare(operator: str, left: Operand, right: Operand) -> float:
-    """1 if the comparison holds, else 0; texts are equal or not, without regard to case."""
+def compare(operator: str, left: EvaluatedPart, right: EvaluatedPart) -> float:
+    """Return 1 if the comparison holds, else 0; texts are equal or not, without regard to case."""
     if isinstance(left.value, str) and isinstance(right.value, str):
         if operator not in {"=", "<>"}:
             raise EvaluationError("text has no order, expected = or <>", *_across(left, right))
@@ -228,8 +229,8 @@ def compare(operator: str, left: Operand, right: Operand) -> float:
     return float(_ORDER[operator](left.number, right.number))
 
 
-def apply(function: Function, arguments: Sequence[Operand], span: Span) -> float:
-    """The value of a function; the number of arguments has been checked."""
+def apply(function: Function, arguments: Sequence[EvaluatedPart], span: Span) -> float:
+    """Return the value of a function; the number of arguments has been checked."""
     values = [argument.number for argument in arguments]
     try:
         result = function.call(*values)
@@ -246,15 +247,15 @@ Steps = Generator[Node, Value, Value]
 
 
 def evaluate(expression: Expression, lookup: Lookup) -> float | str:
-    """The value of an equation: a finite number, or text.
+    """Return the value of an equation: a finite number, or text.
 
     A comparison, `and`, `or` and `not` give 1 or 0; any number but 0 counts as true. `if`, `and` and `or` evaluate
     only the parts they need.
 
     Args:
         expression: the equation, from `parse`.
-        lookup: gives the value of a parameter by its name as written, or raises KeyError where there is none; then
-            the constants (`pi`) are tried. Whatever else it raises passes through.
+        lookup: gives the value of a parameter by its name as written, or raises KeyError if there is none; then the
+            constants (`pi`) are tried. Any other exception passes through.
 
     Raises:
         UndefinedName: no parameter and no constant has this name.
@@ -280,15 +281,15 @@ def evaluate(expression: Expression, lookup: Lookup) -> float | str:
 
 
 def _steps(node: Node, lookup: Lookup) -> Steps:
-    """Evaluate one part: yields the parts it needs, is sent their values, returns its own."""
+    """Yield the parts whose values a part needs, receive these values, and return the value of the part."""
     match node:
         case Number() | Text() | Name():
             return _leaf(node, lookup)
-        case Group():
+        case Brackets():
             return (yield node.inner)
-        case Prefix() | Power() | Comparison():
+        case Prefix() | Power() | Relation():
             return (yield from _operation(node))
-        case Chain():
+        case OperatorChain():
             return (yield from _chain(node, lookup))
         case Logical():
             return (yield from _logical(node.operator, node.operands))
@@ -321,34 +322,34 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
     return float(value)
 
 
-def _operation(node: Prefix | Power | Comparison) -> Steps:
+def _operation(node: Prefix | Power | Relation) -> Steps:
     if isinstance(node, Prefix):
-        return _prefixed(node.operator, Operand((yield node.operand), node.operand.span))
+        return _prefixed(node.operator, EvaluatedPart((yield node.operand), node.operand.span))
     first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
-    left = Operand((yield first), first.span)
-    right = Operand((yield second), second.span)
+    left = EvaluatedPart((yield first), first.span)
+    right = EvaluatedPart((yield second), second.span)
     return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)
 
 
-def _prefixed(operator: str, operand: Operand) -> float:
+def _prefixed(operator: str, operand: EvaluatedPart) -> float:
     if operator == "not":
         return float(not operand.truth)
     return -operand.number if operator == "-" else operand.number
 
 
-def _chain(node: Chain, lookup: Lookup) -> Steps:
-    total: Operand | None = None
+def _chain(node: OperatorChain, lookup: Lookup) -> Steps:
+    total: EvaluatedPart | None = None
     for operator, part in zip(("", *node.operators), node.operands, strict=True):
         value = _leaf(part, lookup) if isinstance(part, LEAVES) else (yield part)
-        operand = Operand(value, part.span)
+        operand = EvaluatedPart(value, part.span)
         total = operand if total is None else arithmetic(operator, total, operand)
-    return cast("Operand", total).value
+    return cast("EvaluatedPart", total).value
 
 
 def _logical(operator: str, operands: Sequence[Node]) -> Steps:
     decisive = operator == "or"
     for operand in operands:
-        if Operand((yield operand), operand.span).truth is decisive:
+        if EvaluatedPart((yield operand), operand.span).truth is decisive:
             return float(decisive)
     return float(not decisive)
 
@@ -362,10 +363,10 @@ def _call(node: Call) -> Steps:
         raise EvaluationError(f"{name} needs {form.wants}, found {len(node.arguments)}", *node.span)
     if name == "if":
         condition, then, otherwise = node.arguments
-        return (yield then if Operand((yield condition), condition.span).truth else otherwise)
+        return (yield then if EvaluatedPart((yield condition), condition.span).truth else otherwise)
     if name in FORMS:
         return (yield from _logical(name, node.arguments))
     arguments = []
     for argument in node.arguments:
-        arguments.append(Operand((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
+        arguments.append(EvaluatedPart((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
     return apply(FUNCTIONS[name], arguments, node.span)

@@ -1,4 +1,4 @@
-"""The parts of an equation, as the grammar arranges them, each with its place in the text, and its errors."""
+"""Parts of an equation, as the grammar arranges them, each with its place in the text; errors of equations."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from mudline.language.diagnostics import Span
 
 
 class ExpressionError(ValueError):
-    """An equation that cannot be read or has no value.
+    """Equation that cannot be read or has no value.
 
     Attributes:
         message: what was found, and what was expected, in plain words.
-        start, end: the part at fault, a half-open range of code points of the equation's text; empty where something
-            is missing.
+        start, end: the faulty part, a half-open range of code points of the equation's text; empty if something is
+            missing.
     """
 
     def __init__(self, message: str, start: int, end: int) -> None:
@@ -27,58 +27,58 @@ class ExpressionError(ValueError):
 
     @property
     def span(self) -> Span:
-        """The part at fault."""
+        """Faulty part."""
         return Span(self.start, self.end)
 
 
 class UndefinedName(ExpressionError):  # noqa: N818 - the name of the fault, as rules and messages call it
-    """A parameter that nothing defines; the span is its name."""
+    """Parameter that is not defined; the span is its name."""
 
 
 class UnknownFunction(ExpressionError):  # noqa: N818 - as above
-    """A function this evaluator does not know, though the analysis program may; the span is its name."""
+    """Function that this evaluator does not know, though the analysis program may; the span is its name."""
 
 
 class EvaluationError(ExpressionError):
-    """A part of an equation without a finite value: division by zero, overflow, text in arithmetic and the like."""
+    """Part of an equation without a finite value, for example by division by zero, overflow or text in arithmetic."""
 
 
 def shorten(text: str) -> str:
-    """A piece of an equation as a message quotes it: at most 40 code points, none of them invisible."""
+    """Return a piece of an equation for a message: at most 40 code points, none of them invisible."""
     visible = "".join(char if char.isprintable() else f"\\u{ord(char):04x}" for char in text[:40])
     return visible if len(text) <= 40 else visible + "..."
 
 
 class Number(NamedTuple):
-    """A number; infinite where the text names one beyond the range of a double."""
+    """Number; infinite if the text names a number beyond the range of a double."""
 
     span: Span
     value: float
 
 
 class Text(NamedTuple):
-    """Text in double quotes; the value is without them."""
+    """Text in double quotes; the value is without the quotes."""
 
     span: Span
     value: str
 
 
 class Name(NamedTuple):
-    """A parameter, or a constant such as pi, as written."""
+    """Parameter, or a constant such as pi, as written."""
 
     span: Span
     name: str
 
 
-class Group(NamedTuple):
-    """A part in brackets; the span holds the brackets."""
+class Brackets(NamedTuple):
+    """Part in brackets; the span includes the brackets."""
 
     span: Span
     inner: Node
 
 
 class Prefix(NamedTuple):
-    """A sign or `not` before its operand."""
+    """Sign or `not` before its operand."""
 
     span: Span
     operator: str
@@ -86,15 +86,15 @@ class Prefix(NamedTuple):
 
 
 class Power(NamedTuple):
-    """A base raised to an exponent."""
+    """Base raised to an exponent."""
 
     span: Span
     base: Node
     exponent: Node
 
 
-class Comparison(NamedTuple):
-    """Two parts compared; the operator is one of < <= > >= = <>."""
+class Relation(NamedTuple):
+    """Comparison of two parts; the operator is one of < <= > >= = <>."""
 
     span: Span
     operator: str
@@ -102,7 +102,7 @@ class Comparison(NamedTuple):
     right: Node
 
 
-class Chain(NamedTuple):
+class OperatorChain(NamedTuple):
     """Operands joined from left to right by + and -, or by * and /: one operator less than operands."""
 
     span: Span
@@ -119,7 +119,7 @@ class Logical(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A function with its arguments; the name is as written."""
+    """Function with its arguments; the name is as written."""
 
     span: Span
     name: str
@@ -127,14 +127,14 @@ class Call(NamedTuple):
     arguments: tuple[Node, ...]
 
 
-Node = Number | Text | Name | Group | Prefix | Power | Comparison | Chain | Logical | Call
+Node = Number | Text | Name | Brackets | Prefix | Power | Relation | OperatorChain | Logical | Call
 
 LEAVES = (Number, Text, Name)
-"""The parts without parts."""
+"""Kinds of parts that have no inner parts."""
 
 
 class NameSpan(NamedTuple):
-    """One use of a parameter: its name as written, and the half-open range of code points where it stands."""
+    """Use of a parameter: its name as written, and its place, a half-open range of code points."""
 
     name: str
     start: int
@@ -142,14 +142,14 @@ class NameSpan(NamedTuple):
 
 
 class Expression(NamedTuple):
-    """An equation that has been read.
+    """Equation that has been read.
 
     Attributes:
-        text: what stands between `=[` and `]`.
+        text: the text between `=[` and `]`.
         name_spans: every use of a name that is not a function, in the order of the text; constants such as `pi` are
-            among them, as a parameter may bear that name.
+            included, since a parameter may have that name.
         functions: the functions called, as written, each spelling once, in the order of the text.
-        root: the whole as a tree of parts.
+        root: the equation as a tree of parts.
     """
 
     text: str
@@ -159,5 +159,5 @@ class Expression(NamedTuple):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of `name_spans`, each spelling once, in the order of first use."""
+        """Names in `name_spans`, each spelling once, in the order of first use."""
         return tuple(dict.fromkeys(use.name for use in self.name_spans))

@@ -1,6 +1,6 @@
-"""Reading an equation: the grammar, the limits, and what is said of a text that does not fit.
+"""Reading of equations: grammar, limits, and messages for text that is not an equation.
 
-Lark reads every equation by `grammar/expression.lark` and makes its nodes while it reads, so nesting costs no stack.
+Lark reads an equation by `grammar/expression.lark` and creates the nodes while it reads, so nesting costs no stack.
 """
 
 from __future__ import annotations
@@ -15,36 +15,36 @@ from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput
 from mudline.basics.limits import DEEPEST, LONGEST_EQUATION
 from mudline.language.diagnostics import Span
 from mudline.language.expression.nodes import (
+    Brackets,
     Call,
-    Chain,
-    Comparison,
     Expression,
     ExpressionError,
-    Group,
     Logical,
     Name,
     NameSpan,
     Node,
     Number,
+    OperatorChain,
     Power,
     Prefix,
+    Relation,
     Text,
     shorten,
 )
 from mudline.language.syntax.grammars import parser
 
 SAME_OPERATOR = {"==": "=", "!=": "<>"}
-"""The one spelling of operators that have two."""
+"""Preferred spelling of operators that have two."""
 
 FORTRAN_EXPONENT = str.maketrans("dD", "ee")
-"""The letters of an exponent as `float` reads them."""
+"""Letters of Fortran exponents, translated to those that `float` reads."""
 
 
 @lru_cache(256)
 def parse(text: str) -> Expression:
-    """Read an equation: `text` is what stands between `=[` and `]`.
+    """Return the equation in a text: the part between `=[` and `]`.
 
-    Decks of a project share their equations, and a deck is evaluated more than once: the last ones are remembered.
+    The last equations are cached: decks of a project share theirs, and a deck is evaluated more than once.
 
     Raises:
         ExpressionError: the text is not an equation, too long, or nested too deep (`docs/limits.md`).
@@ -70,7 +70,7 @@ def parse(text: str) -> Expression:
 
 
 def equation_grammar() -> Lark:
-    """Return the parser of equations; it gives nodes."""
+    """Return the parser of equations, whose result are nodes."""
     return parser("expression", "disjunction", _Nodes)
 
 
@@ -79,7 +79,7 @@ def equation_grammar() -> Lark:
 
 @v_args(inline=True)
 class _Nodes(Transformer[Token, Node]):
-    """Nodes of the rules of the grammar, a method for each; a token that the grammar names is one of the parts."""
+    """Nodes of the rules of the grammar: a method for each rule; a token with a name in the grammar is a part."""
 
     def number(self, token: Token) -> Number:
         return Number(_span(token), float(token.translate(FORTRAN_EXPONENT)))
@@ -90,8 +90,8 @@ class _Nodes(Transformer[Token, Node]):
     def name(self, token: Token) -> Name:
         return Name(_span(token), str(token))
 
-    def group(self, opening: Token, inner: Node, closing: Token) -> Group:
-        return Group(_span(opening, closing), inner)
+    def group(self, opening: Token, inner: Node, closing: Token) -> Brackets:
+        return Brackets(_span(opening, closing), inner)
 
     def call(self, name: Token, _opening: Token, *others: Node | Token) -> Call:
         return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1]))
@@ -102,12 +102,12 @@ class _Nodes(Transformer[Token, Node]):
     def power(self, base: Node, _operator: Token, exponent: Node) -> Power:
         return Power(_span(base, exponent), base, exponent)
 
-    def comparison(self, left: Node, operator: Token, right: Node) -> Comparison:
-        return Comparison(_span(left, right), SAME_OPERATOR.get(operator, str(operator)), left, right)
+    def comparison(self, left: Node, operator: Token, right: Node) -> Relation:
+        return Relation(_span(left, right), SAME_OPERATOR.get(operator, str(operator)), left, right)
 
-    def chain(self, *parts: Node | Token) -> Chain:
+    def chain(self, *parts: Node | Token) -> OperatorChain:
         operators = tuple(str(token) for token in parts[1::2])
-        return Chain(_span(parts[0], parts[-1]), operators, cast("tuple[Node, ...]", parts[::2]))
+        return OperatorChain(_span(parts[0], parts[-1]), operators, cast("tuple[Node, ...]", parts[::2]))
 
     def logical(self, *parts: Node | Token) -> Logical:
         operator = str(parts[1]).lower()
@@ -115,11 +115,11 @@ class _Nodes(Transformer[Token, Node]):
 
 
 MAKES = _Nodes
-"""What makes an equation of the parts that the grammar names."""
+"""Class that creates an equation from the parts that the grammar names."""
 
 
 def _span(first: Token | Node, last: Token | Node | None = None) -> Span:
-    """Place from the start of one part to the end of another, or of itself."""
+    """Return the span from the start of a part to the end of the last part, or of the part itself."""
     start = first.start_pos if isinstance(first, Token) else first.span.start
     last = last or first
     end = last.end_pos if isinstance(last, Token) else last.span.end
@@ -127,7 +127,7 @@ def _span(first: Token | Node, last: Token | Node | None = None) -> Span:
 
 
 def _nodes(text: str, root: Node) -> Iterator[Node]:
-    """Yield all nodes in the order of the text; raises ExpressionError where they are nested too deep."""
+    """Yield all nodes in the order of the text; raise ExpressionError if they are nested too deep."""
     waiting = [(root, 0, 0)]
     while waiting:
         node, level, opening = waiting.pop()
@@ -139,15 +139,15 @@ def _nodes(text: str, root: Node) -> Iterator[Node]:
 
 
 def _parts(node: Node) -> list[tuple[Node, bool, int]]:
-    """The parts of a node, whether each is one level further inside, and the place from which its opening follows."""
+    """Return the inner parts of a node: part, True if a level deeper, offset from which its opening follows."""
     match node:
-        case Group(inner=part) | Prefix(operand=part):
+        case Brackets(inner=part) | Prefix(operand=part):
             return [(part, True, node.span.start)]
         case Power():
             return [(node.base, False, 0), (node.exponent, True, node.base.span.end)]
-        case Comparison():
+        case Relation():
             return [(node.left, False, 0), (node.right, False, 0)]
-        case Chain() | Logical():
+        case OperatorChain() | Logical():
             return [(part, False, 0) for part in node.operands]
         case Call(arguments=parts):
             before = [node.name_span.end, *(part.span.end for part in parts)]
@@ -160,7 +160,7 @@ def _parts(node: Node) -> list[tuple[Node, bool, int]]:
 
 
 def _accepted(error: UnexpectedInput) -> AbstractSet[str]:
-    """The names of the tokens that could have stood where the reading failed."""
+    """Return the names of the tokens that were allowed where reading failed."""
     parser: Any = error.interactive_parser  # has no types
     return frozenset(parser.accepts())
 
@@ -181,7 +181,7 @@ def _unexpected_character(text: str, place: int, accepted: AbstractSet[str]) -> 
 
 
 def _found(token: Token) -> str:
-    """A token in plain words."""
+    """Return a token in plain words."""
     match token.type:
         case "NUMBER":
             return f"the number {shorten(token)}"
@@ -196,7 +196,7 @@ def _found(token: Token) -> str:
 
 
 def _expected(accepted: AbstractSet[str]) -> str:
-    """What may stand next, in plain words, from the names of the tokens that may."""
+    """Return the allowed next tokens in plain words, from their names."""
     if "NUMBER" in accepted:
         choices = ["a number", "a name", "'('"]
     else:

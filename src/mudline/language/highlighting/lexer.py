@@ -1,4 +1,4 @@
-"""The lexer for Pygments, which finds it by the entry point `pygments.lexers`; nothing else here imports it."""
+"""Lexer for Pygments, which finds it by the entry point `pygments.lexers`; only this module imports Pygments."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _INSIDE = r'(?:[^\[\]"\n]|"[^"\n]*")'
 _FIELD = re.compile(
     rf'(?:(?<==)\[(?:{_INSIDE}|\[{_INSIDE}*\])*\]|(?<==)\[[^\n]*|"[^"\n]*"|\{{[^}}\n]*\}}|["{{][^\n]*|[^,\n"{{])+'
 )
-"""A field up to the next comma outside brackets, quotes and braces; an unclosed one takes the rest of the line."""
+"""Field up to the next comma outside brackets, quotes and braces; without its closing mark it ends with the line."""
 _SLASHED = re.compile(r"[ \t]*/[^\n]*/")
 _EQUATION = re.compile(
     r'(?P<text>"[^"]*"?)|(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?)'
@@ -52,7 +52,7 @@ def _words() -> dict[str, Any]:
 
 
 class DeckLexer(Lexer):
-    """Decks of riser and pipeline analysis in keyword text."""
+    """Lexer of riser and pipeline analysis decks in keyword text."""
 
     name = "mudline deck"
     aliases: ClassVar[list[str]] = ["mudline", "keyx"]
@@ -61,7 +61,7 @@ class DeckLexer(Lexer):
     mimetypes: ClassVar[list[str]] = ["text/x-mudline"]
 
     def get_tokens_unprocessed(self, text: str) -> Iterator[Found]:
-        """Cut a text into tokens, line by line: place, kind and text."""
+        """Yield the tokens of a text, line by line: offset, kind and text."""
         section = ""
         block: dict[str, Any] = {}
         for match in _LINE.finditer(text):
@@ -83,12 +83,12 @@ class DeckLexer(Lexer):
 
 
 def _canonical(line: str) -> str:
-    """The name that a line gives: upper case, single blanks, none around a comma."""
+    """Return the name on a line: upper case, single blanks, no blanks around a comma."""
     return re.sub(r" *, *", ",", _NAME.sub(" ", line.strip(" \t\r\n")[1:].strip(" \t"))).upper()
 
 
 def _is_comment(line: str, block: dict[str, Any]) -> bool:
-    """Whether a line is a comment: with a letter behind the C, where the keyword has no such setting."""
+    """Return True if a line is a comment: `C` and no letter, or `C` and a letter if no setting of the keyword fits."""
     if _UNDECIDED.match(line):
         key = _KEY.match(line)
         return key is None or _key(key[2]) not in block.get("settings", {})
@@ -100,7 +100,7 @@ def _key(written: str) -> str:
 
 
 def _whole(at: int, line: str, kind: _TokenType) -> Iterator[Found]:
-    """A line of one kind, the blanks around it apart."""
+    """Yield a line as a token of one kind, with separate tokens for the blanks around it."""
     body = line.strip(" \t\r\n")
     start = line.index(body)
     yield from _blank(at, line[:start])
@@ -115,7 +115,7 @@ def _blank(at: int, text: str) -> Iterator[Found]:
 
 
 def _fields(at: int, line: str, block: dict[str, Any]) -> Iterator[Found]:
-    """The fields of a setting or a row."""
+    """Yield the fields of a setting or a row."""
     if _NUMBERS.fullmatch(line):
         for piece in re.finditer(r"\s+|\S+", line):
             yield at + piece.start(), Text.Whitespace if piece[0].isspace() else Number.Float, piece[0]
@@ -132,17 +132,17 @@ def _fields(at: int, line: str, block: dict[str, Any]) -> Iterator[Found]:
             yield at + here - 1, Operator, "="
             choices = block.get("settings", {}).get(_key(key[2]), [])
         slashed = _SLASHED.match(line, here) if block.get("slashes") else None
-        found = slashed or _FIELD.match(line, here)
-        if found:
-            yield from _field(at + here, found[0], choices)
-            here = found.end()
+        field = slashed or _FIELD.match(line, here)
+        if field:
+            yield from _field(at + here, field[0], choices)
+            here = field.end()
         if here < len(line):
             yield at + here, Punctuation if line[here] == "," else Text.Whitespace, line[here]
             here += 1
 
 
 def _field(at: int, written: str, choices: list[str]) -> Iterator[Found]:
-    """A field with the blanks around it."""
+    """Yield a field with the blanks around it."""
     text = written.strip(" \t\r")
     start = written.index(text)
     yield from _blank(at, written[:start])

@@ -1,1 +1,1 @@
-"""One module per keyword: what its fields are, and the machinery that reads and writes any of them."""
+"""Keywords: a module for each in `library`, with the declaration of its fields; reading and writing of any keyword."""

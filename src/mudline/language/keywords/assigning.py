@@ -1,4 +1,4 @@
-"""What a program changes in a block: fields, and lists of them, which are read some entries at a time."""
+"""Assignment of values in a program to fields of a block and to their lists."""
 
 from __future__ import annotations
 
@@ -16,130 +16,130 @@ from mudline.language.keywords.faults import fault_in_words, path_in, path_text
 from mudline.language.keywords.table import plain
 
 _ENTRIES_AT_ONCE = 32
-"""Entries checked at once; lists are nested three deep at most."""
+"""Greatest number of entries checked at a time; lists are nested three deep at most."""
 
 _UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
 
 
 def assign(part: BaseModel, name: str, value: Any, schema: Callable[..., Any], put: Callable[[str, Any], None]) -> None:
-    """Put a value into a field of a part, which validates it; several values are those of a row, one for each column.
+    """Assign a value to a field of a part, which validates it; several values are those of a row, one for each column.
 
-    `schema` is `record_schema`, which this module cannot know.
+    `schema` is `record_schema`, passed in because this module cannot import it.
 
-    Raises ValueError, and leaves the part as it is.
+    Raises ValueError, and leaves the part unchanged.
     """
     kind = type(part)
     if name not in kind.model_fields:
         near = nearest(name, kind.model_fields)
         raise ValueError(f"{kind.__name__} has no field {name!r}{f': did you mean {near}?' if near else ''}")
-    given, kept, known = plain(value), dict(part.__dict__), set(part.model_fields_set)
+    plain_value, kept, known = plain(value), dict(part.__dict__), set(part.model_fields_set)
     slot = next((slot for slot in schema(kind).slots if slot.name == name), None)
-    if slot and slot.row and not (slot.many or slot.columns) and isinstance(given, list):
+    if slot and slot.row and not (slot.many or slot.columns) and isinstance(plain_value, list):
         columns = [column.json for column in schema(slot.row).columns]
-        if len(given) > len(columns):
-            raise ValueError(f"{kind.__name__}.{name}: {len(given)} values, at most {len(columns)} expected")
-        given = dict(zip(columns, given, strict=False))
+        if len(plain_value) > len(columns):
+            raise ValueError(f"{kind.__name__}.{name}: {len(plain_value)} values, at most {len(columns)} expected")
+        plain_value = dict(zip(columns, plain_value, strict=False))
     try:
-        put(name, given)
+        put(name, plain_value)
     except ValidationError as error:
         object.__setattr__(part, "__dict__", kept)
         object.__setattr__(part, "__pydantic_fields_set__", known)
         expected = slot.kind.value if slot and slot.kind and not slot.choices else ""
-        raise _refusal(kind.__name__, {name: given}, error, expected) from None
+        raise _refusal(kind.__name__, {name: plain_value}, error, expected) from None
 
 
 def _refusal(name: str, value: object, error: ValidationError, expected: str = "") -> ValueError:
-    """Why a value cannot be assigned: the path in it and what is `expected` there; of several faults the first."""
-    found: dict[tuple[str | int, ...], list[ErrorDetails]] = {}
+    """Return the error of a value that cannot be assigned: path and `expected` value of the first fault."""
+    by_path: dict[tuple[str | int, ...], list[ErrorDetails]] = {}
     for fault in error.errors(include_url=False):
         lacking = fault["loc"][-1:] if fault["type"] == "missing" else ()
-        found.setdefault((*path_in(value, fault["loc"]), *lacking), []).append(fault)
-    path, faults = next(iter(found.items()))
+        by_path.setdefault((*path_in(value, fault["loc"]), *lacking), []).append(fault)
+    path, faults = next(iter(by_path.items()))
     return ValueError(f"{path_text((name, *path))}: {fault_in_words(faults, expected)}")
 
 
 class ListOf(NamedTuple):
-    """The field of a part whose entries a list holds."""
+    """Field of a part, whose list is validated."""
 
     part: type[BaseModel]
     name: str
 
-    def by_parts(self, given: object, check: core_schema.ValidatorFunctionWrapHandler) -> ValidatedList:
-        """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
-        made = ValidatedList()
-        made.of = self
-        if not isinstance(given, Iterator) and not (isinstance(given, list) and len(given) > _ENTRIES_AT_ONCE):
-            list.extend(made, check(given))
-            return made
-        entries: Iterator[object] = iter(given)
+    def by_parts(self, values: object, check: core_schema.ValidatorFunctionWrapHandler) -> ValidatedList:
+        """Return all entries, or raise the faults of the first chunk with any. The input may be a generator."""
+        validated = ValidatedList()
+        validated.of = self
+        if not isinstance(values, Iterator) and not (isinstance(values, list) and len(values) > _ENTRIES_AT_ONCE):
+            list.extend(validated, check(values))
+            return validated
+        entries: Iterator[object] = iter(values)
         while part := list(islice(entries, _ENTRIES_AT_ONCE)):
             try:
-                list.extend(made, check(part))
+                list.extend(validated, check(part))
             except ValidationError as error:
-                start = len(made)
+                start = len(validated)
                 moved = [_moved(fault, start) for fault in error.errors(include_url=False)]
                 if any(True for _ in entries):
                     moved.append(InitErrorDetails(type=_UNCHECKED, loc=(start + _ENTRIES_AT_ONCE,), input=None))
                 raise ValidationError.from_exception_data(error.title, moved) from error
-        return made
+        return validated
 
 
 class ValidatedList(list[Any]):
-    """A list of a part whose entries are validated when they are put in; records are found by their name too."""
+    """List of a part whose entries are validated when they are added; records are found by their name too."""
 
     __slots__ = ("of",)
     of: ListOf
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """A copy is filled as it is: its entries are valid."""
+        """Return a function that fills a copy without validation: the entries are valid."""
         return _filled, (self.of, list(self))
 
     def __getitem__(self, at: Any) -> Any:
-        """An entry by its index or, without case, by its name. Raises KeyError for no such name, and for several."""
+        """Return an entry by index, or by name without case; raises KeyError for a name of no entry or of several."""
         if not isinstance(at, str):
             return super().__getitem__(at)
         names = [entry.known_as() if hasattr(entry, "known_as") else None for entry in self]
-        found = [
+        indices = [
             index for index, name in enumerate(names) if isinstance(name, str) and name.casefold() == at.casefold()
         ]
-        if len(found) == 1:
-            return super().__getitem__(found[0])
-        if found:
-            raise UnknownNameError(f"{at!r} is the name of {len(found)} entries: take one by its index, of {found}")
+        if len(indices) == 1:
+            return super().__getitem__(indices[0])
+        if indices:
+            raise UnknownNameError(f"{at!r} is the name of {len(indices)} entries: take one by its index, of {indices}")
         raise UnknownNameError.among("entry", at, [name for name in names if isinstance(name, str)])
 
     def __setitem__(self, at: Any, value: Any) -> None:
         super().__setitem__(at, self._valid(value) if isinstance(at, slice) else self._valid([value])[0])
 
-    def __iadd__(self, values: Iterable[Any]) -> Self:  # type: ignore[misc]  # that of a list takes any values
+    def __iadd__(self, values: Iterable[Any]) -> Self:  # type: ignore[misc]  # `list` accepts any values
         self.extend(values)
         return self
 
     def append(self, value: Any) -> None:
-        """Add an entry; raises ValueError for one that does not belong in the list."""
+        """Append an entry; raises ValueError for an entry that does not belong in the list."""
         super().extend(self._valid([value]))
 
     def extend(self, values: Iterable[Any]) -> None:
-        """Add entries, all or none; raises ValueError for one that does not belong in the list."""
+        """Append entries, all or none; raises ValueError for an entry that does not belong in the list."""
         super().extend(self._valid(values))
 
     def insert(self, at: SupportsIndex, value: Any) -> None:
-        """Put an entry in before that of an index; raises ValueError for one that does not belong in the list."""
+        """Insert an entry before an index; raises ValueError for an entry that does not belong in the list."""
         super().insert(at, self._valid([value])[0])
 
     def _valid(self, values: Iterable[Any]) -> list[Any]:
-        given = plain(list(values))
+        entries = plain(list(values))
         try:
-            return cast("list[Any]", _entries(self.of).validate_python(given))
+            return cast("list[Any]", _entries(self.of).validate_python(entries))
         except ValidationError as error:
-            raise _refusal(f"{self.of.part.__name__}.{self.of.name}", given, error) from None
+            raise _refusal(f"{self.of.part.__name__}.{self.of.name}", entries, error) from None
 
 
 if TYPE_CHECKING:
     _Entry = TypeVar("_Entry")
 
     class RecordList(list[_Entry]):
-        """What type checkers know of a `ValidatedList`."""
+        """Interface of a `ValidatedList` for type checkers."""
 
         @overload
         def __getitem__(self, at: SupportsIndex | str) -> _Entry: ...
@@ -148,7 +148,7 @@ if TYPE_CHECKING:
         def __getitem__(self, at: Any) -> Any: ...
 
     class Records(Generic[_Entry]):
-        """The field of a list of parts: read as a `RecordList`, and set to several parts or what they are made of."""
+        """Descriptor of a list of parts: read as a `RecordList`, assigned from several parts or their values."""
 
         def __get__(self, part: object, kind: type | None = None) -> RecordList[_Entry]: ...
         def __set__(self, part: object, values: Iterable[_Entry | Mapping[str, Any]]) -> None: ...
@@ -158,9 +158,9 @@ else:
 
 
 def _filled(of: ListOf, entries: list[Any]) -> ValidatedList:
-    made = ValidatedList(entries)
-    made.of = of
-    return made
+    filled = ValidatedList(entries)
+    filled.of = of
+    return filled
 
 
 @cache
@@ -171,24 +171,24 @@ def _entries(of: ListOf) -> TypeAdapter[Any]:
 
 
 def checked_by_parts(schema: CoreSchema, part: type[BaseModel], name: str = "") -> CoreSchema:
-    """The schema of a model with a limit on each of its own lists; those of the models in it have theirs."""
-    found = cast("dict[str, Any]", schema)
-    if found["type"] == "list":
+    """Return the schema of a model whose own lists are validated in chunks; inner models have limits of their own."""
+    core = cast("dict[str, Any]", schema)
+    if core["type"] == "list":
         return core_schema.no_info_wrap_validator_function(ListOf(part, name).by_parts, schema)
-    if name and found["type"] in ("model", "function-wrap"):
+    if name and core["type"] in ("model", "function-wrap"):
         return schema
-    if found["type"] == "default" and found.get("default") == [] and found["schema"]["type"] == "list":
-        found["validate_default"] = True
-    if "schema" in found:
-        found["schema"] = checked_by_parts(found["schema"], part, name)
-    if found["type"] == "model-fields":
-        for key, field in found["fields"].items():
+    if core["type"] == "default" and core.get("default") == [] and core["schema"]["type"] == "list":
+        core["validate_default"] = True
+    if "schema" in core:
+        core["schema"] = checked_by_parts(core["schema"], part, name)
+    if core["type"] == "model-fields":
+        for key, field in core["fields"].items():
             field["schema"] = checked_by_parts(field["schema"], part, key)
     return schema
 
 
 def _moved(fault: ErrorDetails, start: int) -> InitErrorDetails:
-    """A fault of a part as one of the whole list."""
+    """Return a fault of a chunk as a fault of the whole list."""
     kind = PydanticCustomError(
         cast("Any", fault["type"]), "{message}", {**fault.get("ctx", {}), "message": fault["msg"]}
     )

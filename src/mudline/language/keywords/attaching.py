@@ -1,4 +1,4 @@
-"""Comments, and lines that are passed through unchanged, to the records among whose lines they stand."""
+"""Assignment of comments, and of lines that are passed through unchanged, to the records that contain them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mudline.language.keywords.text import reads_as_name
 
 
 class Between(NamedTuple):
-    """A comment, as what follows its C, or a line that is `kept`: where it begins, its text, its place."""
+    """Comment or `kept` line between other lines; `text` is that of a comment without its C."""
 
     position: int
     text: str
@@ -26,14 +26,14 @@ class Between(NamedTuple):
 
 
 _Held = tuple[int, Between]
-"""A line that a record holds, behind the index of the item that it stands before."""
+"""Index of the item that follows a line in its record, and the line."""
 
 
 def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRecord) -> list[str]:
-    """Give each comment to the innermost record whose lines stand on both sides of it, before the item it precedes.
+    """Add each comment to the innermost record with lines on both sides of it, before the item that follows.
 
-    A line that is kept goes to the innermost record that can keep it and begins before it, and so does a comment that
-    follows it there. Returns the texts of the comments behind the last line of the block: they belong to what follows.
+    A kept line is added to the innermost record that can keep it and begins before it; so is a comment that follows a
+    kept line there. Returns the texts of the comments behind the last line of the block: they belong to the next block.
     """
     trailing: list[str] = []
     whole = _Places(block)
@@ -50,7 +50,7 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
             _hold(held, whole.path(comment.position, within=True)[-1], comment)
         else:
             trailing.append(comment.text)
-    for record, lines in held.values():  # a setting may be read in another place than it is written back to
+    for record, lines in held.values():  # settings may be written in another order than read
         _write(record, sorted(lines))
     return trailing
 
@@ -61,7 +61,7 @@ def _hold(held: dict[int, tuple[ParsedRecord, list[_Held]]], places: _Places, li
 
 
 def _write(record: ParsedRecord, lines: list[_Held]) -> None:
-    """Add what a record holds to its values: comments, then the lines from the first kept one on."""
+    """Add the lines of a record to its values: comments, then all lines from the first kept one on."""
     kept_before = -1
     for before, line in lines:
         kept_before = before if line.kept else kept_before
@@ -74,7 +74,7 @@ def _write(record: ParsedRecord, lines: list[_Held]) -> None:
 
 
 class _Places:
-    """The places for comments and kept lines in a record, in tables that are made once for all of them."""
+    """Positions for comments and kept lines in a record, in tables that are computed once for all lines."""
 
     def __init__(self, record: ParsedRecord) -> None:
         self.record = record
@@ -93,7 +93,7 @@ class _Places:
             self.count += item.size
 
     def path(self, position: int, *, within: bool) -> list[_Places]:
-        """Those of the records that begin before a position (`within`: and end behind it), from this one inwards."""
+        """Return this record and the inner ones that begin before a position and, if `within`, end behind it."""
         at = bisect_left(self.starts, position) - 1
         if at < 0 or (within and (self.within[at].last or 0) <= position):
             return [self]
@@ -102,7 +102,7 @@ class _Places:
         return [self, *self.inner[at].path(position, within=within)]
 
     def index(self, position: int) -> int:
-        """Index, in the order in which the record is written, of the first item behind a position, or their number."""
+        """Return the index, in order of writing, of the first item behind a position, else the number of items."""
         at = bisect_right(self.positions, position)
         if at == len(self.items):
             return self.count
@@ -110,19 +110,20 @@ class _Places:
 
 
 _OF_OTHER_FORMS = frozenset({SYN001, SYN002, SYN003, SYN004, SYN005})
-"""Faults of a line that an unknown form may have."""
+"""Faults that a line of an unknown form may cause."""
 _KEPT = "; the line is passed through unchanged"
 
 
 def of_other_form(
     text: str, problems: Sequence[Problem], contents: Sequence[Content], *, tabular: bool
 ) -> set[Content]:
-    """The lines of an open block that have a form which is not known; what is certainly a fault is none.
+    """Return the lines of an open block that have an unknown form; lines with a certain fault are not among them.
 
-    That is a number with a wrong letter, too few or too many numbers, an empty value, and anything in a table.
+    Certain faults are a number with a wrong letter, too few or too many numbers, an empty value, and any fault of a
+    table.
     """
     starts = [content.span.start for content in contents]
-    found: set[Content] = set()
+    possible: set[Content] = set()
     certain: set[Content] = set()
     for problem in problems:
         at = bisect_right(starts, problem.span.start) - 1 if problem.span else -1
@@ -131,8 +132,8 @@ def of_other_form(
         if problem.code is SYN015:
             certain.add(contents[at])
         elif problem.weight is Severity.ERROR and _may_be(problem, text, contents[at]):
-            found.add(contents[at])
-    return found - certain
+            possible.add(contents[at])
+    return possible - certain
 
 
 def _may_be(problem: Problem, text: str, content: Content) -> bool:
@@ -148,7 +149,7 @@ def _may_be(problem: Problem, text: str, content: Content) -> bool:
 
 
 def doubtful(problems: Sequence[Problem]) -> list[Problem]:
-    """The words that are not known in lines which are kept: as warnings those that may be misspelt, others as infos."""
+    """Return the problems of unknown words in kept lines: a warning for a word that may be misspelt, else an info."""
     return [
         problem
         if problem.weight is not Severity.ERROR

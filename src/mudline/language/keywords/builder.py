@@ -1,4 +1,4 @@
-"""The tree of a block to plain values; every fault of a field is one problem."""
+"""Conversion of the tree of a block to plain values; every fault of a field is one problem."""
 
 from __future__ import annotations
 
@@ -32,16 +32,17 @@ from mudline.language.keywords.text import (
 )
 from mudline.language.keywords.unknown import UNKNOWN, Partly
 from mudline.language.keywords.values import Kind, Label, Names
-from mudline.language.syntax.fields import Field, Group, read_line, split, trimmed
+from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
 from mudline.language.syntax.rows import blank_separated, row_starts
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
 
 class Builder:
-    """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1.
+    """Builder of the records of one block.
 
-    What fields that are `older` hold is taken in a block of the older program alone.
+    `end` is the end of the file if the last line has no line end, else -1. Fields declared as `older` are read only in
+    blocks of an `older` program.
     """
 
     def __init__(
@@ -56,13 +57,13 @@ class Builder:
         self.unclosed: Span | None = None
 
     def build(self, part: type[Record], node: Node, last: object = None) -> ParsedRecord:
-        """Return a record; `last` is what the sticky field of the records before it gave."""
+        """Return a record; `last` is the value of the sticky field in the records before it."""
         built = ParsedRecord(part)
-        found = record_schema(part)
+        schema = record_schema(part)
         row_number = 0
         for child in node.children:
             if isinstance(child, Tree):
-                self._child(built, found.children[child.data], child)
+                self._child(built, schema.children[child.data], child)
                 continue
             if built.last is None:
                 built.opening = child.span
@@ -71,18 +72,18 @@ class Builder:
                 row_number += 1
             else:
                 self._settings(built, child)
-        if found.table and found.table.required:
-            built.tables.setdefault(found.table.json, TableBuilder(found.table.columns))
+        if schema.table and schema.table.required:
+            built.tables.setdefault(schema.table.json, TableBuilder(schema.table.columns))
         for name, table in built.tables.items():
             built.values[name] = table.finish()
         return built
 
     def report(self, code: Code, message: str, span: Span, repair: Repair | None = None) -> None:
-        """Note a fault."""
+        """Add a problem."""
         self.problems.append(Problem(code, message, span, repair=repair))
 
     def short(self, message: str, span: Span) -> None:
-        """A value or more is missing in a row; at the very end of the file it was cut off."""
+        """Report missing values of a row; at the very end of the file the row was probably cut off."""
         if 0 <= self.end <= span.end:
             message = f"the file ends before this row is complete, it seems to be cut off: {message}"
             self.report(SYN014, message, span)
@@ -90,7 +91,7 @@ class Builder:
             self.report(SYN003, message, span)
 
     def _brackets(self, problems: list[Problem], built: ParsedRecord) -> None:
-        """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
+        """Report the unclosed bracket of a line; it reaches to the end of the line, so there is one at most."""
         self.unclosed = None
         for problem in problems:
             self.problems.append(problem)
@@ -98,7 +99,7 @@ class Builder:
             built.unsure = True
 
     def _unreadable(self, problem: Problem) -> None:
-        """A field without a value; one with an open bracket has been reported as such."""
+        """Report a field without a value, unless its open bracket has been reported."""
         if not (self.unclosed and problem.span and self.unclosed.start < problem.span.end):
             self.problems.append(problem)
 
@@ -128,10 +129,10 @@ class Builder:
         self._groups(built, line.groups)
         built.reach(content.span.start)
 
-    def _groups(self, built: ParsedRecord, groups: list[Group]) -> None:
-        """Settings that stand on one line."""
-        found = record_schema(built.part)
-        first = found.keys.get(groups[0].key) if groups else None
+    def _groups(self, built: ParsedRecord, groups: list[FieldGroup]) -> None:
+        """Read the settings of a line."""
+        schema = record_schema(built.part)
+        first = schema.keys.get(groups[0].key) if groups else None
         if (
             first
             and first.kind is _OTHER
@@ -143,25 +144,25 @@ class Builder:
             self._rest_of_line(built, first, groups)
             return
         for group in groups:
-            slot = found.keys.get(group.key)
-            if slot and slot.json in built.values:  # a key that may stand twice has a field for each
-                slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
+            slot = schema.keys.get(group.key)
+            if slot and slot.json in built.values:  # a key that may occur twice has two fields
+                slot = next((s for s in schema.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
-                self._unknown_key(group, found.keys)
+                self._unknown_key(group, schema.keys)
             elif slot.json in built.values:
                 self.report(SYN001, f"{group.key}= is given twice", group.span)
             else:
                 self._setting(built, slot, group)
 
-    def _unknown_key(self, group: Group, known: Iterable[str]) -> None:
+    def _unknown_key(self, group: FieldGroup, known: Iterable[str]) -> None:
         near = nearest(group.key, known)
         expected = ", ".join(f"{key}=" for key in known)
         message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
         key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
         self.report(SYN004, message, group.span, instead(near, key))
 
-    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> bool:
-        """Read a line that says that it has a form which is not known: all behind its key is one value."""
+    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[FieldGroup]) -> bool:
+        """Read a line whose setting announces an unknown form: all text after its key is one value."""
         fields = groups[0].fields
         if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
             return False
@@ -172,20 +173,20 @@ class Builder:
         self._rest_of_line(built, slot, groups)
         return True
 
-    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> None:
-        """Read all behind the key of a setting as its value."""
+    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[FieldGroup]) -> None:
+        """Read all text after the key of a setting as its value."""
         start = self.text.index("=", groups[0].span.start) + 1
         whole = trimmed(self.text, start, groups[-1].span.end)
         built.written.append(Written(slot.json, whole, (), ()))
         built.values[slot.json] = self.text[slice(*whole)]
 
-    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group) -> None:
+    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: FieldGroup) -> None:
         fields = group.fields
         if slot.row and not _alone(slot, fields):
             self.lost += issubclass(slot.row, ListRow) and built.unsure
             self._inner_row(built, slot, fields, group.span)
             return
-        if slot.many and any(given.text for given in fields):
+        if slot.many and any(field.text for field in fields):
             self._list(built, slot, fields, group.span)
             return
         while len(fields) > 1 and not fields[-1].text:
@@ -202,7 +203,7 @@ class Builder:
         self._value(built, slot, fields)
 
     def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field]) -> None:
-        """Read the value of a setting; of several the first one, where it names a new thing."""
+        """Read the value of a setting; of several values the first, if the setting names a new object."""
         built.written.append(Written(None, None, (slot.json,), fields))
         built.values[slot.json] = UNKNOWN
         if self.end >= 0 and fields[0].span.end == self.end and cut_number(fields[0].text):
@@ -223,18 +224,18 @@ class Builder:
 
     def _row(self, built: ParsedRecord, content: Content, last: object, number: int) -> None:
         """Read a row, or a run of rows that is a table."""
-        found = record_schema(built.part)
+        schema = record_schema(built.part)
         start, count = content.span.start, 1
-        if built.unchosen and sum(column.row is not None for column in found.columns) > 1:
+        if built.unchosen and sum(column.row is not None for column in schema.columns) > 1:
             built.reach(start)
             return
-        behind: list[Group] = []
-        if found.table and not found.columns:
-            slot, fields = found.table, list[Field]()
+        behind: list[FieldGroup] = []
+        if schema.table and not schema.columns:
+            slot, fields = schema.table, list[Field]()
         else:
-            fields, behind = self._cut(built, content.span, keys=bool(found.keys))
+            fields, behind = self._cut(built, content.span, keys=bool(schema.keys))
             slot = self._slot_of_row(built, number, len(fields), last)
-        if slot is found.table:
+        if slot is schema.table:
             builder = built.tables.setdefault(slot.json, TableBuilder(slot.columns))
             table, faulty = builder.add(self.text, content.span)
             count = len(table)
@@ -248,7 +249,7 @@ class Builder:
         built.reach(start)
 
     def _faulty_rows(self, built: ParsedRecord, slot: FieldSpec, run: Span, table: Table, rows: list[int]) -> None:
-        """Report the faults of some rows of a table; labels whose braces were forgotten are put in."""
+        """Report the faults of some rows of a table; add forgotten braces around labels."""
         columns = record_schema(cast("type[Part]", slot.row)).columns
         starts = row_starts(self.text, run)
         for number, row in enumerate(rows):
@@ -259,18 +260,18 @@ class Builder:
                 break
             before = len(self.problems)
             values, _ = self._fields(columns, self._cut(built, line, keys=False)[0], line)
-            if any(one.code not in (SYN002, SYN016) for one in self.problems[before : before + 1]):
-                del self.problems[before + 1 :]  # of a row that is cut wrongly nothing more is said
+            if any(problem.code not in (SYN002, SYN016) for problem in self.problems[before : before + 1]):
+                del self.problems[before + 1 :]  # a row that is split wrongly has one problem
             labels = ((at, value) for at, value in enumerate(values.values()) if isinstance(value, Label))
             table.words.update(((row, at), label) for at, label in labels)
 
-    def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[Group]]:
-        """Return the fields of a row, and the settings behind them on the line of a record that has `keys`."""
-        behind: list[Group] = []
+    def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[FieldGroup]]:
+        """Return the fields of a row, and the settings after them if the record has `keys`."""
+        behind: list[FieldGroup] = []
         if keys:
             line = read_line(self.text, span, slashes=self.slashes)
             problems = line.problems
-            fields = [given for group in line.groups if not group.key for given in group.fields]
+            fields = [field for group in line.groups if not group.key for field in group.fields]
             behind = [group for group in line.groups if group.key]
         else:
             fields, problems = split(self.text, span, slashes=self.slashes)
@@ -283,38 +284,38 @@ class Builder:
 
     @staticmethod
     def _slot_of_row(built: ParsedRecord, number: int, count: int, last: object) -> FieldSpec:
-        """Return the field that a row fills, or the first one of those that it fills."""
-        found = record_schema(built.part)
-        if len(found.row_names) == 1:
-            return found.columns[0] if found.columns else cast("FieldSpec", found.table)
+        """Return the field that a row fills, or the first of several."""
+        schema = record_schema(built.part)
+        if len(schema.row_names) == 1:
+            return schema.columns[0] if schema.columns else cast("FieldSpec", schema.table)
         name = built.part.row_slot(number, count, built.known, last)
-        return next(slot for slot in found.slots if slot.name == name)
+        return next(slot for slot in schema.slots if slot.name == name)
 
     def _fill(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], line: Span) -> None:
         """Read the fields of a row."""
-        found = record_schema(built.part)
+        schema = record_schema(built.part)
         if slot.row and slot.json in built.values:
-            wanted = record_schema(slot.row).wanted
-            self.report(SYN001, f"one line only has its place here (`{wanted}`): remove it, or the one above", line)
+            expected = record_schema(slot.row).layout
+            self.report(SYN001, f"only one line `{expected}` is allowed here: remove this line, or the one above", line)
         elif slot.row:
             self._inner_row(built, slot, fields, line)
         elif slot.many:
             self._list(built, slot, fields, None)
-        elif len(found.columns) == 1 or not any(column.row for column in found.columns):
-            self._columns(built, found.columns, fields, line)
+        elif len(schema.columns) == 1 or not any(column.row for column in schema.columns):
+            self._columns(built, schema.columns, fields, line)
         elif slot.json in built.values:
             self.report(SYN001, f"{slot.label} is given twice", fields[0].span)
         else:
             self._columns(built, [slot], fields, line)
 
     def _columns(self, built: ParsedRecord, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> None:
-        """Read fields that are those of the record itself."""
+        """Read fields that belong to the record itself."""
         values, fields = self._fields(columns, fields, line)
         built.values |= values
         built.written.append(Written(None, None, [slot.json for slot in columns], fields))
 
     def _inner_row(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span) -> None:
-        """Read fields that are those of a row in the record."""
+        """Read fields that belong to a row in the record."""
         row = cast("type[Part]", slot.row)
         columns = record_schema(row).columns
         values, fields = self._fields(columns, fields, span)
@@ -330,22 +331,22 @@ class Builder:
     def _fields(
         self, columns: Sequence[FieldSpec], fields: list[Field], line: Span
     ) -> tuple[dict[str, Value], list[Field]]:
-        """Return the values of a row, and the fields that have a place among its columns."""
+        """Return the values of a row, and its fields without those beyond the last column."""
         before = len(self.problems)
         fields = self._counted(columns, fields, line)
-        # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
-        wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
+        # With a wrong count any value may belong to another column, except the number or name that begins the row.
+        wrong = any(problem.weight is Severity.ERROR for problem in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
-        for slot, given in zip(columns, fields, strict=False):
-            if not given.text:
+        for slot, field in zip(columns, fields, strict=False):
+            if not field.text:
                 if slot.required and not miscounted:
                     expected = f": expected {slot.kind.value}" if slot.kind else ""
-                    self.short(f"{slot.label} is missing{expected}", given.span)
+                    self.short(f"{slot.label} is missing{expected}", field.span)
                 values[slot.json] = UNKNOWN if slot.required else None
                 continue
             try:
-                value = read_value(given, slot, self.problems)
+                value = read_value(field, slot, self.problems)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 value = UNKNOWN
@@ -354,7 +355,7 @@ class Builder:
         return values, fields
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> list[Field]:
-        """Return the fields without trailing empty ones; a wrong number of them is a problem."""
+        """Return the fields without trailing empty ones; report a wrong number of fields."""
         columns = columns if self.older else [slot for slot in columns if slot.about.older is not True]
         required = [slot.required for slot in columns]
         fewest = fewest_fields(required)
@@ -367,21 +368,21 @@ class Builder:
             return fields[:1]
         if len(columns) > 1 and (problem := missing_comma(fields, [slot.kind for slot in columns], fewest)):
             self.problems.append(problem)
-            return [one for one in fields[:1] if one.span != problem.span]
+            return [field for field in fields[:1] if field.span != problem.span]
         if fewest <= len(fields) <= len(columns):
             if len(fields) >= MIXED_FIELDS and (
                 problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)
             ):
                 self.problems.append(problem)
             return fields
-        if self.unclosed:  # the open bracket holds the fields that are missing
+        if self.unclosed:  # the open bracket contains the missing fields
             return fields[: len(columns)]
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)
             return fields[: len(columns)]
-        wanted = row_format([slot.label for slot in columns], required)
+        expected = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
-        message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
+        message = f"{count} fields expected (`{expected}`), found {len(fields)}"
         span = Span(fields[0].span.start, fields[-1].span.end) if fields else line
         if len(fields) < fewest:
             self.short(message, span)
@@ -389,10 +390,10 @@ class Builder:
             self.report(SYN003, message, span)
         return fields[: len(columns)]
 
-    def _apart(self, given: Field) -> list[Field]:
-        start = given.span.start
+    def _apart(self, field: Field) -> list[Field]:
+        start = field.span.start
         fields: list[Field] = []
-        for word in given.text.split():
+        for word in field.text.split():
             start = self.text.index(word, start)
             fields.append(Field(word, start))
             start += len(word)
@@ -404,10 +405,10 @@ class Builder:
             fields.pop()
         values: list[Value] = []
         read: list[Field] = []
-        for given in fields:
+        for field in fields:
             try:
-                values.append(read_value(given, slot, self.problems))
-                read.append(given)
+                values.append(read_value(field, slot, self.problems))
+                read.append(field)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 values = Partly(values)
@@ -416,7 +417,7 @@ class Builder:
 
 
 def _value_of(slot: FieldSpec) -> str:
-    """What to write as the value of a setting, as far as it names something."""
+    """Return a placeholder for the value of a setting: the kind of its name, if any."""
     names = getattr(slot.about, "names", None)
     if names is Names.SET:
         return ": write the name of a set after it (ALL is every element)"
@@ -424,7 +425,7 @@ def _value_of(slot: FieldSpec) -> str:
 
 
 def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
-    """Whether a setting that may hold a row holds a word or a number instead."""
-    if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
+    """Return True if a setting that may hold a row holds a single word or number."""
+    if not (slot.choices or slot.kind) or any(field.text for field in fields[1:]):
         return False
     return not blank_separated(fields[0].text)

@@ -1,7 +1,7 @@
-"""Every section and keyword that is known, which module declares it, and which of them an unknown name meant.
+"""Catalogue of sections and keywords: modules that declare them, and suggestions for unknown names.
 
-A keyword is declared for some sections; in others another module may declare what it means there. Which module that is
-says the index, which is made of the declarations: one that a deck does not use is not imported.
+A keyword is declared for some sections; in other sections another module may declare it with another meaning. The
+index, which is generated from the declarations, maps keywords to modules: unused declarations are not imported.
 """
 
 from __future__ import annotations
@@ -42,24 +42,24 @@ SECTIONS = (
 )
 
 CERTAIN_SECTIONS = ("PREPROCESSOR", "MODEL", "LOAD CASE")
-"""Sections of which it is certain which keywords belong there."""
+"""Sections whose keywords are known for certain."""
 
 _ASKED = 1024
-"""Names of which is remembered what is known of them: decks may hold any."""
+"""Size of the caches by name: decks may hold any name."""
 _LIBRARY = "mudline.language.keywords.library"
 
 
 @cache
 def _by_keyword() -> dict[str, list[Entry]]:
-    """The entries of the index by keyword: one of a keyword for each of its declarations."""
-    found: dict[str, list[Entry]] = {}
+    """Return the entries of the index by keyword: one for each declaration of the keyword."""
+    by_keyword: dict[str, list[Entry]] = {}
     for entry in index.ENTRIES:
-        found.setdefault(entry.keyword, []).append(entry)
-    return found
+        by_keyword.setdefault(entry.keyword, []).append(entry)
+    return by_keyword
 
 
 def entries(keyword: str) -> list[Entry]:
-    """What the index says of a keyword, an entry for each of its declarations."""
+    """Return the entries of a keyword in the index, one for each of its declarations."""
     return _by_keyword().get(keyword, [])
 
 
@@ -69,90 +69,90 @@ def _read(keyword: str) -> list[Entry]:
 
 @lru_cache(_ASKED)
 def block_class(section: str, keyword: str) -> type[Block] | None:
-    """The declaration of a keyword in a section, or None when it is passed through."""
+    """Return the declaration of a keyword in a section, or None if it is passed through."""
     return next((load(entry) for entry in _read(keyword) if section in entry.sections), None)
 
 
 @lru_cache(_ASKED)
 def declared(keyword: str, section: str = "") -> type[Block] | None:
-    """The declaration of a keyword, or None when its lines are not read.
+    """Return the declaration of a keyword, or None if its lines are not read.
 
-    That for a section goes before others, as the keyword may stand in a wrong one.
+    The declaration for the section comes first; without one another counts, as the keyword may be misplaced.
     """
     return block_class(section, keyword) or next(map(load, _read(keyword)), None)
 
 
 def declarations(keyword: str) -> list[type[Block]]:
-    """The declarations of a keyword: it may mean other things in other sections."""
+    """Return the declarations of a keyword: its meaning may depend on the section."""
     return [load(entry) for entry in _read(keyword)]
 
 
 @cache
 def load(entry: Entry) -> type[Block]:
-    """The block class of a declaration; its module is imported."""
+    """Return the block class of a declaration; its module is imported."""
     return cast("type[Block]", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
 
 
 def opaque_keyword(section: str, keyword: str) -> OpaqueKeyword | None:
-    """What is known of a keyword that is passed through, or None when that is its name at most."""
+    """Return the declaration of a keyword that is passed through; None if at most its name is known."""
     kept = (entry for entry in entries(keyword) if entry.kept and section in entry.sections)
     return next(map(load_opaque, kept), None)
 
 
 @cache
 def load_opaque(entry: Entry) -> OpaqueKeyword:
-    """The declaration of a keyword whose lines are kept; its module is imported."""
+    """Return the declaration of a keyword whose lines are kept; its module is imported."""
     return cast("OpaqueKeyword", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
 
 
 def opaque_keywords() -> list[OpaqueKeyword]:
-    """Every declaration of a keyword whose lines are kept, in the order of the catalogue."""
+    """Return every declaration of a keyword whose lines are kept, in the order of the catalogue."""
     return [load_opaque(entry) for entry in index.ENTRIES if entry.kept]
 
 
 def block_classes() -> list[type[Block]]:
-    """Every declaration of a keyword whose lines are read, in the order of the catalogue."""
+    """Return every declaration of a keyword whose lines are read, in the order of the catalogue."""
     return [load(entry) for entry in index.ENTRIES if not entry.kept]
 
 
 def in_order(keywords: Iterable[str]) -> list[str]:
-    """Those of the keywords of which more is known than the name, in the order of the catalogue."""
-    given = set(keywords)
-    return [keyword for keyword in _by_keyword() if keyword in given]
+    """Return the keywords that the index contains, in the order of the catalogue."""
+    chosen = set(keywords)
+    return [keyword for keyword in _by_keyword() if keyword in chosen]
 
 
 @lru_cache(_ASKED)
 def sections_of(keyword: str) -> tuple[str, ...] | None:
-    """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
-    found = entries(keyword)
-    if not found and keyword not in NAMES:
+    """Return the sections where a keyword belongs; () if not confirmed, None for an unknown keyword."""
+    declared_entries = entries(keyword)
+    if not declared_entries and keyword not in NAMES:
         return None
-    if any(entry.sections_inferred for entry in found):
+    if any(entry.sections_inferred for entry in declared_entries):
         return ()
-    sections = [section for entry in found for section in entry.sections]
+    sections = [section for entry in declared_entries for section in entry.sections]
     return tuple(dict.fromkeys([*sections, *NAMES.get(keyword, ())]))
 
 
 def facts_of(keyword: str, section: str = "") -> Facts:
-    """What the class of a keyword says of it besides its fields; nothing of a keyword whose lines are not read."""
-    found = declared(keyword, section)
-    return found.facts if found else Block.facts
+    """Return the facts declared for a keyword; empty facts if its lines are not read."""
+    block = declared(keyword, section)
+    return block.facts if block else Block.facts
 
 
 def has_certain_section(keyword: str) -> bool:
-    """Whether it is certain where a keyword belongs; of postprocessing that is inferred."""
+    """Return True if the sections of a keyword are certain; those of postprocessing keywords are inferred."""
     certain = (sections_of(keyword) or ("",))[0] in CERTAIN_SECTIONS
     return certain or bool(_read(keyword)) or sections_of(keyword) == ()
 
 
 @lru_cache(_ASKED)
 def may_give(keyword: str, section: str, what: Gift) -> bool:
-    """Whether lines of a keyword that are not read may give a model something.
+    """Return True if unread lines of a keyword may define a property of the model.
 
-    An unknown keyword may give anything, and so may one that stands in a section where it does not belong.
+    An unknown or misplaced keyword may define any of them.
     """
-    if found := block_class(section, keyword):
-        facts = found.facts
+    if block := block_class(section, keyword):
+        facts = block.facts
         makes = what == "elements" and facts.defines in ("nodes", "elements", "sets")
         return makes or what in facts.gives or (what != "elements" and facts.zero_length)
     if kept := opaque_keyword(section, keyword):
@@ -162,96 +162,96 @@ def may_give(keyword: str, section: str, what: Gift) -> bool:
 
 
 def is_read_somewhere(keyword: str) -> bool:
-    """Return True if the lines of a keyword are read in one section at least."""
+    """Return True if the lines of a keyword are read in at least one section."""
     return bool(_read(keyword))
 
 
 @cache
 def definers(what: Names) -> list[str]:
-    """The keywords that define things of a kind."""
+    """Return the keywords that define objects of a kind."""
     return [entry.keyword for entry in index.ENTRIES if what.name in entry.defines]
 
 
 @cache
 def users(what: Names) -> list[str]:
-    """The keywords that name things of a kind."""
+    """Return the keywords that refer to objects of a kind."""
     return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]
 
 
 @cache
 def telling_lines() -> frozenset[str]:
-    """The lines that one keyword alone has."""
+    """Return the lines that occur in one keyword only."""
     return frozenset(line for entry in index.ENTRIES for line in entry.telling)
 
 
 def may_have_no_length(keyword: str) -> bool:
-    """Whether the elements of a keyword may have no length."""
+    """Return True if the elements of a keyword may have no length."""
     return keyword in ZERO_LENGTH or any(entry.zero_length for entry in entries(keyword))
 
 
 def is_extension(keyword: str) -> bool:
-    """Whether a keyword is mudline's own."""
+    """Return True if a keyword is an extension of mudline."""
     return facts_of(keyword).extension
 
 
 def is_superseded(keyword: str) -> bool:
-    """Whether newer keywords of the seabed take the place of one."""
+    """Return True if newer keywords of the seabed supersede a keyword."""
     return _of_seabed(keyword) and bool(facts_of(keyword, "MODEL").superseded_by)
 
 
 def gives_laws(keyword: str) -> bool:
-    """Whether a keyword gives elements their law of the seabed, by itself or with the curves of others."""
+    """Return True if a keyword assigns contact laws to elements, by itself or with the curves of other keywords."""
     facts = facts_of(keyword, "MODEL")
-    given = facts.extension or supersedes(keyword) or is_superseded(keyword)
-    return given and (is_superseded(keyword) or facts.defines != "curves")
+    family = facts.extension or supersedes(keyword) or is_superseded(keyword)
+    return family and (is_superseded(keyword) or facts.defines != "curves")
 
 
 def supersedes(keyword: str) -> bool:
-    """Whether a keyword takes the place of older ones of the seabed."""
+    """Return True if a keyword supersedes older keywords of the seabed."""
     return _of_seabed(keyword) and facts_of(keyword, "MODEL").supersedes
 
 
 @lru_cache(_ASKED)
 def _of_seabed(keyword: str) -> bool:
-    """Whether a keyword is one of the two families of the seabed, which exclude each other."""
+    """Return True if a keyword belongs to one of the two families of the seabed, which exclude each other."""
     return any(entry.subject == "seabed" for entry in entries(keyword))
 
 
 def holds_in_soil(keyword: str) -> bool:
-    """Whether a keyword gives soil springs."""
+    """Return True if a keyword defines soil springs."""
     return facts_of(keyword).soil_springs
 
 
 def begins_keyword(text: str) -> bool:
-    """Whether known keywords begin with a text that is none itself."""
+    """Return True if a text is not a keyword, but the beginning of one."""
     return text not in keywords() and any(known.startswith(text) for known in keywords())
 
 
 @cache
 def keywords() -> tuple[str, ...]:
-    """Every known keyword."""
+    """Return every known keyword."""
     return tuple(sorted({*_by_keyword(), *NAMES}))
 
 
 @cache
 def read_keywords() -> tuple[str, ...]:
-    """Every keyword of which more is known than its name."""
+    """Return every keyword of which more is known than its name."""
     return tuple(sorted(_by_keyword()))
 
 
 _SAME_BEGINNING = 0.8
-"""Share of the longer of two names that has to be the same from its first letter on."""
+"""Least length of a common beginning of two names, as a share of the longer name."""
 
 
 def meant_section(name: str) -> str:
-    """The section that an unknown one was to be, or ""."""
+    """Return the known section closest to an unknown name, or ""."""
     return nearest(name, SECTIONS) or _begun(name, SECTIONS) or _before(name, SECTIONS)
 
 
 def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = None, but: Collection[str] = ()) -> str:
-    """The keyword that an unknown one was to be, or ""; one that belongs in the section of a block before others.
+    """Return the known keyword closest to an unknown name, or ""; keywords of the block's section come first.
 
-    Those that it cannot have been are left out by `but`.
+    Keywords in `but` are left out.
     """
     known = [name for name in keywords() if name not in but] if but else keywords()
     own = [name for name in known if section in (sections_of(name) or ())] if section else []
@@ -266,27 +266,27 @@ def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = Non
 
 
 def meant_in(keyword: str, section: str) -> str:
-    """The keyword of a section that is spelt nearly as one that does not belong in it, or ""."""
+    """Return the keyword of a section that is spelt almost like a keyword that does not belong there, or ""."""
     near = [name for name in keywords() if nearest(keyword, [name])]
     return nearest(keyword, [name for name in near if section in (sections_of(name) or ())])
 
 
 def words_behind(name: str, near: str) -> bool:
-    """Whether a name is a known one with words behind it."""
+    """Return True if a name is a known one followed by other words."""
     return name.startswith(near) and name[len(near) : len(near) + 1] in (" ", ",")
 
 
 def _begun(name: str, known: Collection[str]) -> str:
-    """The known name with the longest beginning in common, when that is nearly all of both."""
+    """Return the known name with the longest common beginning, if this is most of both names; else ""."""
     head = name[: int(_SAME_BEGINNING * len(name))]
-    common, near = max(((_common(name, other), other) for other in known if other.startswith(head)), default=(0, ""))
+    common, near = max(((_common(name, each), each) for each in known if each.startswith(head)), default=(0, ""))
     return near if common >= _SAME_BEGINNING * max(len(name), len(near)) else ""
 
 
-def _common(one: str, other: str) -> int:
-    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
+def _common(first: str, second: str) -> int:
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, second, strict=False)))
 
 
 def _before(name: str, known: Collection[str]) -> str:
-    """The longest known name behind which other words stand."""
-    return max((other for other in known if words_behind(name, other)), key=len, default="")
+    """Return the longest known name that is followed by other words in a name; else ""."""
+    return max((each for each in known if words_behind(name, each)), key=len, default="")

@@ -1,4 +1,4 @@
-"""Parts that keywords of several subjects share."""
+"""Parts shared by keywords of several subjects."""
 
 from typing import Annotated, Literal
 
@@ -26,12 +26,12 @@ Direction = Annotated[
 
 
 def require_one(part: Part, *names: str) -> None:
-    """Raise ValueError unless a part has a value in exactly one of some fields."""
+    """Raise ValueError unless exactly one of the fields of a part has a value."""
     slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
-    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
-    if len(given) != 1:
-        wanted = " or ".join(slot.label for slot in slots)
-        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")
+    labels = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
+    if len(labels) != 1:
+        expected = " or ".join(slot.label for slot in slots)
+        raise ValueError(f"{' and '.join(labels) or 'nothing'} is given: expected {expected}")
 
 
 def _is_empty(value: object) -> bool:
@@ -47,9 +47,9 @@ def curve_points(
     ends: Literal["slope", "value", "none"] = "none",
     usual: Expected = (),
 ) -> Rows:
-    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order.
+    """Return a table field that is a curve of a kind over its column `abscissa`; its points may stand in any order.
 
-    `ends` is "slope" only where the keyword's page says that the end sections go on.
+    `ends` is "slope" only if the keyword's page says that the end sections go on.
     """
     inferred = "beyond its last point a curve keeps its value" if ends == "value" else ""
     return Rows(

@@ -1,4 +1,4 @@
-"""What pydantic refuses, in words: the path of a value, and what was expected there."""
+"""Messages for values that pydantic refuses: the path of a value, and the value expected there."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ DocumentPath = tuple[str | int, ...]
 
 
 def path_text(path: DocumentPath) -> str:
-    """A path as people write it: `sections[0].blocks[2].curves[0].points`."""
+    """Return a path in its usual spelling: `sections[0].blocks[2].curves[0].points`."""
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
     return text.removeprefix(".") or "the document"
 
 
 def holds(value: object, part: str | int) -> bool:
-    """Whether a document has something at a key or an index."""
+    """Return True if a value of a document has a key or an index."""
     if isinstance(value, dict):
         return part in value
     return isinstance(value, list) and isinstance(part, int) and part < len(value)
 
 
 def path_in(value: Any, steps: DocumentPath) -> DocumentPath:
-    """The steps that a document has: pydantic puts the names of alternatives between them."""
+    """Return the steps of a path that the document has: pydantic puts names of alternatives between them."""
     path: list[str | int] = []
     for step in steps:
         if holds(value, step):
@@ -37,7 +37,7 @@ def path_in(value: Any, steps: DocumentPath) -> DocumentPath:
 
 
 def shown(value: object) -> str:
-    """A value of a document in a message, cut when long."""
+    """Return a value of a document for a message, cut if it is long."""
     if isinstance(value, dict | list):
         return "an object" if isinstance(value, dict) else "a list"
     text = repr(value[:SHOWN_LETTERS] if isinstance(value, str) else value)
@@ -58,25 +58,25 @@ _FORMS = {Equation.form: "an equation =[...]", Label.form: "a {label}"}
 
 
 def fault_in_words(faults: list[ErrorDetails], expected: str = "") -> str:
-    """The faults of one value in a sentence: what is expected, or any of its forms needs, then what else there is."""
-    wanted: list[str] = []
-    others: list[str] = []
+    """Return the faults of one value in a sentence: first the expected value, then other faults."""
+    forms: list[str] = []
+    sentences: list[str] = []
     for fault in faults:
         match fault["type"]:
             case "string_pattern_mismatch":
-                wanted.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
+                forms.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
             case "literal_error":
-                wanted.append(fault["ctx"]["expected"])
+                forms.append(fault["ctx"]["expected"])
             case "missing":
-                others.append("is missing")
+                sentences.append("is missing")
             case "extra_forbidden":
-                others.append("unknown key")
+                sentences.append("unknown key")
             case kind if kind in _WANTED:
-                wanted.append(_WANTED[kind])
+                forms.append(_WANTED[kind])
             case _:
-                others.append(fault["msg"].removeprefix("Value error, "))
-    if wanted:
+                sentences.append(fault["msg"].removeprefix("Value error, "))
+    if forms:
         value = faults[0]["input"]
         large = ", too large for double precision" if isinstance(value, int) and abs(value) > sys.float_info.max else ""
-        others.insert(0, f"expected {expected or ' or '.join(dict.fromkeys(wanted))}, found {shown(value)}{large}")
-    return "; or ".join(dict.fromkeys(others))
+        sentences.insert(0, f"expected {expected or ' or '.join(dict.fromkeys(forms))}, found {shown(value)}{large}")
+    return "; or ".join(dict.fromkeys(sentences))

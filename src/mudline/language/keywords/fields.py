@@ -1,4 +1,4 @@
-"""What a field of a keyword means: its unit, range and default, what it names, and how it is written."""
+"""Fields of a keyword: meaning, unit, range, default, names, and the way they are written."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from pydantic_core import CoreSchema, core_schema
 from mudline.basics.short_repr import with_fields
 from mudline.language.keywords.table import LARGEST_WHOLE, Column
 from mudline.language.keywords.usual import Usual
-from mudline.language.keywords.values import Contents, Count, Equation, Kind, Label, Names, Text
+from mudline.language.keywords.values import Count, DataFile, Equation, Kind, Label, Names, Text
 
 
 def cell_schema(column: Column) -> dict[str, Any]:
-    """The JSON Schema of a cell."""
+    """Return the JSON Schema of a cell."""
     words = [Label] * (column.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL)) + [Equation] * (column.kind is not Kind.IDENT)
     number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
     options = [number if column.whole else {"type": "number"}, *(word.json_schema() for word in words)]
@@ -25,11 +25,11 @@ def cell_schema(column: Column) -> dict[str, Any]:
 
 
 def with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, Any]:
-    """A JSON Schema in which the numbers have limits."""
+    """Return a JSON Schema with limits on its numbers."""
     if schema.get("type") in ("number", "integer"):
         return schema | limits
     if limits and "anyOf" in schema:
-        return schema | {"anyOf": [with_limits(one, limits) for one in schema["anyOf"]]}
+        return schema | {"anyOf": [with_limits(inner, limits) for inner in schema["anyOf"]]}
     return schema
 
 
@@ -38,14 +38,24 @@ Expected = Usual | tuple[Usual, ...] | str
 
 @dataclass(frozen=True, slots=True)
 class FieldInfo:
-    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
+    """Declaration of a field.
 
-    `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. A `unique`
-    one tells the records of a list apart, so no two of them should have the same. Behind a
-    setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
-    they are kept in a record that can keep lines. None: what stands behind it has one form. What is `older`, a field or
-    some words of a choice, only decks of an older program have, whose files end in .das.
+    Attributes:
+        meaning: words for a reader.
+        unit: in F (force), L, M, T, deg; "-" is dimensionless.
+        default: value of an empty field, in words.
+        at_least, above, at_most: range of the value.
+        inferred: statement about the field that is our deduction, not published.
+        names: kind of object that the field refers to.
+        also: another name for the field in `mudline set`.
+        defines: kind of object that the field creates.
+        holds: contents of the file that the field names.
+        heading: column heading in a table of the manual.
+        unique: True if no two records of a list should have the same value.
+        opaque: values of a setting that are followed by lines of an unpublished form, which a record keeps; so do
+            unknown values. None: the form of the following lines does not depend on the value.
+        usual: usual values.
+        older: True, or words of a choice, if only decks of an older program (files ending in .das) have them.
     """
 
     meaning: str
@@ -58,7 +68,7 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
-    holds: Contents | None = None
+    holds: DataFile | None = None
     heading: str = ""
     unique: bool = False
     opaque: tuple[str, ...] | None = None
@@ -67,13 +77,13 @@ class FieldInfo:
 
     @property
     def usuals(self) -> tuple[Usual, ...]:
-        """What values are usual."""
+        """Ranges of usual values."""
         if isinstance(self.usual, str):
             return ()
         return (self.usual,) if isinstance(self.usual, Usual) else self.usual
 
     def fault(self, value: float) -> str:
-        """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+        """Return the fault of a number that is out of range, or ""; NaN, as of an unreadable value, has none."""
         if self.at_least is not None and value < self.at_least:
             return f"it must not be less than {self.at_least:g}"
         if self.above is not None and value <= self.above:
@@ -84,9 +94,9 @@ class FieldInfo:
 
     @property
     def limits(self) -> dict[str, float]:
-        """The range as JSON Schema says it."""
-        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
-        return {key: limit for key, limit in given.items() if limit is not None}
+        """Range in the terms of JSON Schema."""
+        limits = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
+        return {key: limit for key, limit in limits.items() if limit is not None}
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         schema = handler(source)
@@ -96,7 +106,7 @@ class FieldInfo:
         return with_limits(handler(schema), self.limits)
 
     def _in_range(self, value: object, info: ValidationInfo) -> object:
-        """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
+        """Raise ValueError for a number out of range; values in the text of a deck pass, and are reported by checks."""
         numeric = isinstance(value, int | float) and info.context != AS_TEXT
         if numeric and (fault := self.fault(cast("float", value))):
             raise ValueError(f"{value!r} is out of range: {fault}")
@@ -104,14 +114,15 @@ class FieldInfo:
 
 
 AS_TEXT = "text of a deck"
-"""The context in which the values of a text are validated."""
+"""Validation context of values that were read from text."""
 
 
 @dataclass(frozen=True, slots=True)
 class Setting(FieldInfo):
-    """A field written `KEY=value`; `inline` ones follow on the line of the setting before them.
+    """Field written `KEY=value`.
 
-    `behind` names the only setting whose line an inline one may follow on; without that it has a line of its own.
+    An `inline` setting follows on the line of the setting before it. If `behind` names a setting, it may follow only on
+    the line of that setting, and has a line of its own otherwise.
     """
 
     key: str = ""
@@ -120,17 +131,17 @@ class Setting(FieldInfo):
 
 
 def about(meaning: str, **details: Any) -> FieldInfo:
-    """A positional field."""
+    """Return a positional field."""
     return FieldInfo(meaning, **details)
 
 
 def setting(key: str, meaning: str, **details: Any) -> Setting:
-    """A field written `KEY=value`."""
+    """Return a field written `KEY=value`."""
     return Setting(meaning, key=key, **details)
 
 
 def parts_of(annotation: Any) -> list[Any]:
-    """A type taken apart: members of unions, items of lists, what is annotated."""
+    """Return the constituents of a type: members of unions, items of lists, annotated types."""
     origin = get_origin(annotation)
     if origin is Annotated:
         return [*parts_of(get_args(annotation)[0]), *get_args(annotation)[1:]]
@@ -140,23 +151,23 @@ def parts_of(annotation: Any) -> list[Any]:
 
 
 def metadata_of(info: pydantic_fields.FieldInfo) -> list[Any]:
-    """What a field is annotated with, and its types taken apart."""
+    """Return the annotations of a field and of the constituents of its type."""
     return [*info.metadata, *parts_of(info.annotation)]
 
 
 def kind_of(info: pydantic_fields.FieldInfo) -> Kind | None:
-    """How the text of a field is read, None for a part."""
+    """Return the kind of a field's text, None for a part."""
     return next((item for item in metadata_of(info) if isinstance(item, Kind)), None)
 
 
 def choices_of(annotation: Any) -> tuple[str, ...]:
-    """The words that a field may hold, () where it is no choice."""
+    """Return the words that a field may hold, () if it is not a choice."""
     literal = (piece for piece in parts_of(annotation) if get_origin(piece) is Literal)
     return next((get_args(piece) for piece in literal), ())
 
 
 def is_list(annotation: Any) -> bool:
-    """Whether a field holds a list."""
+    """Return True if a field holds a list."""
     origin = get_origin(annotation)
     if origin is Annotated:
         return is_list(get_args(annotation)[0])
@@ -166,7 +177,7 @@ def is_list(annotation: Any) -> bool:
 
 
 class Comment(BaseModel):
-    """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
+    """Comment line; `before` is the index of the item that it precedes, `text` the text after the C."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     before: Count

@@ -1,4 +1,4 @@
-"""The lines of a keyword as a user writes them, and units and ranges of its fields, from its declaration."""
+"""Lines of a keyword as a user writes them; units and ranges of its fields, from its declaration."""
 
 from __future__ import annotations
 
@@ -23,42 +23,42 @@ TAKES = {
 
 
 def format_lines(block: type[Block]) -> list[str]:
-    """The keyword and the lines below it, deeper ones indented."""
+    """Return the keyword and the lines below it, indented by depth."""
     keyword = block.model_fields["keyword"].default
     return [f"*{keyword}", *_lines(block, 1)]
 
 
 def _lines(part: type[Part], depth: int) -> list[str]:
-    """The lines of a part in the order in which they are written."""
+    """Return the lines of a part in the order in which they are written."""
     lines: list[str] = []
-    found = record_schema(part)
-    for slot in found.slots:
+    schema = record_schema(part)
+    for slot in schema.slots:
         if isinstance(slot.about, Setting) and slot.about.inline:
             lines[-1] += f", {_setting(slot)}" if slot.required else f" [, {_setting(slot)}]"
         elif slot.record:
             for record in slot.record.values():
                 first, *rest = _lines(record, depth)
                 lines += [f"{first.removesuffix(' ...')} ...", *(f"  {line}" for line in rest)]
-        elif text := _line(slot, found):
+        elif text := _line(slot, schema):
             lines.append("  " * depth + text)
     return lines
 
 
-def _line(slot: FieldSpec, found: RecordSchema) -> str:
-    """The line of one field; "" for a field that another one's line holds."""
+def _line(slot: FieldSpec, schema: RecordSchema) -> str:
+    """Return the line of one field; "" for a field on the line of another field."""
     if isinstance(slot.about, Rows) and slot.about.row:
-        return _optional(slot, record_schema(slot.about.row).wanted) + " ..."
+        return _optional(slot, record_schema(slot.about.row).layout) + " ..."
     if slot.key:
         return _optional(slot, _setting(slot))
     if slot.row:
-        alternatives = [other for other in found.columns if other.row and not other.required]
-        return record_schema(slot.row).wanted + (" |" if slot in alternatives[:-1] else "")
+        alternatives = [column for column in schema.columns if column.row and not column.required]
+        return record_schema(slot.row).layout + (" |" if slot in alternatives[:-1] else "")
     if slot.many:
         return f"{slot.label} [, ...]"
-    plain = [other for other in found.columns if not other.row]
-    if len(plain) < len(found.columns):
+    plain = [column for column in schema.columns if not column.row]
+    if len(plain) < len(schema.columns):
         return _optional(slot, slot.label)
-    whole = row_format([other.label for other in plain], [other.required for other in plain])
+    whole = row_format([column.label for column in plain], [column.required for column in plain])
     return whole if slot is plain[0] else ""
 
 
@@ -71,21 +71,21 @@ def _setting(slot: FieldSpec) -> str:
     taken = [
         *(slot.choices if slot.kind is Kind.OTHER else kind),
         *(kind if slot.kind is Kind.OTHER else slot.choices),
-        *([record_schema(slot.row).wanted] if slot.row else []),
+        *([record_schema(slot.row).layout] if slot.row else []),
     ]
     value = "|".join(taken)
     return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")
 
 
 def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
-    """How the rows of some records look."""
+    """Return the formats of the rows of records."""
     shapes: list[str] = []
-    for found in schemas:
-        lines = [slot for slot in found.columns if slot.row]
-        plain = [slot for slot in found.columns if not slot.row and slot.about.older is not True]
-        shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
-        if found.table and found.table.row:
-            shapes.append(record_schema(found.table.row).wanted)
+    for schema in schemas:
+        lines = [slot for slot in schema.columns if slot.row]
+        plain = [slot for slot in schema.columns if not slot.row and slot.about.older is not True]
+        shapes += [record_schema(slot.row).layout for slot in lines if slot.row]
+        if schema.table and schema.table.row:
+            shapes.append(record_schema(schema.table.row).layout)
         if plain and not lines:
             shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
     return shapes
@@ -102,7 +102,7 @@ _UNITS = {
 
 
 def unit_text(unit: str, system: str) -> str:
-    """The unit of a field in a unit system, F/L2 as N/m2, 1/L as 1/m; what is no dimension as it is."""
+    """Return the unit of a field in a unit system (F/L2 as N/m2, 1/L as 1/m); text that is not a dimension stays."""
     if not re.fullmatch(r"(?:[FLMT]\d?|1/|/)+", unit):
         return unit
     names = _UNITS[system]
@@ -111,7 +111,7 @@ def unit_text(unit: str, system: str) -> str:
 
 
 def range_text(about: FieldInfo) -> str:
-    """The range of a field's values, or ""."""
+    """Return the range of a field's values, or ""."""
     if about.above is not None:
         return f"> {about.above:g}"
     if about.at_most is not None:
@@ -120,12 +120,12 @@ def range_text(about: FieldInfo) -> str:
 
 
 def _symbol(name: str) -> str:
-    """The symbol of a field of a section: Do, but GJ."""
+    """Return the symbol of a section's field: Do, but GJ."""
     return name.capitalize() if name.startswith("d") else name.upper()
 
 
 def field_lines(part: type[Part], depth: int = 0) -> list[str]:
-    """A line for each field of a part, and below it those inside: name, meaning, unit, range, default."""
+    """Return a line for each field of a part: name, meaning, unit, range, default; fields of inner parts below it."""
     lines: list[str] = []
     for slot in record_schema(part).slots:
         about = slot.about
@@ -142,21 +142,21 @@ def field_lines(part: type[Part], depth: int = 0) -> list[str]:
 
 
 def usual_text(about: FieldInfo) -> str:
-    """What values of a field are usual, in metric units, with the reason of each range; "" where nothing is said."""
+    """Return the usual values of a field, in metric units, with the reason for each range; "" if none are declared."""
     unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")
     return "; ".join(
         " ".join(
             [
-                one.span(),
+                usual.span(),
                 *(
-                    [f"times {_symbol(one.of[1:])}" if one.of.startswith("/") else one.of]
-                    if one.of
+                    [f"times {_symbol(usual.of[1:])}" if usual.of.startswith("/") else usual.of]
+                    if usual.of
                     else [unit] * bool(unit)
                 ),
-                *([f"of {one.when}"] if one.when else []),
-                *([f"({one.why})"] if one.why else []),
+                *([f"of {usual.when}"] if usual.when else []),
+                *([f"({usual.why})"] if usual.why else []),
             ]
         )
-        for one in about.usuals
-        if not one.explained
+        for usual in about.usuals
+        if not usual.explained
     )

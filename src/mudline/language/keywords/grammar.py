@@ -1,4 +1,4 @@
-"""Level two: lark's parser of a keyword's rule, over the lines of level one."""
+"""Second level of reading: lark's parser of a keyword's rule, applied to the lines of the first level."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from mudline.language.syntax.grammars import parser
 END = "$END"
 ROW = "ROW"
 _FEW = 64
-"""Lines of a block whose tree is remembered: decks hold blocks of the same few forms."""
+"""Greatest number of lines of a block whose tree is cached: decks hold blocks of the same few forms."""
 
 
 class Content(NamedTuple):
-    """A line of a block, or a run of rows, as lark's token: lark asks for nothing but the `type`, its terminal."""
+    """Line of a block, or run of rows, as a token of lark: lark needs only its `type`, the terminal."""
 
     type: str
     span: Span
 
 
 Node = Tree[Content]
-"""A rule with the contents and rules below it."""
+"""Rule with the contents and rules below it."""
 
 
 class Mismatch(NamedTuple):
-    """A line that does not fit; `found` None is the end of the block. `missing`: the line that was left out instead."""
+    """Line that does not fit; `found` None is the end of the block, `missing` the line that was left out before it."""
 
     found: Content | None
     expected: tuple[str, ...]
@@ -55,14 +55,14 @@ def _begin(rule: str) -> InteractiveParser:
 
 
 def tree_of(rule: str, contents: Sequence[Content]) -> Node | None:
-    """Return the tree of a block under its rule, if all of its lines fit."""
+    """Return the tree of a block under its rule if all of its lines fit, else None."""
     parsed = _parsed if len(contents) <= _FEW else _parsed.__wrapped__
     tree = parsed(rule, tuple([content.type for content in contents]))
     return tree and _with_lines(tree, iter(contents))
 
 
 def _with_lines(tree: Node, lines: Iterator[Content]) -> Node:
-    """Return a tree with other lines, which come in the order of its leaves."""
+    """Return a tree whose leaves are replaced by other lines, in order."""
     return Tree(
         tree.data, [_with_lines(child, lines) if type(child) is Tree else next(lines) for child in tree.children]
     )
@@ -70,7 +70,7 @@ def _with_lines(tree: Node, lines: Iterator[Content]) -> Node:
 
 @lru_cache(1024)
 def _parsed(rule: str, terminals: tuple[str, ...]) -> Node | None:
-    """Return the tree of lines of which only the terminals are known."""
+    """Return the tree of a sequence of terminals; None if the rule does not fit."""
     state = _begin(rule)
     try:
         for terminal in terminals:
@@ -81,15 +81,15 @@ def _parsed(rule: str, terminals: tuple[str, ...]) -> Node | None:
 
 
 def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> tuple[Node, list[Mismatch]]:
-    """Return the tree of a block line by line, whatever fits.
+    """Return the tree of the lines of a block that fit, and the mismatches.
 
-    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
-    In a block with lines of unknown form none is missing for certain: there nothing is to `insert`.
+    A line that does not fit is left out, unless it fits after a missing line; both are reported. With `insert` False no
+    line counts as missing: so it is in a block with lines of unknown form.
     """
     state = _begin(rule)
     mismatches: list[Mismatch] = []
     for content in contents:
-        if _takes(state, content):  # a parser that refuses a token has closed what it could before
+        if _takes(state, content):  # a parser that refuses a token has already closed rules
             _feed(state, content)
             continue
         expected = tuple(sorted(state.accepts()))
@@ -104,7 +104,7 @@ def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> 
 
 
 def _placeless(terminal: str) -> Content:
-    """Return the token of a line that is not there."""
+    """Return the token of a missing line."""
     return Content(terminal, Span(-1, -1))
 
 
@@ -114,7 +114,7 @@ def _feed(state: InteractiveParser, *tokens: Content) -> None:
 
 
 def _takes(state: InteractiveParser, *tokens: Content) -> bool:
-    """Return True if a parser takes some tokens; the trial makes no tree, so that nothing has to be copied for it."""
+    """Return True if a parser accepts the tokens; the trial builds no tree, so that nothing has to be copied."""
     present = state.parser_state
     rules = copy(present.parse_conf)
     rules.callbacks = {}
@@ -128,9 +128,9 @@ def _takes(state: InteractiveParser, *tokens: Content) -> bool:
 
 
 def _complete(state: InteractiveParser) -> str:
-    """Feed the mandatory lines that the end of a block lacks, and return the first.
+    """Feed the mandatory lines that are missing at the end of a block; return the first.
 
-    Each is that which ends the block, or one that was not put in yet.
+    Each of them is a line that ends the block, or a line that was not inserted yet.
     """
     fed: list[str] = []
     while END not in (options := sorted(state.accepts())):
@@ -141,6 +141,6 @@ def _complete(state: InteractiveParser) -> str:
 
 
 def _without_missing(node: Node) -> Node:
-    """Return the tree of the lines that are there."""
+    """Return the tree without missing lines."""
     below = [_without_missing(child) if isinstance(child, Tree) else child for child in node.children]
     return Tree(node.data, [child for child in below if isinstance(child, Tree) or child.span.start >= 0])

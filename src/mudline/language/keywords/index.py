@@ -1,4 +1,4 @@
-"""Every declaration of the library; `make index` makes this of them: change those."""
+"""Index of the declarations in the library; generated from them by `make index`, not to be edited."""
 
 # fmt: off
 from __future__ import annotations

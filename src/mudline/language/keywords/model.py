@@ -1,4 +1,4 @@
-"""What a keyword module declares: rows, records and blocks, whose fields carry their meaning, unit and range."""
+"""Base classes of keyword declarations: rows, records and blocks, whose fields carry meaning, unit and range."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -50,16 +50,16 @@ from mudline.language.keywords.usual import Usual
 from mudline.language.keywords.values import Facts, Kind, Subject
 
 FEWEST_POINTS = 2
-"""Points of a curve."""
+"""Least number of points of a curve."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rows(FieldInfo):
-    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning.
+    """Field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning.
 
-    A table that is a curve has an `abscissa`, one of its columns; the first of the others is the ordinate. `curve` says
-    what kind of curve it is, in words. It is linear between its points; `ends` says what it is beyond them: its end
-    sections go on ("slope"), its last value stays ("value"), or nothing is known of it ("none").
+    A table that is a curve has an `abscissa`, one of its columns; the first other column is the ordinate. `curve` is
+    the kind of curve in words. The curve is linear between its points. `ends` is its shape beyond them: continued with
+    the slope of the end sections ("slope"), with the last value ("value"), or unknown ("none").
     """
 
     row: type["Row"] | None = None
@@ -70,13 +70,13 @@ class Rows(FieldInfo):
 
     @property
     def axes(self) -> tuple[int, int]:
-        """The columns of the abscissa and the ordinate of a curve."""
+        """Columns of the abscissa and the ordinate of a curve."""
         names = [spec.json for spec in record_schema(self.row).columns] if self.row else []
         over = names.index(self.abscissa)
         return over, next(index for index in range(len(names)) if index != over)
 
     def columns(self) -> list[Column]:
-        """The columns of the table."""
+        """Return the columns of the table."""
         return table_columns(self.row) if self.row else []
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -85,9 +85,9 @@ class Rows(FieldInfo):
             serialization=core_schema.plain_serializer_function_ser_schema(self._written, info_arg=True),
         )
 
-    def _read(self, given: object, info: ValidationInfo) -> Table:
-        """A table; refuses a value out of the range of its column, and a curve of fewer than two points."""
-        table = read_table(given, self.columns())
+    def _read(self, data: object, info: ValidationInfo) -> Table:
+        """Return a table; raises ValueError for a value out of its range or a curve of fewer than two points."""
+        table = read_table(data, self.columns())
         if info.context == AS_TEXT:
             return table
         if self.curve and len(table) < FEWEST_POINTS:
@@ -99,7 +99,7 @@ class Rows(FieldInfo):
         return table
 
     def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
-        if table is None:  # of a block that could not be read
+        if table is None:  # the block could not be read
             return None
         listing = Listing(table, self.columns())
         return listing if info.context == AS_TABLES else listing.rows()
@@ -125,56 +125,56 @@ class Rows(FieldInfo):
 
 
 def rows(row: type["Row"], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
-    """A table field."""
+    """Return a table field."""
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
 Path = tuple[str | int, ...]
-"""Keys and indices as JSON has them, from a part inwards; a table is followed by row and column."""
+"""Keys and indices as in JSON, from a part inwards; a table is followed by row and column."""
 
 
-class Value(NamedTuple):
-    """What a field of a part holds: one item of a list, a whole table, or a part with fields of its own."""
+class PartValue(NamedTuple):
+    """Value of a part's field: one item of a list, a whole table, or a part with fields of its own."""
 
     path: Path
     field: "FieldSpec"
     value: Any
 
 
-Wanted = Callable[["FieldSpec"], bool]
-"""Tells of a field whether its values are wanted; one function of a module, as what it tells is remembered."""
+FieldFilter = Callable[["FieldSpec"], bool]
+"""Predicate that selects fields; a module-level function, as its results are cached."""
 
 
 class Part(BaseModel):
-    """Anything with declared fields."""
+    """Base class of all classes with declared fields."""
 
     model_config = ConfigDict(
         extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True, validate_assignment=True
     )
 
-    if not TYPE_CHECKING:  # a checker takes any attribute of a class that has this
+    if not TYPE_CHECKING:  # with this method type checkers accept any attribute
 
         def __setattr__(self, name: str, value: Any) -> None:
-            """Set a field. Raises ValueError for what is none, or a value that it cannot have: it keeps its own."""
+            """Set a field; raises ValueError for an unknown field or an invalid value, and leaves it unchanged."""
             assign(self, name, value, record_schema, super().__setattr__)
 
     def __repr__(self) -> str:
-        given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
-        return with_fields(self, ((name, value) for name, value in given if value is not None))
+        fields = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
+        return with_fields(self, ((name, value) for name, value in fields if value is not None))
 
     __str__ = __repr__
 
-    def walk(self, wanted: Wanted | None = None) -> list[Value]:
-        """Return the values of the part, and of the parts inside it, whose field is wanted: of all if nothing tells.
+    def walk(self, wanted: FieldFilter | None = None) -> list[PartValue]:
+        """Return the values of the part and its inner parts whose fields are `wanted`; without a predicate all.
 
-        What is left out (None) is none.
+        Fields without a value (None) are left out.
         """
-        found: list[Value] = []
-        _walk(self, (), wanted, found)
-        return found
+        values: list[PartValue] = []
+        _walk(self, (), wanted, values)
+        return values
 
     def at(self, path: Path) -> tuple["FieldSpec | None", Any]:
-        """Return the field and the value that a path leads to; None for a value that is not there."""
+        """Return the field and the value at a path; None for a value that does not exist."""
         field: FieldSpec | None = None
         value: Any = self
         for number, step in enumerate(path):
@@ -182,7 +182,7 @@ class Part(BaseModel):
                 return _cell(field, value, path[number:])
             if isinstance(value, Part):
                 slots = record_schema(type(value)).slots
-                field = next((one for at, one in enumerate(slots) if step in (one.json, at)), None)
+                field = next((spec for at, spec in enumerate(slots) if step in (spec.json, at)), None)
                 value = None if field is None else getattr(value, field.name, None)
             elif isinstance(value, list) and isinstance(step, int):
                 value = value[step] if step < len(value) else None
@@ -192,11 +192,11 @@ class Part(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _few_keys(cls, given: object) -> object:
-        """Every unknown key would be a fault."""
-        if isinstance(given, dict) and len(given) > MOST_KEYS:
-            raise ValueError(f"{len(given)} keys, expected {len(cls.model_fields)} at most")
-        return given
+    def _few_keys(cls, document: object) -> object:
+        """Limit the number of keys: every unknown key would be a fault."""
+        if isinstance(document, dict) and len(document) > MOST_KEYS:
+            raise ValueError(f"{len(document)} keys, expected {len(cls.model_fields)} at most")
+        return document
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -204,75 +204,81 @@ class Part(BaseModel):
 
 
 class Row(Part):
-    """A line of positional fields, or the values behind a KEY=."""
+    """Line of positional fields, or the values after a KEY=."""
 
 
 class ListRow(Row):
-    """A row that JSON holds as a list, trailing fields left out."""
+    """Row that JSON holds as a list without trailing empty fields."""
 
     @model_validator(mode="before")
     @classmethod
-    def _from_list(cls, given: object) -> object:
-        if not isinstance(given, list):
-            return given
+    def _from_list(cls, items: object) -> object:
+        if not isinstance(items, list):
+            return items
         columns = record_schema(cls).columns
-        if not record_schema(cls).fewest <= len(given) <= len(columns):
-            raise ValueError(f"{len(given)} values, expected {record_schema(cls).wanted}")
-        return {slot.json: value for slot, value in zip(columns, given, strict=False)}
+        if not record_schema(cls).fewest <= len(items) <= len(columns):
+            raise ValueError(f"{len(items)} values, expected {record_schema(cls).layout}")
+        return {slot.json: value for slot, value in zip(columns, items, strict=False)}
 
     @model_serializer
     def _to_list(self) -> list[object] | None:
         if is_unknown(self):
             return None
-        given = [slot.name for slot in record_schema(type(self)).columns if slot.name in self.model_fields_set]
-        values = (getattr(self, name) for name in given)
+        names = [slot.name for slot in record_schema(type(self)).columns if slot.name in self.model_fields_set]
+        values = (getattr(self, name) for name in names)
         return [str(value) if isinstance(value, str) else value for value in values]
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        found = record_schema(cls)
-        items = [cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in found.columns]
-        return {"type": "array", "prefixItems": items, "items": False, "minItems": found.fewest}
+        declared = record_schema(cls)
+        items = [cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in declared.columns]
+        return {"type": "array", "prefixItems": items, "items": False, "minItems": declared.fewest}
 
 
 class Record(Part):
-    """Lines that belong together; `rule` is the grammar rule that says in what order they stand.
+    """Lines that belong together; `rule` is the grammar rule of their order.
 
     `sticky` names a field that also holds for later records of the list, until one of them gives it again.
     """
 
     rule: ClassVar[str]
     sticky: ClassVar[str] = ""
-    # Of the class `list` pydantic parses the signature, in each model that has the field.
+    # With the class `list`, pydantic parses its signature in each model that has the field.
     comments: list[Comment] = Field(default_factory=lambda: [])  # noqa: PIE807 - as above
 
     def known_as(self) -> Any:
-        """The name of the record, or that of its set: its first field for a name; None where it has none."""
+        """Return the name of the record or of its set, which is its first name field; None if it has none."""
         slot = next((slot for slot in record_schema(type(self)).slots if slot.kind is Kind.NAME), None)
         return (getattr(self, slot.name) or slot.about.default or None) if slot else None
 
     @classmethod
-    def carries(cls, given: dict[str, object], last: object) -> object:
-        """What `row_slot` is told as `last` in the next record, of what was read of this one."""
-        return given.get(cls.sticky) or last
+    def carries(cls, values: dict[str, object], last: object) -> object:
+        """Return the value passed as `last` to `row_slot` of the next record."""
+        return values.get(cls.sticky) or last
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """Which field the row `number` of this record fills; `fields` is how many values stand on it.
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the name of the field that row `number` of this record fills; `fields` is the row's number of values.
 
-        `given` holds what was read of the record so far, `last` what the `sticky` field of the records before it gave.
-        Only records with several kinds of row need to say.
+        `values` are those of the record read so far, `last` the value of the `sticky` field in earlier records.
+        Only records with several kinds of row override this method.
         """
         return record_schema(cls).row_names[0]
 
 
 class Block(Record):
-    """A keyword with its data. The class variables are its declaration.
+    """Keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
-    format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
-    that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` lines of unknown forms
-    are passed through unchanged; with `known_forms` only those whose key or place is not known.
+    Attributes:
+        sections: sections where the keyword belongs.
+        subject, summary: subject, and sentence for a reader.
+        page: page of the manual with its format.
+        facts: further facts about the keyword.
+        tabular: True if runs of numeric lines are read as arrays.
+        slashes: True if /.../ is one field.
+        open_lines: True if lines of unknown form are passed through; with `known_forms`, only those with an unknown
+            key or place.
+        example: block that reads without a finding.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
@@ -293,7 +299,7 @@ _OF_TEXT = (Kind.NAME, Kind.TITLE, Kind.OTHER)
 
 @dataclass(slots=True)
 class FieldSpec:
-    """One field of a part, as the reader and the writer see it; `of_list` for one of a `ListRow`."""
+    """Field of a part for reader and writer; `of_list` is True in a `ListRow`."""
 
     name: str
     json: str
@@ -310,33 +316,33 @@ class FieldSpec:
 
     @property
     def key(self) -> str:
-        """The KEY of a setting, or ""."""
+        """KEY of a setting, or ""."""
         return self.about.key if isinstance(self.about, Setting) else ""
 
     @property
     def parts(self) -> list[type[Part]]:
-        """The parts that a value of the field may be, or its table consists of."""
+        """Possible parts of the field's values, or of its table's rows."""
         return [part for part in (self.row, *self.record.values()) if part]
 
     @property
     def is_text(self) -> bool:
-        """Whether its values are names and words alone."""
+        """True if the values can only be names and words."""
         return not self.row and (self.kind in _OF_TEXT or (self.kind is None and bool(self.choices)))
 
     @property
     def columns(self) -> list[Column]:
-        """The columns of a field that is a table; of others none."""
+        """Columns of a field that is a table; none of other fields."""
         return self.about.columns() if isinstance(self.about, Rows) else []
 
     @property
     def label(self) -> str:
-        """The field's name for a reader."""
+        """Name of the field for a reader."""
         return self.key + "=" if self.key else self.json.replace("_", " ")
 
 
 @dataclass
 class RecordSchema:
-    """The fields of a part by how they are written; what follows from them is found once."""
+    """Fields of a part by the way they are written; derived values are cached."""
 
     columns: list[FieldSpec] = field(default_factory=list)
     keys: dict[str, FieldSpec] = field(default_factory=dict)
@@ -351,20 +357,20 @@ class RecordSchema:
 
     @cached_property
     def fewest(self) -> int:
-        """How many fields a row must have."""
+        """Least number of fields in a row."""
         return fewest_fields(slot.required for slot in self.columns)
 
     @cached_property
-    def wanted(self) -> str:
-        """The columns in words: `depth, density [, gravity]`."""
+    def layout(self) -> str:
+        """Columns in words: `depth, density [, gravity]`."""
         columns = [slot for slot in self.columns if slot.about.older is not True]
         return row_format([slot.label for slot in columns], [slot.required for slot in columns])
 
 
 @cache
 def record_schema(part: type[Part]) -> RecordSchema:
-    """The declared fields of a class, found once."""
-    found = RecordSchema()
+    """Return the declared fields of a class, cached."""
+    schema = RecordSchema()
     for order, (name, info) in enumerate(part.model_fields.items()):
         meta = next((item for item in metadata_of(info) if isinstance(item, FieldInfo)), None)
         classes = [piece for piece in parts_of(info.annotation) if isinstance(piece, type)]
@@ -386,51 +392,51 @@ def record_schema(part: type[Part]) -> RecordSchema:
             usuals=meta.usuals if meta else (),
             of_list=issubclass(part, ListRow),
         )
-        found.slots.append(slot)
+        schema.slots.append(slot)
         if isinstance(meta, Rows):
-            found.table = slot
+            schema.table = slot
         elif isinstance(meta, Setting):
-            found.keys.setdefault(meta.key, slot)
+            schema.keys.setdefault(meta.key, slot)
         elif records:
-            found.children |= dict.fromkeys(slot.record, slot)
+            schema.children |= dict.fromkeys(slot.record, slot)
         else:
-            found.columns.append(slot)
-    return found
+            schema.columns.append(slot)
+    return schema
 
 
-_is_part = cache(lambda kind: issubclass(kind, Part))  # to ask a model itself takes several times as long
+_is_part = cache(lambda kind: issubclass(kind, Part))  # several times as fast as `issubclass` of a model
 
 
-def _walk(part: Part, prefix: Path, wanted: Wanted | None, found: list[Value]) -> None:
+def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[PartValue]) -> None:
     for slot, own in _leading(type(part), wanted):
         value: Any = getattr(part, slot.name, None)
         listed = isinstance(value, list)
         for index, item in enumerate(value if listed else () if value is None else (value,)):
             path = (*prefix, slot.json, index) if listed else (*prefix, slot.json)
             if own:
-                found.append(Value(path, slot, item))
+                values.append(PartValue(path, slot, item))
             kind: type[BaseModel] = type(item)
             if _is_part(kind):
-                _walk(item, path, wanted, found)
+                _walk(item, path, wanted, values)
 
 
 @cache
-def _leading(part: type[Part], wanted: Wanted | None) -> tuple[tuple[FieldSpec, bool], ...]:
-    """The fields of a part that are wanted (True), or hold parts with such fields alone (False)."""
-    found = ((slot, wanted is None or wanted(slot)) for slot in record_schema(part).slots)
-    return tuple((slot, own) for slot, own in found if own or any(_leading(one, wanted) for one in slot.parts))
+def _leading(part: type[Part], wanted: FieldFilter | None) -> tuple[tuple[FieldSpec, bool], ...]:
+    """Return the fields of a part that are wanted (True), or only contain parts with wanted fields (False)."""
+    slots = ((slot, wanted is None or wanted(slot)) for slot in record_schema(part).slots)
+    return tuple((slot, own) for slot, own in slots if own or any(_leading(inner, wanted) for inner in slot.parts))
 
 
 def fields_of(part: type[Part]) -> Iterator[FieldSpec]:
-    """Yield the fields that a part declares, and those of the parts inside it; columns of tables among them."""
+    """Yield the fields of a part and of its inner parts, including the columns of tables."""
     for slot in record_schema(part).slots:
         yield slot
-        for one in slot.parts:
-            yield from fields_of(one)
+        for inner in slot.parts:
+            yield from fields_of(inner)
 
 
 def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec | None, Any]:
-    """The column and the value of a cell; a row that could not be read has none."""
+    """Return the column and the value of a cell; None for a row that could not be read."""
     columns = record_schema(field.row).columns if field is not None and field.row else []
     row, column = (int(step) for step in path) if len(path) > 1 else (0, len(columns))
     return (columns[column], table.cell(row, column)) if column < len(columns) else (None, None)
@@ -438,5 +444,5 @@ def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec 
 
 @cache
 def table_columns(row: type[Row]) -> list[Column]:
-    """The columns of a table whose rows are `row`."""
+    """Return the columns of a table whose rows are `row`."""
     return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in record_schema(row).columns]

@@ -1,6 +1,6 @@
-"""Keywords of which only the name is known, and where they stand: their lines are passed through unchanged.
+"""Keywords of which only name and sections are known: their lines are passed through unchanged.
 
-A keyword that a module of the library declares for some sections may be here for others.
+A keyword that a module of the library declares for some sections may be listed here for others.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         (),
     ),
 }
-"""The sections of each; none: known to exist, section not confirmed."""
+"""Sections of each keyword; none if the keyword exists, but its section is not confirmed."""
 
 GIVES: dict[str, tuple[Gift, ...]] = {
     **dict.fromkeys(("EQUIVALENT", "FLEX JOINTS", "PROPERTIES"), ("sections", "hydrodynamics")),
@@ -83,7 +83,7 @@ GIVES: dict[str, tuple[Gift, ...]] = {
     "TOP TENSION": ("supports",),
     **dict.fromkeys(("GUIDE", "WINCH"), ("elements", "sections", "hydrodynamics", "supports")),
 }
-"""What each may give to nodes and elements, as its name says, since its lines are not known; others give nothing."""
+"""Properties that each keyword may define, judged by its name, since its lines are unknown; other keywords none."""
 
 ZERO_LENGTH = ("FLEX JOINTS", "DAMPER")
-"""Those whose elements may have no length."""
+"""Keywords whose elements may have no length."""

@@ -1,4 +1,4 @@
-"""What a text that is not a number was meant as, and what is said of it."""
+"""Texts that are not numbers: the number that was probably meant, and messages."""
 
 from __future__ import annotations
 
@@ -11,48 +11,48 @@ from mudline.language.keywords.values import Equation, Kind
 from mudline.language.syntax.rows import read_number, spells_number
 
 _GROUPED = re.compile(r"[-+]?[0-9]{1,3}(?:[ '_\xa0\u202f][0-9]{3})+(?:\.[0-9]*)?")
-"""A number with its digits in groups of three."""
+"""Number with its digits in groups of three."""
 _MINUS = "\u2010\u2011\u2012\u2013\u2014\u2212\ufe63\uff0d"
 """Hyphens, dashes and minus signs of word processors."""
 _QUOTES = "\u2018\u2019\u201a\u201c\u201d\u201e\xab\xbb"
 """Quotes of word processors."""
 _BARE_EXPONENT = re.compile(r"([-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+))([-+][0-9]{1,3})")
-"""A number whose exponent has no letter, as Fortran writes those of three digits."""
+"""Number whose exponent has no letter, as Fortran writes exponents of three digits."""
 _BLANKS = "\xa0\u2007\u2009\u200b\u202f\ufeff"
-"""Blanks that word processors put around a number, and marks that nobody sees."""
+"""Blanks that word processors put around a number, and invisible marks."""
 
 
 def maybe_number(text: str) -> bool:
-    """Whether a text is a number or an equation, or was meant as one."""
+    """Return True if a text is a number or an equation, or was probably meant as one."""
     return text.startswith("=") or read_number(text) is not None or looks_numeric(text)
 
 
 def looks_numeric(text: str) -> bool:
-    """Whether a text that is not a finite number was meant as one."""
+    """Return True if a text that is not a finite number was probably meant as a number."""
     return not_finite(text) or spells_number(text) or bool(_GROUPED.fullmatch(text) or _plain(text))
 
 
 def not_finite(text: str) -> bool:
-    """Whether a text is a NaN or an infinity."""
+    """Return True if a text is a NaN or an infinity."""
     return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
 
 
 def is_grouped(text: str) -> bool:
-    """Whether a text may be one number with its digits in groups of three."""
+    """Return True if a text may be one number with its digits in groups of three."""
     return _GROUPED.fullmatch(text) is not None
 
 
 def cut_number(text: str) -> bool:
-    """Whether a text is the beginning of a number: a sign, or digits with an exponent that has none."""
+    """Return True if a text is the beginning of a number: a sign, or a number whose exponent has no digits."""
     return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
 
 
 def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) -> Problem:
-    """The problem of a field that is not a number; a number with characters of a word processor has its repair."""
+    """Return the problem of a field that is not a number; characters of a word processor in a number are repaired."""
     if bare := _BARE_EXPONENT.fullmatch(text):
-        meant = f"{bare[1]}E{bare[2]}"
-        message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {meant} for {label}"
-        return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {meant}", ((span, meant),)))
+        repaired = f"{bare[1]}E{bare[2]}"
+        message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {repaired} for {label}"
+        return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
     plain = _plain(text)
     if not plain:
         return Problem(SYN002, _fault(text, label, kind), span)
@@ -62,7 +62,7 @@ def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) ->
 
 
 def _plain(text: str) -> str:
-    """The number that a text is in plain characters; "" where it is none, or has no others."""
+    """Return the number in a text, in plain characters; "" if there is none, or it is plain already."""
     if text.isascii():
         return ""
     bare = text.strip(_BLANKS + _QUOTES)
@@ -71,7 +71,7 @@ def _plain(text: str) -> str:
 
 
 def _fault(text: str, label: str, kind: Kind | None) -> str:
-    """Why a text is not a number, in words that say what to do."""
+    """Return the fault of a text that is not a number, in words that tell what to do."""
     lower = text.lower().lstrip("+-")
     if not_finite(text):
         return f"{text!r} is not a finite number: {label} needs a number"

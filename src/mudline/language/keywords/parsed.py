@@ -1,4 +1,4 @@
-"""Records as the Builder leaves them: plain values, and where these stand, which is found when somebody asks."""
+"""Records as built from a block: plain values, and their places, which are computed on demand."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from mudline.language.syntax.rows import read_rows, row_fields, row_starts
 
 
 class TableBuilder:
-    """Collects the runs of one table."""
+    """Collector of the runs of one table."""
 
     def __init__(self, columns: list[Column]) -> None:
         self.columns = columns
@@ -34,7 +34,7 @@ class TableBuilder:
         self.count = 0
 
     def add(self, text: str, span: Span) -> tuple[Table, list[int]]:
-        """Read one run of a text; returns its rows, and the numbers of those that have faults."""
+        """Add one run of a text; return its rows, and the numbers of those with faults."""
         self.runs.append((self.count, span))
         table, faults = from_rows(read_rows(text, span, len(self.columns)), self.columns)
         self.parts.append(table)
@@ -42,7 +42,7 @@ class TableBuilder:
         return table, sorted({row for row, _ in faults})
 
     def finish(self) -> Table:
-        """All rows in one table."""
+        """Return all rows in one table."""
         if len(self.parts) == 1:
             return self.parts[0]
         width = max((part.values.shape[1] for part in self.parts), default=0)
@@ -58,7 +58,7 @@ class TableBuilder:
 
 
 class Item(NamedTuple):
-    """A line or a record in a record: where it is written, where it stands, how many it counts for."""
+    """Line or inner record of a record: order of writing, position in the text, number of items that it counts for."""
 
     order: int
     position: int
@@ -66,9 +66,9 @@ class Item(NamedTuple):
 
 
 class Written(NamedTuple):
-    """Where values of a record stand: a field, if it has a span of its own, and the fields of its line by their names.
+    """Places of values on a line: span of the field `slot`, if it has one, and its fields by name.
 
-    Without `slot` the names are those of fields of the record.
+    If `slot` is None, the names are those of the record's fields.
     """
 
     slot: str | None
@@ -79,10 +79,10 @@ class Written(NamedTuple):
 
 @dataclass(slots=True)
 class ParsedRecord:
-    """A record as plain values, and what is needed to find the places of these and to put comments among them.
+    """Record as plain values, with the data needed to find their places and to insert comments.
 
-    A record is `unsure` where lines or settings of it could not be used: what it seems to lack may be there. It is
-    `unchosen` where the value is not known that says which kind of rows it has. `opening` is the first line of its own.
+    A record is `unsure` if some of its lines or settings could not be used: values that seem to be missing may be
+    there. It is `unchosen` if the value that chooses its kind of rows is unknown. `opening` is its first own line.
     """
 
     part: type[Record]
@@ -100,11 +100,11 @@ class ParsedRecord:
 
     @property
     def known(self) -> dict[str, Any]:
-        """The values that could be read."""
+        """Values that could be read."""
         return {name: value for name, value in self.values.items() if value is not UNKNOWN}
 
     def reach(self, position: int) -> None:
-        """Take note of a line."""
+        """Extend the record to the line at a position."""
         if self.last is None:
             self.first = self.last = position
         elif position > self.last:
@@ -112,14 +112,14 @@ class ParsedRecord:
 
 
 def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
-    """Take note that lines of a record, or of those inside it, could not be used."""
+    """Mark a record, and the inner records at the positions, as having lines that could not be used."""
     built.unsure = True
     inner = sorted(chain.from_iterable(built.children.values()), key=lambda child: child.first)
     firsts = [child.first for child in inner]
     of_child: dict[int, list[int]] = {}
     for position in positions:
         of_child.setdefault(bisect_right(firsts, position) - 1, []).append(position)
-    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above it may be that of its name
+    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above the child may be the one with its name
         for slot in record_schema(child.part).slots[:1]:
             if slot.key:
                 child.values.setdefault(slot.json, UNKNOWN)
@@ -129,26 +129,26 @@ def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
 
 
 def construct(built: ParsedRecord) -> Part:
-    """A model without validation, for a block in which something could not be read.
+    """Return a model without validation, for a block with unreadable values.
 
-    What is missing is None; it is unknown where it must not be missing, or a line that could not be used may have it.
+    A missing value is None. It is unknown if it is mandatory, or if a line that could not be used may contain it.
     """
     ready: dict[str, Any] = {}
     for slot in record_schema(built.part).slots:
-        given = _known(slot, built.values.get(slot.json))
+        value = _known(slot, built.values.get(slot.json))
         if slot.record:
             inner = [construct(child) for child in built.children.get(slot.json, [])]
             ready[slot.name] = Partly(inner) if built.unsure else inner
         elif slot.json not in built.values:
             unknown = slot.required or (built.unsure and slot is not record_schema(built.part).table)
             ready[slot.name] = _known(slot, UNKNOWN) if unknown else None
-        elif slot.row and isinstance(given, list):
+        elif slot.row and isinstance(value, list):
             columns = record_schema(slot.row).columns
-            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
-        elif slot.row and isinstance(given, dict):
-            ready[slot.name] = _bare(slot.row, given)
+            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, value, strict=False)})
+        elif slot.row and isinstance(value, dict):
+            ready[slot.name] = _bare(slot.row, value)
         else:
-            ready[slot.name] = given
+            ready[slot.name] = value
     ready["comments"] = []
     if "keyword" in built.values:
         ready["keyword"] = built.values["keyword"]
@@ -156,26 +156,26 @@ def construct(built: ParsedRecord) -> Part:
 
 
 def _bare(row: type[Part], values: dict[str, Value]) -> Part:
-    """A row as it was read."""
+    """Return a row without validation."""
     ready = {slot.name: _known(slot, values.get(slot.json)) for slot in record_schema(row).columns}
     return row.model_construct(None if issubclass(row, ListRow) else _given(ready), **ready)
 
 
 def _given(fields: dict[str, Any]) -> set[str]:
-    """The names of the fields that are known: what is not is not written."""
+    """Return the names of the known fields: unknown ones are not written."""
     return {name for name, value in fields.items() if not is_unknown(value)}
 
 
 def _known(slot: FieldSpec, value: object) -> Any:
-    """A value of a field, or what stands for one that could not be read."""
+    """Return the value of a field; for an unreadable value the one that stands for it."""
     return UNKNOWN_NAME if value is UNKNOWN and slot.is_text else value
 
 
 @dataclass(slots=True)
 class Places:
-    """Spans by path. Tables keep only where their runs begin: a row is looked up when somebody asks.
+    """Spans by path. Tables store only the starts of their runs; a row is looked up on demand.
 
-    `kept` is where the lines begin that are passed through unchanged.
+    `kept` has the offsets of lines that are passed through unchanged.
     """
 
     text: str
@@ -188,15 +188,15 @@ class Places:
     __repr__ = short_repr
 
     def add(self, record: ParsedRecord, path: Path = ()) -> None:
-        """Add the values of a record, and of the records in it."""
+        """Add the values of a record and of its inner records."""
         if record.opening:
             self.spans[path] = trimmed(self.text, *record.opening)
         for name, span, names, fields in record.written:
             inner = path if name is None else (*path, name)
             if span:
                 self.spans[inner] = span
-            for column, given in zip(names, fields, strict=False):
-                self.spans[*inner, column] = given.span
+            for column, value in zip(names, fields, strict=False):
+                self.spans[*inner, column] = value.span
         for name, table in record.tables.items():
             if table.runs:
                 self.runs[*path, name] = table.runs
@@ -205,7 +205,7 @@ class Places:
                 self.add(child, (*path, name, index))
 
     def find(self, path: Path) -> Span:
-        """The span of a value; where it has none (it was left out), that of the nearest thing around it."""
+        """Return the span of a value; for a value that was left out, the span of the nearest enclosing object."""
         for length in range(len(path), 0, -1):
             inner = path[:length]
             if inner in self.spans:
@@ -215,35 +215,35 @@ class Places:
         return self.block
 
     def has(self, path: Path) -> bool:
-        """Whether exactly this value was written in the deck."""
+        """Return True if exactly this value was written in the deck."""
         return path in self.spans or path in self.runs
 
     def at(self, offset: int) -> tuple[Path, Span] | None:
-        """The innermost value that stands at an offset, or that ends there, and its span."""
+        """Return the innermost value that contains an offset or ends there, and its span."""
         around = [(path, span) for path, span in self.spans.items() if path and span.start <= offset <= span.end]
         for path, runs in self.runs.items():
             for first, run in runs:
                 if run.start <= offset <= run.end and (cell := self._cell_at(run, offset)):
                     row, column, span = cell
                     around.append(((*path, first + row, column), span))
-        return min(around, key=lambda found: found[1].end - found[1].start, default=None)
+        return min(around, key=lambda place: place[1].end - place[1].start, default=None)
 
     def _cell_at(self, run: Span, offset: int) -> tuple[int, int, Span] | None:
-        """Row and column of a run at an offset, and the span of the field."""
+        """Return row and column of a run at an offset, and the span of the field."""
         starts = self._starts(run)
         row = bisect_right(starts, offset) - 1
         if row < 0:
             return None
         stop = self.text.find("\n", starts[row], run.end)
         fields = row_fields(self.text, Span(starts[row], run.end if stop < 0 else stop), MOST_COLUMNS)
-        at = (column for column, given in enumerate(fields) if given.span.start <= offset <= given.span.end)
+        at = (column for column, field in enumerate(fields) if field.span.start <= offset <= field.span.end)
         column = next(at, None)
         return None if column is None else (row, column, fields[column].span)
 
     def moved(self, text: str, by: int) -> Places:
-        """The same in a text in which all of it stands further behind."""
+        """Return the places in a longer text that contains this text at the offset `by`."""
         spans = {path: span.moved(by) for path, span in self.spans.items()}
-        runs = {path: [(row, span.moved(by)) for row, span in found] for path, found in self.runs.items()}
+        runs = {path: [(row, span.moved(by)) for row, span in starts] for path, starts in self.runs.items()}
         return Places(text, self.block.moved(by), spans, runs, frozenset(at + by for at in self.kept))
 
     def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
@@ -261,7 +261,7 @@ class Places:
         return Span(fields[0].span.start, fields[-1].span.end) if fields else line
 
     def _starts(self, run: Span) -> array[int]:
-        """Where the rows of a run begin, found once."""
+        """Return the offsets of the rows of a run, cached."""
         if run not in self._lines:
             self._lines[run] = row_starts(self.text, run)
         return self._lines[run]

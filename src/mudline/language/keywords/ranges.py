@@ -1,6 +1,6 @@
 """Values of a block that its model refuses: numbers out of the range of their field, curves of too few points.
 
-Text is read as it is, so that a check reports such a value at its place; no document holds one.
+They are read from text unchanged, so that a check reports them at their place; documents with them are refused.
 """
 
 from __future__ import annotations
@@ -14,23 +14,23 @@ from mudline.language.keywords.table import Table
 
 
 def range_fault(value: float, slot: FieldSpec) -> str:
-    """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+    """Return the fault of a number that is out of range, or ""; NaN, which stands for an unreadable value, has none."""
     fault = slot.about.fault(value)
     return f"{in_words(slot)} is {value!r}: {fault}" if fault else ""
 
 
 def in_words(slot: FieldSpec) -> str:
-    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
+    """Return the field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
     meaning = re.split("[;,]", slot.about.meaning)[0]
     if slot.key:
         return slot.label
-    if slot.label.islower():  # words of the meaning; a symbol has capitals
+    if slot.label.islower():  # a word; symbols have capitals
         return meaning
     return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
 
 
 def is_refused(part: Part) -> bool:
-    """Whether no document can hold a block that was read from text."""
+    """Return True if a block that was read from text cannot be written as a document."""
     return (
         any(True for _ in range_faults(part))
         or any(len(curve) < FEWEST_POINTS for _, _, curve in part.walk(_is_curve))
@@ -48,7 +48,7 @@ def range_faults(part: Part) -> Iterator[tuple[Path, str]]:
 
 
 def _is_ranged(slot: FieldSpec) -> bool:
-    """Return True for a field with a range but those of GEN=, and for a table that has a column with one."""
+    """Return True for a field with a range, except those of GEN=, and for a table with a ranged column."""
     if isinstance(slot.about, Rows):
         return bool(_ranged_columns(slot.row))
     return bool(slot.about.limits) and not slot.of_list
@@ -61,7 +61,7 @@ def _is_ranged_in_list(slot: FieldSpec) -> bool:
 
 @cache
 def ranged_slots(part: type[Part]) -> tuple[FieldSpec, ...]:
-    """Return the fields with a range of a part and of those inside it."""
+    """Return the ranged fields of a part and of its inner parts."""
     return tuple(slot for slot in fields_of(part) if slot.about.limits and not slot.of_list)
 
 
@@ -72,7 +72,7 @@ def _ranged_columns(row: type[Part] | None) -> tuple[tuple[int, FieldSpec], ...]
 
 
 def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
-    """Row, column and message of each value of a table that is out of range."""
+    """Yield row, column and message of each value of a table that is out of range."""
     for index, column in _ranged_columns(slot.row):
         for row, value in enumerate(table.column(index).tolist()):
             if fault := range_fault(value, column):

@@ -1,4 +1,4 @@
-"""A raw block to the model of its keyword: contents, grammar, values, comments; every fault is one problem."""
+"""Reading of a block: contents, grammar, values, comments, and the model of its keyword; every fault is one problem."""
 
 from __future__ import annotations
 
@@ -29,12 +29,13 @@ from mudline.language.syntax.tree import Kind, Leaf, RawBlock
 
 @dataclass(slots=True)
 class ReadBlock:
-    """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
+    """Result of reading a block: model, places of its values, problems, and `trailing` comments behind its last line.
 
-    `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
-    in the text that was read, or what finds them when somebody asks.
-    Where a piece was read, `whole` is the text that it belongs to and where it begins there. A block is `opaque` where
-    what its keyword demands may stand in lines of an unknown form: all of it is then passed through unchanged.
+    Attributes:
+        found: places in the text that was read, or a function that finds them on demand.
+        lost: number of lines that could not be used at all; their definitions are unknown.
+        whole: text that contains the piece that was read, and the offset of the piece in it.
+        opaque: True if mandatory lines may be among lines of unknown form: the block is then passed through unchanged.
     """
 
     model: Block
@@ -49,56 +50,56 @@ class ReadBlock:
 
     @property
     def own(self) -> Places:
-        """The places in the text that was read."""
-        found = self.found  # read once: decks that share a block may be read in two threads
-        if not isinstance(found, Places):
-            found = self.found = found()
-        return found
+        """Places in the text that was read."""
+        places = self.found  # read once: decks that share a block may be read in two threads
+        if not isinstance(places, Places):
+            places = self.found = places()
+        return places
 
     def _found(self) -> Places:
         return self.own
 
     @property
     def places(self) -> Places:
-        """The places in the whole text; worked out when somebody asks."""
+        """Places in the whole text, computed on demand."""
         if self.whole:
             self.found = self.own.moved(*self.whole)
             self.whole = None
         return self.own
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
-        """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
-        found = self.found if isinstance(self.found, Places) else self._found
-        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
+        """Return the block as part of a text in which its piece begins at `start`, with its problems there."""
+        places = self.found if isinstance(self.found, Places) else self._found
+        return ReadBlock(self.model, places, problems, self.trailing, self.lost, (text, start), self.opaque)
 
 
 class BlockReader(Protocol):
-    """Reads a block as `read_block` does."""
+    """Reader of a block, with the signature of `read_block`."""
 
     def __call__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-        """`text` is the unified text of the source; `last` says that nothing follows the block in it."""
+        """Return the block read from the unified text of a source; `last`: nothing follows the block."""
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it.
+    """Return the block read from the unified text of a source; `last` is True if nothing follows the block in it.
 
-    The places in it are found by reading it again when somebody asks: few blocks are asked for them.
+    Places of values are found on demand by reading the block again: they are needed for few blocks.
     """
-    read = _Reader(text, raw, declared, last=last).read()
+    read = _BlockParser(text, raw, declared, last=last).read()
     read.found = partial(_places, text, raw, declared, last=last)
     return read
 
 
 def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
-    reader = _Reader(text, raw, declared, last=last)
+    reader = _BlockParser(text, raw, declared, last=last)
     reader.read()
     return reader.places()
 
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
-    """Whether a block reads without an error, and all of it but what its declaration says to be of unknown form.
+    """Return True if a block reads without an error, and keeps no lines but those that its declaration leaves unread.
 
-    That is sooner known than what is wrong in it.
+    This is faster than finding the errors.
     """
     ends: frozenset[str] = frozenset()
     keys = all_keys(declared)
@@ -109,21 +110,21 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
             ends = opened(declared, key, value)
             if key not in keys or (ends and not is_choice(declared, key, value)):
                 return False
-    reader = _Reader(text, raw, declared, last=False)
+    reader = _BlockParser(text, raw, declared, last=False)
     if grammar.tree_of(declared.rule, reader.contents()) is None or reader.lost:
         return False
     kept = len(reader.kept)
-    found = _Reader(text, raw, declared, last=False).read()
-    return found.lost == kept and not any(one.weight is Severity.ERROR for one in found.problems)
+    block = _BlockParser(text, raw, declared, last=False).read()
+    return block.lost == kept and not any(problem.weight is Severity.ERROR for problem in block.problems)
 
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
+    """Return a block read as if its lines were the whole text; `raw` is the block at offset `start` of the text."""
     head, *leaves = (Leaf(leaf.kind, leaf.span.moved(-start)) for leaf in (raw.head, *raw.leaves))
     return read_block(piece, RawBlock(head, raw.name, leaves, raw.older), declared, last=last)
 
 
-class _Reader:
+class _BlockParser:
     def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> None:
         self.text = text
         self.raw = raw
@@ -137,17 +138,17 @@ class _Reader:
         self.built: ParsedRecord | None = None
 
     def read(self) -> ReadBlock:
-        """What the lines give; of an open block without those that have another form than it knows."""
+        """Return the block read from its lines, without lines of unknown form if it is open."""
         contents = self.contents()
         noticed, lost = self.problems, self.lost
         while True:
             self.problems, self.lost = [*noticed], lost
-            found = self._attempt(contents)
+            block = self._attempt(contents)
             if not self.declared.open_lines or self.declared.known_forms:
-                return found
+                return block
             odd = of_other_form(self.text, self.problems, contents, tabular=self.declared.tabular)
             if not odd:
-                return found
+                return block
             noticed += doubtful(self.problems)
             self._keep_all(odd, contents)
 
@@ -170,9 +171,9 @@ class _Reader:
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
-            first = min(kept.span.start for kept in self.kept)  # what stands before it has no other form
-            lines = [one.found.span for one in mismatches if one.found and one.found.span.start < first]
-            certain = [one for one in problems if one.span and any(a <= one.span.start < b for a, b in lines)]
+            first = min(kept.span.start for kept in self.kept)  # lines before it are of known form
+            lines = [item.found.span for item in mismatches if item.found and item.found.span.start < first]
+            certain = [item for item in problems if item.span and any(a <= item.span.start < b for a, b in lines)]
             rest = [problem for problem in problems if problem not in certain]
             return ReadBlock(model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True)
         return ReadBlock(model, self.places, problems, trailing, self.lost)
@@ -186,9 +187,9 @@ class _Reader:
         return places
 
     def _model(self, built: ParsedRecord) -> Block:
-        """Return the validated model; of a block with faults, what could be read of it."""
+        """Return the validated model; for a block with faults an unvalidated model of its readable values."""
         built.values["keyword"] = self.raw.name
-        if not any(one.weight is Severity.ERROR for one in self.problems):
+        if not any(problem.weight is Severity.ERROR for problem in self.problems):
             try:
                 return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
@@ -199,13 +200,13 @@ class _Reader:
                     if fault["type"] == "missing":
                         message = f"{_label(self.declared, place)} is missing here"
                     self.problems.append(Problem(SYN001, message, places.find(place)))
-        lost = [one.span.start for one in self.problems if one.code in (SYN001, SYN004) and one.span is not None]
+        lost = [problem.span.start for problem in self.problems if problem.code in (SYN001, SYN004) and problem.span]
         if lost:
             lose(built, lost)
         return cast("Block", construct(built))
 
     def contents(self) -> list[Content]:
-        """The lines as the terminals of the grammar; those that are none are reported."""
+        """Return the lines as terminals of the grammar; report unknown ones."""
         contents: list[Content] = []
         ends: frozenset[str] = frozenset()
         for leaf in self.raw.leaves:
@@ -244,14 +245,14 @@ class _Reader:
         self.comments.append(Between(leaf.span.start, line[1:], leaf.span))
 
     def _undecided(self, leaf: Leaf, contents: list[Content]) -> frozenset[str]:
-        """A line with C and a letter in column 1: a known key makes it data, else it is a comment, with a warning."""
+        """Read a line with C and a letter in column 1: data if its key is known, else a comment, with a warning."""
         key = first_key(self.text, leaf.span)
         if key in self.keys:
             return self._setting(leaf.span, contents)
         line = self.text[slice(*leaf.span)].rstrip("\r\n")
-        meant = suggestion(key, sorted(self.keys)) if key else ""
+        near = suggestion(key, sorted(self.keys)) if key else ""
         message = (
-            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
+            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){near}: "
             "put a space after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
@@ -259,7 +260,7 @@ class _Reader:
         return frozenset()
 
     def _setting(self, span: Span, contents: list[Content]) -> frozenset[str]:
-        """A line that begins with a setting; returns the keys that end the lines to be kept behind it, if any are."""
+        """Read a line that begins with a setting; return the keys that end the kept lines after it, if any."""
         key = first_key(self.text, span)
         if key in self.keys:
             contents.append(Content(grammar.terminal_of(key), span))
@@ -284,27 +285,27 @@ class _Reader:
     def _report(self, mismatch: Mismatch) -> None:
         hidden = set() if self.raw.older else {grammar.terminal_of(key) for key in older_keys(self.declared)}
         shown_ = (terminal for terminal in mismatch.expected if terminal != END and terminal not in hidden)
-        wanted = " or ".join(map(self._describe, shown_))
-        wanted = wanted or "nothing more in this block"
+        expected = " or ".join(map(self._describe, shown_))
+        expected = expected or "nothing more in this block"
         self.lost += 1
         if mismatch.found is None:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
-            message = f"{where} is incomplete: missing {wanted}"
+            message = f"{where} is incomplete: missing {expected}"
             lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
             span = trimmed(self.text, *lines[-1].span)
             self.problems.append(Problem(code, message, span))
             return
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:
-            wanted = self._describe(mismatch.missing)
-            message = f"expected {wanted} before this line: write {wanted} and its value above it"
+            expected = self._describe(mismatch.missing)
+            message = f"expected {expected} before this line: write {expected} and its value above it"
             if mismatch.missing == ROW:
-                message = f"expected {wanted} before this line"
+                message = f"expected {expected} before this line"
             self.problems.append(Problem(SYN001, message, span))
             return
-        found = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
-        message = f"*{self.raw.name} has no place for {found} here: expected {wanted}"
+        line = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
+        message = f"*{self.raw.name} has no place for {line} here: expected {expected}"
         self.problems.append(Problem(SYN001, message, span))
 
     def _describe(self, terminal: str) -> str:
@@ -317,7 +318,7 @@ class _Reader:
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
-    """The name, for a reader, of the field at a place of a block."""
+    """Return the label, for a reader, of the field at a place of a block."""
     label = ""
     for step in place:
         slot = next((slot for slot in record_schema(part).slots if slot.json == step), None)
@@ -329,19 +330,19 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
 
 @cache
 def all_keys(part: type[Part]) -> frozenset[str]:
-    """Every KEY that the lines of a keyword may begin with or hold."""
-    return frozenset(key for found in schemas_of(part) for key in found.keys)
+    """Return every KEY on the lines of a keyword, at the beginning or within."""
+    return frozenset(key for schema in schemas_of(part) for key in schema.keys)
 
 
 @cache
 def older_keys(part: type[Part]) -> frozenset[str]:
-    """The KEYs that only decks of the older program have."""
-    found = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
-    return frozenset(key for slots in found for key, slot in slots if slot.about.older is True)
+    """Return the KEYs that only decks of the older program have."""
+    fields = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
+    return frozenset(key for slots in fields for key, slot in slots if slot.about.older is True)
 
 
 def schemas_of(part: type[Part]) -> list[RecordSchema]:
-    """The schema of a part and of the records below it."""
+    """Return the schemas of a part and of its inner records."""
     own = record_schema(part)
     below = [inner for slot in own.children.values() for record in slot.record.values() for inner in schemas_of(record)]
     return [own, *below]

@@ -1,4 +1,4 @@
-"""Tables of rows as arrays, with the few fields that are not numbers beside them; tables and lists of documents."""
+"""Tables of rows as arrays, with their few texts in a dict; tables and lists of documents."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError, to_json
 from mudline.basics.short_repr import counted
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.values import Equation, Kind, Label
-from mudline.language.syntax.rows import Rows as RawRows
-from mudline.language.syntax.rows import read_rows
+from mudline.language.syntax.rows import RawRows, read_rows
 
 Cell = float | int | str | None
 LARGEST_WHOLE = 2**53
@@ -24,27 +23,27 @@ _ROWS_AT_ONCE = 8192
 
 
 def not_whole(written: str, value: float, label: str) -> str:
-    """Why a number cannot stand where a whole one belongs; `written` is how it stands there."""
+    """Return the message for a number in place of a whole one; `written` is its spelling."""
     if value.is_integer():
         return f"{written} is too large: {label} needs a whole number of at most 2^53 ({LARGEST_WHOLE})"
     return f"{written} is not a whole number: {label} needs one"
 
 
 def misfit(message: str, *path: str | int) -> ValidationError:
-    """What a validator raises for a fault inside of what it is given, as that of a row, or of a row and a column."""
+    """Return the error to be raised for a fault inside a value, at a row, or at a row and a column."""
     kind = PydanticCustomError("table", "{fault}", {"fault": message})
     return ValidationError.from_exception_data("table", [InitErrorDetails(type=kind, loc=path, input=None)])
 
 
-class Part(NamedTuple):
-    """Some rows of a table as lists; `plain`: all cells are numbers, all rows as long as the table is wide."""
+class RowChunk(NamedTuple):
+    """Some rows of a table as lists; `plain` is True if all cells are numbers and all rows have the full width."""
 
     rows: list[list[Cell]]
     plain: bool
 
 
 class Column(NamedTuple):
-    """What a column holds."""
+    """Column of a table: label, kind of its values, and whether it is required."""
 
     label: str
     kind: Kind
@@ -52,11 +51,11 @@ class Column(NamedTuple):
 
     @property
     def whole(self) -> bool:
-        """Whether its numbers are whole."""
+        """True if the numbers are whole."""
         return self.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
 
     def fault(self, word: str) -> str:
-        """Why a field that is not a number is not allowed here, or ""."""
+        """Return the fault of a field that is not a number, or ""."""
         if word == "":
             return f"{self.label} is missing: expected {self.kind.value}" if self.required else ""
         if self.kind is Kind.IDENT:
@@ -65,12 +64,14 @@ class Column(NamedTuple):
 
 
 class Table:
-    """Rows of a fixed number of columns, each a tuple for who takes or goes through them.
+    """Rows of a fixed number of columns; iteration gives tuples.
 
-    `values` (rows, columns) float64 holds NaN in a field without a number; `words` says what it holds instead: an
-    equation, a label, or None for an empty field. A NaN without a word is a field that could not be read, or one
-    beyond the row's end. `lengths` (rows,) counts the fields given in each row; in a `full` table all are. `columns`
-    are known of a table in a block.
+    Attributes:
+        values: (rows, columns) float64; NaN in a field without a number.
+        words: contents of such a field: an equation, a label, or None if it is empty. A field without word and number
+            could not be read, or is beyond the end of its row.
+        lengths: (rows,) number of fields in each row; in a `full` table all rows have all fields.
+        columns: columns of a table in a block.
     """
 
     __slots__ = ("_lengths", "columns", "values", "words")
@@ -88,12 +89,12 @@ class Table:
 
     @property
     def full(self) -> bool:
-        """Whether it is known that every row is as long as the table is wide, without a word."""
+        """True if every row is known to have all columns and no words."""
         return self._lengths is None and not self.words
 
     @property
     def lengths(self) -> NDArray[np.intp]:
-        """The number of fields given in each row."""
+        """Number of fields in each row, (rows,)."""
         if self._lengths is None:
             self._lengths = np.full(len(self.values), self.values.shape[1], dtype=np.intp)
         return self._lengths
@@ -111,17 +112,17 @@ class Table:
     def __getitem__(self, at: slice) -> list[tuple[Cell, ...]]: ...
     def __getitem__(self, at: int | slice) -> tuple[Cell, ...] | list[tuple[Cell, ...]]:
         numbers = np.atleast_1d(np.arange(len(self))[at])
-        found = [*self.chosen(numbers)]
-        return found if isinstance(at, slice) else found[0]
+        rows = [*self.chosen(numbers)]
+        return rows if isinstance(at, slice) else rows[0]
 
     def chosen(self, numbers: Sequence[int] | NDArray[np.intp]) -> Table:
-        """The table of some rows, by their numbers, in that order."""
+        """Return the table of the rows with these numbers, in that order."""
         rows = np.asarray(numbers, dtype=np.intp)
         place = {row: number for number, row in enumerate(rows.tolist())}
         words = {(place[row], column): word for (row, column), word in self.words.items() if row in place}
-        found = Table(self.values[rows], self.lengths[rows], words)
-        found.columns = self.columns
-        return found
+        table = Table(self.values[rows], self.lengths[rows], words)
+        table.columns = self.columns
+        return table
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):
@@ -140,17 +141,17 @@ class Table:
 
     @property
     def equations(self) -> bool:
-        """Whether any field is an equation."""
+        """True if any field is an equation."""
         return bool(self.words) and any(isinstance(word, Equation) for word in self.words.values())
 
     @property
     def unknown(self) -> bool:
-        """Whether any field could not be read."""
+        """True if any field could not be read."""
         left_out = len(self.words) + int((self.values.shape[1] - self.lengths).sum())
         return int(np.isnan(self.values).sum()) > left_out
 
     def column(self, index: int, default: float = math.nan) -> NDArray[np.float64]:
-        """One column as an array (rows,); `default` where the row ends before it or the field is empty."""
+        """Return a column as an array (rows,), `default` where the row is too short or the field empty."""
         if index >= self.values.shape[1]:
             return np.full(len(self), default)
         values = self.values[:, index].copy()
@@ -162,18 +163,18 @@ class Table:
         return values
 
     def cell(self, row: int, column: int) -> float | Equation | Label | None:
-        """What stands in a row and column; None where there is no such row, or it ends before."""
+        """Return the contents of a cell; None if the row does not exist or is too short."""
         if (row, column) in self.words:
             return self.words[row, column]
         inside = row < len(self) and column < self.values.shape[1]
         return float(self.values[row, column]) if inside else None
 
     def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
-        """The rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
+        """Return the rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
         return [row for part in self.parts(columns) for row in part.rows]
 
-    def parts(self, columns: Sequence[Column]) -> Iterator[Part]:
-        """The rows as lists, some thousand at a time."""
+    def parts(self, columns: Sequence[Column]) -> Iterator[RowChunk]:
+        """Yield the rows as lists, in chunks of some thousand."""
         odd = (self.lengths != self.values.shape[1]) | np.isnan(self.values).any(axis=1)
         words: dict[int, list[tuple[int, int]]] = {}
         for place in self.words:
@@ -188,11 +189,11 @@ class Table:
                     rows[row - start][column] = None if word is None else str(word)
                 for cells, length in zip(rows, self.lengths[part].tolist(), strict=True):
                     del cells[length:]
-            yield Part(rows, plain)
+            yield RowChunk(rows, plain)
 
 
 def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[Cell]]:
-    """Rows of numbers as lists."""
+    """Return rows of numbers as lists."""
     whole = [column.whole for column in columns[: values.shape[1]]]
     if not any(whole):
         return cast("list[list[Cell]]", values.tolist())
@@ -205,7 +206,7 @@ def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[
 
 
 def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
-    """A table from lists, as JSON holds them. Raises ValidationError for the first row or cell that does not fit."""
+    """Return a table from lists, as in JSON; raises ValidationError for the first row or cell that does not fit."""
     for row, fields in enumerate(cells):
         if type(fields) is not list:
             raise misfit(f"expected a row: a list of {_count(columns)} values", row)
@@ -222,7 +223,7 @@ def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
 
 
 def _numbers(rows: list[list[object]], lengths: NDArray[np.intp], width: int) -> Table | None:
-    """The table of rows that hold finite numbers only; None for others."""
+    """Return the table of rows that only hold finite numbers; None for other rows."""
     if not set(map(type, chain.from_iterable(rows))) <= {int, float}:
         return None
     try:
@@ -239,12 +240,12 @@ def _numbers(rows: list[list[object]], lengths: NDArray[np.intp], width: int) ->
 
 
 def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, columns: Sequence[Column]) -> Table:
-    """The table of rows among whose cells are words."""
+    """Return the table of rows that contain words."""
     values = np.full((len(rows), width), math.nan)
     words: dict[tuple[int, int], Equation | Label | None] = {}
     for row, fields in enumerate(rows):
-        for column, given in enumerate(fields):
-            cell = given.item() if isinstance(given, np.generic) else given
+        for column, value in enumerate(fields):
+            cell = value.item() if isinstance(value, np.generic) else value
             if isinstance(cell, int | float) and not isinstance(cell, bool):
                 values[row, column] = _finite(cell, row, column)
             elif cell is not None and (not isinstance(cell, str) or not cell):
@@ -267,7 +268,7 @@ def _finite(cell: float, row: int, column: int) -> float:
 
 
 def from_text(text: str, columns: Sequence[Column]) -> Table:
-    """A table from a block of rows, as YAML holds a long one. Raises ValidationError for the first fault."""
+    """Return a table from a text of rows, as YAML holds long tables; raises ValidationError for the first fault."""
     table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
     for (row, column), fault in sorted(faults.items()):
         raise misfit(fault, row, *([column] if column >= 0 else []))
@@ -275,9 +276,9 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
 
 
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
-    """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
+    """Return a table from raw rows, and its faults by row and column (column -1: the whole row).
 
-    Empty fields behind the last one that holds something, as trailing commas leave them, are dropped.
+    Empty fields behind the last non-empty one, which trailing commas leave, are dropped.
     """
     fewest, width = fewest_of(columns), raw.values.shape[1]
     if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
@@ -300,7 +301,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
 
 
 def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
-    """The table without empty fields at the ends of its rows, as far as they may be left out."""
+    """Return the table without optional empty fields at the ends of its rows."""
     fewest = max(fewest_of(columns), 1)
     empty = [(row, column) for (row, column), word in table.words.items() if word is None and column >= fewest]
     lengths = table.lengths.copy() if empty else table.lengths
@@ -317,12 +318,12 @@ def _word(text: str) -> Equation | Label | None:
 
 
 def fewest_fields(required: Iterable[bool]) -> int:
-    """How many fields a row must have: all up to the last that is required."""
+    """Return the least number of fields in a row: all up to the last that is required."""
     return max((index + 1 for index, needed in enumerate(required) if needed), default=0)
 
 
 def fewest_of(columns: Sequence[Column]) -> int:
-    """How many fields a row of these columns must have."""
+    """Return the least number of fields in a row of these columns."""
     return fewest_fields(column.required for column in columns)
 
 
@@ -350,7 +351,7 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
 
 
 def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
-    """Whether the whole columns, where they are the first ones, hold nothing but whole numbers and no zero."""
+    """Return True if the leading whole-number columns hold only whole numbers other than zero."""
     whole = [column.whole for column in columns]
     count = whole.index(False) if False in whole else len(whole)
     if True in whole[count:]:
@@ -363,15 +364,15 @@ def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
 
 
 _ROWS_AT_ONCE = 1 << 14
-"""Rows of which what is worked out stays in the fast memory of a processor."""
+"""Number of rows whose intermediate results fit into the fast memory of a processor."""
 
 
 AS_TABLES = "as tables"
-"""The serialization context in which a table becomes a Listing, not lists."""
+"""Serialization context in which a table becomes a Listing, not lists."""
 
 
 class Listing:
-    """A table and its columns, to be written as text at once: lists of a million rows would take half a second more."""
+    """Table and its columns, to be written directly as text: lists of a million rows would take half a second more."""
 
     __slots__ = ("columns", "table")
 
@@ -383,13 +384,13 @@ class Listing:
         return len(self.table)
 
     def rows(self) -> list[list[Cell]]:
-        """The rows as lists."""
+        """Return the rows as lists."""
         return self.table.rows(self.columns)
 
     def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
-        """The rows as text, some thousand at a time, separated by line feeds.
+        """Yield the rows as text, in chunks of some thousand, separated by line feeds.
 
-        Cells are separated by a comma and a space; `spelled` writes a row that is not of numbers only.
+        Cells are separated by a comma and a space; `spelled` writes a row with other contents than numbers.
         """
         for rows, plain in self.table.parts(self.columns):
             if plain:
@@ -399,16 +400,16 @@ class Listing:
                 yield "\n".join(map(spelled, rows))
 
 
-def read_table(given: object, columns: Sequence[Column]) -> Table:
-    """The table of rows, or of a text of rows. Raises ValidationError with row and column, or ValueError."""
-    if isinstance(given, Table):
-        table = given
-    elif isinstance(given, str):
-        table = from_text(given, columns)
-    elif isinstance(given, list) and set(map(type, given)) <= {list}:
-        table = from_cells(given, columns)
-    elif isinstance(given, list | tuple | np.ndarray):
-        table = from_cells(plain(list(given)), columns)
+def read_table(rows: object, columns: Sequence[Column]) -> Table:
+    """Return the table of rows, or of a text of rows; raises ValidationError with row and column, or ValueError."""
+    if isinstance(rows, Table):
+        table = rows
+    elif isinstance(rows, str):
+        table = from_text(rows, columns)
+    elif isinstance(rows, list) and set(map(type, rows)) <= {list}:
+        table = from_cells(rows, columns)
+    elif isinstance(rows, list | tuple | np.ndarray):
+        table = from_cells(plain(list(rows)), columns)
     else:
         raise ValueError("expected rows: a list of lists, or a text with a row a line")
     table.columns = columns
@@ -416,7 +417,7 @@ def read_table(given: object, columns: Sequence[Column]) -> Table:
 
 
 def plain(value: Any) -> Any:
-    """A value as documents have it: arrays, tables and tuples as lists, numbers of numpy as Python's own."""
+    """Return a value in the types of documents: arrays, tables and tuples as lists, numpy numbers as Python's."""
     if isinstance(value, np.generic | np.ndarray):
         return value.tolist()
     if isinstance(value, list | tuple | Table):
@@ -425,7 +426,7 @@ def plain(value: Any) -> Any:
 
 
 def row_format(labels: list[str], required: list[bool]) -> str:
-    """`a, b [, c]`, with empty-able fields before the last required one in brackets."""
+    """Return the format of a row, `a, b [, c]`: optional fields before the last required one in brackets."""
     fewest = fewest_fields(required)
     text = ""
     for index, (label, needed) in enumerate(zip(labels, required, strict=True)):

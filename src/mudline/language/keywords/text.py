@@ -1,4 +1,4 @@
-"""The text of fields and of runs of rows to values, by the kind of the field; remarks behind the data of a line."""
+"""Values of fields and of runs of rows, by the kind of the field; remarks after the data of a line."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from mudline.language.syntax.rows import blank_separated, read_number, spells_nu
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 MIXED_FIELDS = 4
-"""Fields of a row in which a comma can be a decimal one beside others that are not: with fewer nobody can tell."""
+"""Least number of fields in a row with decimal commas among other commas: in shorter rows they cannot be told apart."""
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
@@ -34,7 +34,7 @@ _BEGINS = frozenset("+-.0123456789")
 
 
 class UnreadableError(Exception):
-    """A field that gives no value; the problem is the reason."""
+    """Field without a value; the problem is the reason."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
@@ -42,7 +42,7 @@ class UnreadableError(Exception):
 
 
 def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
-    """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
+    """Return the value of a field; raises UnreadableError. Doubts are added to `problems`."""
     kind = slot.kind
     if kind is _NAME or kind is _TITLE:
         return field.text
@@ -81,24 +81,24 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
 
 
 def reads_as_name(text: str) -> bool:
-    """Whether a field where a number or a name belongs takes this text, as it stands, for a name."""
+    """Return True if a field for a number or a name takes this text for a name."""
     return is_one_field(text) and not maybe_number(text)
 
 
 def maybe_label(text: str) -> Label | None:
-    """A text that is a label if its braces were forgotten: it begins with a letter, and is no NaN or infinity."""
+    """Return a text without braces as a label, if it begins with a letter and is not a NaN or infinity."""
     if not text[:1].isalpha() or not_finite(text):
         return None
     return Label.match("{" + text + "}")
 
 
 def shown(text: str) -> str:
-    """A text of the deck in quotes, cut when long."""
+    """Return a text of the deck in quotes, cut if it is long."""
     return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
 def hint(near: str, word: str = "") -> str:
-    """` (did you mean X?)`, or nothing where no word is near; how a `word` that looks the same differs is told."""
+    """Return ` (did you mean X?)`, or "" if no word is near; explains the difference to a `word` that looks equal."""
     if near and not (word.isascii() and near.isascii()) and _as_seen(word) == _as_seen(near):
         here, there = (text.encode("ascii", "backslashreplace").decode() for text in (word, near))
         return f" (it looks like {near}, but is written with other characters: {here} here, {there} there)"
@@ -106,7 +106,7 @@ def hint(near: str, word: str = "") -> str:
 
 
 def _as_seen(text: str) -> str:
-    """A text in which accents are parts of their letters, without characters that nobody sees."""
+    """Return a text with accents as parts of their letters, without invisible characters."""
     import unicodedata  # noqa: PLC0415 - few decks have such letters
 
     seen = (letter for letter in unicodedata.normalize("NFKC", text) if unicodedata.category(letter) != "Cf")
@@ -114,22 +114,22 @@ def _as_seen(text: str) -> str:
 
 
 def suggestion(word: str, known: Iterable[str], effort: Effort | None = None) -> str:
-    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+    """Return ` (did you mean X?)` for the nearest known word within two edits (one for a short word), or ""."""
     return hint(nearest(word, known, effort))
 
 
 def instead(near: str, span: Span) -> Repair | None:
-    """The repair that puts the word that was meant in the place of another; None where no word is near."""
+    """Return the repair that replaces a word by the near one; None if no word is near."""
     return Repair("unsafe", f"write {near}", ((span, near),)) if near else None
 
 
 def in_braces(text: str, span: Span) -> Repair:
-    """The repair that makes a label of a text."""
+    """Return the repair that turns a text into a label."""
     return Repair("unsafe", "put the label in braces", ((span, "{" + text + "}"),))
 
 
 def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
-    """The finding about a row of whole numbers whose count is right if every real one takes two fields."""
+    """Return the problem of a row of whole numbers whose count is right if each real number takes two fields."""
     for length in range(max(fewest, 1), len(kinds) + 1):
         widths = [2 if kind in _REAL else 1 for kind in kinds[:length]]
         numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
@@ -145,7 +145,7 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
 
 
 def semicolons(text: str, fields: list[Field]) -> Problem | None:
-    """The finding about numbers that semicolons separate, as a spreadsheet writes them where commas are decimal."""
+    """Return the problem of numbers separated by semicolons, as spreadsheets with decimal commas write them."""
     if not fields or text.find(";", fields[0].start, fields[-1].span.end) < 0:
         return None
     span = Span(fields[0].span.start, fields[-1].span.end)
@@ -159,40 +159,40 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
 
 
 def missing_comma(fields: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
-    """The finding about a field of several numbers, in a row whose count is right with commas between them."""
-    given = fields
-    while given and not given[-1].text:
-        given = given[:-1]
-    joined = [at for at, field in enumerate(given) if field.text[:1] in _BEGINS and blank_separated(field.text)]
-    words = [given[at].text.split() for at in joined]
-    count = len(given) + sum(len(each) - 1 for each in words)
+    """Return the problem of a field of several numbers if commas between them make the row's count right."""
+    filled = fields
+    while filled and not filled[-1].text:
+        filled = filled[:-1]
+    joined = [at for at, field in enumerate(filled) if field.text[:1] in _BEGINS and blank_separated(field.text)]
+    words = [filled[at].text.split() for at in joined]
+    count = len(filled) + sum(len(each) - 1 for each in words)
     if not joined or not fewest <= count <= len(kinds) or any(kinds[at] not in _NUMBERS for at in joined):
         return None
-    if len(words[0]) == 2 and is_grouped(given[joined[0]].text) and len(given) >= fewest:
+    if len(words[0]) == 2 and is_grouped(filled[joined[0]].text) and len(filled) >= fewest:
         return None
-    one, two = words[0][:2]
-    span, meant = given[joined[0]].span, ", ".join(words[0])
-    message = f"a comma is missing between {one} and {two}: write {meant}"
-    return Problem(SYN003, message, span, repair=Repair("unsafe", f"write {meant}", ((span, meant),)))
+    first, second = words[0][:2]
+    span, repaired = filled[joined[0]].span, ", ".join(words[0])
+    message = f"a comma is missing between {first} and {second}: write {repaired}"
+    return Problem(SYN003, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
 
 
-def _is_tight(one: Field, two: Field) -> bool:
-    """Whether two fields have a comma between them, and no blank."""
-    return one.start + len(one.text) + 1 == two.start
+def _is_tight(first: Field, second: Field) -> bool:
+    """Return True if there is a comma and no blank between two fields."""
+    return first.start + len(first.text) + 1 == second.start
 
 
-def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
-    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
-    return Problem(SYN015, message, one.span._replace(end=two.span.end), severity)
+def _two_fields(first: Field, second: Field, severity: Severity | None = None) -> Problem:
+    message = f"decimal comma? {first.text},{second.text} is two fields here: write {first.text}.{second.text}"
+    return Problem(SYN015, message, first.span._replace(end=second.span.end), severity)
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
-    """The finding about a row in which some commas have no space beside them, between digits, and others have one.
+    """Return the problem of a row in which some commas, between digits, have no space beside them, but others have.
 
-    One such pair may be a slip of the fingers, unless the second half begins with a zero or all other numbers have a
-    point; two of them where real numbers belong are decimal commas.
+    A single comma without space may be a slip. It is a decimal comma if the second part begins with a zero, or all
+    other numbers have a point. Several such commas in place of real numbers are decimal commas.
     """
-    tight = [_is_tight(one, two) for one, two in pairwise(values)]
+    tight = [_is_tight(first, second) for first, second in pairwise(values)]
     if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]
@@ -208,13 +208,11 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
 
 
 def _is_split(values: list[Field], at: int) -> bool:
-    """Whether two fields are the halves of one number: `0,05`, or `9,81` among numbers that have a point."""
+    """Return True if two fields are the halves of one number: `0,05`, or `9,81` among numbers that have a point."""
     half = values[at + 1].text
-    others = [field.text for i, field in enumerate(values) if i not in (at, at + 1)]
-    pointed = sum("." in other for other in others)
-    return half.strip("0") != "" and (
-        (half[0] == "0" and len(half) > 1) or (pointed > 0 and pointed >= len(others) - 1)
-    )
+    texts = [field.text for i, field in enumerate(values) if i not in (at, at + 1)]
+    pointed = sum("." in text for text in texts)
+    return half.strip("0") != "" and ((half[0] == "0" and len(half) > 1) or (pointed > 0 and pointed >= len(texts) - 1))
 
 
 def _choice(field: Field, slot: FieldSpec) -> str:
@@ -222,7 +220,7 @@ def _choice(field: Field, slot: FieldSpec) -> str:
     if word in slot.choices:
         return word
     known = list(slot.choices)
-    known = [*(["a number"] if slot.kind else []), *known, *([record_schema(slot.row).wanted] if slot.row else [])]
+    known = [*(["a number"] if slot.kind else []), *known, *([record_schema(slot.row).layout] if slot.row else [])]
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
     near = nearest(word, slot.choices)
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
@@ -230,9 +228,9 @@ def _choice(field: Field, slot: FieldSpec) -> str:
 
 
 def _open_choice(field: Field, slot: FieldSpec, problems: list[Problem]) -> str:
-    """A known value, or another one as it is: a warning where it is spelt nearly as a known one.
+    """Return a known value, or an unknown one unchanged, with a warning if it is spelt almost like a known one.
 
-    Else an info, where lines behind a known one would have been read.
+    Otherwise the unknown value is an info if the lines behind some known value would have been read.
     """
     word = " ".join(field.text.upper().split())
     if word in slot.choices:
@@ -249,7 +247,7 @@ def _open_choice(field: Field, slot: FieldSpec, problems: list[Problem]) -> str:
 _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
 _COMMENT = re.compile(r"[ \t]*(?:[#!;]|//|--(?![0-9.]))")
-"""The begin of a line that is a comment in other programs."""
+"""Beginning of a line that is a comment in other programs."""
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
 _OF_LINES = _OF_FIELDS | {SYN001, SYN004}
 _NO_LINE = Span(0, 0)
@@ -257,7 +255,7 @@ _ADVICE = "a line cannot end with a comment; put it on a line of its own, after 
 
 
 def remark_of(line: str) -> str:
-    """The remark behind the data of a line or a field, or nothing."""
+    """Return the remark after the data of a line or a field, or ""."""
     mark = _MARK.search(line)
     if mark is None or not line[: mark.start()].strip(" \t") or not _LETTER.search(line, mark.end()):
         return ""
@@ -267,12 +265,12 @@ def remark_of(line: str) -> str:
 
 
 def advice_on(name: str) -> str:
-    """What to do about a name that holds a remark, or nothing."""
+    """Return advice on a name that contains a remark, or ""."""
     return _ADVICE if remark_of(name) else ""
 
 
 def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
-    """The problems of a text, with one in the place of all those that the fields of a line have by a remark."""
+    """Return the problems of a text; those that a remark causes on one line are merged into one."""
     problems = _comments_named(text, problems)
     if not any(problem.code in _OF_FIELDS for problem in problems):
         return problems
@@ -298,7 +296,7 @@ def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
 
 
 def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
-    """The problems of a text, with one in the place of all those of a line that other programs take for a comment."""
+    """Return the problems of a text; those of a line that is a comment in other programs are merged into one."""
     if not problems:
         return problems
     kept: list[Problem] = []
@@ -322,12 +320,12 @@ def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
 
 
 def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
-    """The remark on the line of each problem with a field."""
-    found: list[Span | None] = []
+    """Return the span of the remark on the line of each problem, None for problems without remark or field."""
+    remarks: list[Span | None] = []
     line, remark = _NO_LINE, None
     for problem in problems:
         if problem.span is None or problem.code not in _OF_FIELDS:
-            found.append(None)
+            remarks.append(None)
             continue
         if not line.start <= problem.span.start < line.end:
             end = text.find("\n", problem.span.start)
@@ -335,5 +333,5 @@ def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
             words = remark_of(text[slice(*line)])
             start = text.find(words, line.start)
             remark = Span(start, start + len(words)) if words else None
-        found.append(remark)
-    return found
+        remarks.append(remark)
+    return remarks

@@ -1,4 +1,4 @@
-"""Values that stand in a deck and could not be read: neither absent (None) nor a number."""
+"""Values in a deck that could not be read: neither absent (None) nor numbers."""
 
 from __future__ import annotations
 
@@ -11,91 +11,91 @@ from mudline.language.keywords.table import Table
 
 
 class Unknown(float):
-    """The value of `UNKNOWN`: a NaN, and whatever is asked of it is unknown too.
+    """Class of `UNKNOWN`: a NaN whose attributes and items are unknown too.
 
-    So a check that looks for what is absent (`is None`) passes over it, and one that compares numbers is silent. In a
-    table an unknown cell is a NaN without a word.
+    A check for an absent value (`is None`) does not report it, and a comparison of numbers is False. In a table an
+    unknown cell is a NaN without a word.
     """
 
     __slots__ = ()
 
     def __new__(cls) -> Self:
-        """The NaN."""
+        """Return the NaN."""
         return super().__new__(cls, "nan")
 
     def __getattr__(self, name: str) -> Any:
-        """A part of what is unknown; what Python itself looks for is none."""
+        """Return an unknown attribute; AttributeError for names that Python itself looks up."""
         if name.startswith("__"):
             raise AttributeError(name)
         return self
 
     def __call__(self, *_: object, **__: object) -> Self:
-        """What a method of what is unknown gives."""
+        """Return an unknown result."""
         return self
 
     def __getitem__(self, _: object) -> Self:
-        """An item of what is unknown."""
+        """Return an unknown item."""
         return self
 
     def __iter__(self) -> Iterator[Any]:
-        """The items that are known: none."""
+        """Return an iterator over the known items: none."""
         return iter(())
 
     def __len__(self) -> int:
-        """How many of them are known."""
+        """Return the number of known items: 0."""
         return 0
 
     def __bool__(self) -> bool:
-        """It was given."""
+        """Return True: the value was given."""
         return True
 
     def __repr__(self) -> str:
-        """The name of the value."""
+        """Return the name of the value."""
         return "UNKNOWN"
 
     def __reduce__(self) -> str:
-        """There is one, also in a copy."""
+        """Return the name of the only instance, also for a copy."""
         return "UNKNOWN"
 
 
 UNKNOWN: Final[Any] = Unknown()
-"""A value that could not be read, in the place of one of any type but a text."""
+"""Unreadable value, in the place of a value of any type but text."""
 
 
 class UnknownName(str):
-    """The value of `UNKNOWN_NAME`: an empty text, which names nothing."""
+    """Class of `UNKNOWN_NAME`: an empty text, which refers to no object."""
 
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """The name of the value."""
+        """Return the name of the value."""
         return "UNKNOWN_NAME"
 
     def __reduce__(self) -> str:
-        """There is one, also in a copy."""
+        """Return the name of the only instance, also for a copy."""
         return "UNKNOWN_NAME"
 
 
 UNKNOWN_NAME: Final[str] = UnknownName()
-"""A name or word that could not be read."""
+"""Unreadable name or word."""
 
 
 class Partly(list[Any]):
-    """A list of which not all could be read: it may have more items than these."""
+    """List with unreadable items: it may have more items than these."""
 
 
 def known_name(name: str | None) -> str | None:
-    """A name that was given and could be read, else None."""
+    """Return a name that was given and could be read, else None."""
     return None if name is UNKNOWN_NAME else name
 
 
 def is_unknown(value: object) -> bool:
-    """Whether a value stands in the deck and could not be read."""
+    """Return True if a value is given in the deck, but could not be read."""
     return value is UNKNOWN or value is UNKNOWN_NAME
 
 
 def is_partly_unknown(value: object) -> bool:
-    """Whether a value, an item of a list, a field of a table or of a part could not be read."""
+    """Return True if a value, an item of a list, or a field of a table or part could not be read."""
     if is_unknown(value) or type(value) is Partly or (isinstance(value, Table) and value.unknown):
         return True
     return isinstance(value, BaseModel) and any(map(is_partly_unknown, value.__dict__.values()))

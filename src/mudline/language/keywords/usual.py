@@ -1,4 +1,4 @@
-"""Values that are usual: declared with a field, compared by one rule, shown on the page of the keyword."""
+"""Usual values: declared with a field, compared by one rule, shown on the page of the keyword."""
 
 from __future__ import annotations
 
@@ -8,16 +8,22 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Usual:
-    """Values that are usual, from `low` to `high`, both in SI units (angles in degrees), and `why`.
+    """Range of usual values, in SI units (angles in degrees).
 
-    `of` is a measure that is compared in place of the number itself: `/do` is the number over the field `do` of its
-    row, all others are in `mudline.checks.rules.measures`. `when` is a condition, of the same module, without which
-    nothing is compared. Values outside are a warning of `code`; where it is a `remark`, as neither mechanics nor a
-    source says more, an info. Zero is nothing to remark on, nor are values from `also[0]` to `also[1]`, nor powers of
-    ten where they are `placeholder`s.
-
-    `meant` is what the field mostly holds: a unit in which a number is within a factor `within` of it explains the
-    number. With `explained` only such a number is reported.
+    Attributes:
+        low, high: limits; zero is always usual.
+        why: reason for the limits.
+        of: measure that is compared in place of the number. `/do` is the number divided by the field `do` of its row;
+            other measures are in `mudline.checks.rules.measures`.
+        when: condition, of the same module, for the comparison.
+        code: code of the warning for values outside.
+        remark: True if values outside are an info, since neither mechanics nor a source gives more.
+        typical: typical value of the field. A unit in which a number is within a factor `within` of it explains the
+            number.
+        within: factor for `typical`.
+        explained: True if only a number that a unit explains is reported.
+        placeholder: True if powers of ten are not reported.
+        also: further range of usual values.
     """
 
     low: float = -math.inf
@@ -27,18 +33,18 @@ class Usual:
     when: str = ""
     code: str = "UNT007"
     remark: bool = False
-    meant: float = math.nan
+    typical: float = math.nan
     within: float = 1.2
     explained: bool = False
     placeholder: bool = False
     also: tuple[float, float] = (math.nan, math.nan)
 
     def holds(self, value: float) -> bool:
-        """Whether a quantity is usual; NaN, which is not known, counts as usual."""
+        """Return True if a quantity is usual; NaN, which is unknown, counts as usual."""
         return not (value < self.low or value > self.high) or self.also[0] <= value <= self.also[1]
 
     def span(self, factor: float = 1.0) -> str:
-        """The range in words, in a unit of `factor` in SI."""
+        """Return the range in words, in a unit of `factor` in SI."""
         low, high = (f"{float(f'{limit / factor:.3g}'):g}" for limit in (self.low, self.high))
         if math.isinf(self.low):
             return f"at most {high}"
@@ -63,10 +69,10 @@ DIRECTION = Usual(-360.0, 360.0, "a full turn")
 HEEL = Usual(-45.0, 45.0, "no vessel heels farther")
 VESSEL_SIZE = Usual(-500.0, 500.0, "the longest vessel, Prelude, has 488 m")
 
-WIDTH = Usual(high=60.0, why="the hull of a spar has 37 m", code="UNT006", meant=0.3, within=8.0)
+WIDTH = Usual(high=60.0, why="the hull of a spar has 37 m", code="UNT006", typical=0.3, within=8.0)
 BORE = Usual(high=1.0, why="it is inside", of="/outer")
 PIPE_WALL = Usual(
-    high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", code="UNT006", meant=0.3, within=8.0
+    high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", code="UNT006", typical=0.3, within=8.0
 )
 MASS_WIDTH = Usual(
     0.18,
@@ -86,7 +92,7 @@ BENDING = (
 ROUND = Usual(0.01, 100.0, "most lines are round", of="/eiyy", remark=True)
 
 LEAST_BED = Usual(
-    478.0, 2.1e11, "less carries no pipe, more is stiffer than steel", code="UNT002", meant=5e4, within=30.0
+    478.0, 2.1e11, "less carries no pipe, more is stiffer than steel", code="UNT002", typical=5e4, within=30.0
 )
 """478 N/m2 are 10 lbf/ft2."""
 BED = (
@@ -94,7 +100,7 @@ BED = (
     Usual(1e-6, 1.0, "a pipe lies in the soil, not below it", of="diameters that the pipe sinks under its weight"),
 )
 LEAST_SIDE = Usual(
-    95.0, 2.1e11, "less holds no pipe, more is stiffer than steel", code="UNT002", meant=5e3, within=30.0
+    95.0, 2.1e11, "less holds no pipe, more is stiffer than steel", code="UNT002", typical=5e3, within=30.0
 )
 FRICTION = Usual(high=2.0, why="pipes on soil have 0.2 to 1", code="UNT003")
 MOBILISATION = Usual(
@@ -123,7 +129,7 @@ SOIL_CURVES = (
 )
 
 CURRENT = (
-    Usual(-11.5, 11.5, "the strongest tidal stream, Saltstraumen, runs at 22 knots", meant=0.8, within=4.0),
+    Usual(-11.5, 11.5, "the strongest tidal stream, Saltstraumen, runs at 22 knots", typical=0.8, within=4.0),
     Usual(-2.5, 2.5, "the Gulf Stream runs at 2.5 m/s", remark=True),
 )
 WAVE_PERIOD = Usual(1.0, 60.0, "ocean waves have 2 to 30 s")
@@ -146,16 +152,16 @@ HEIGHT = Usual(high=40.0, why="the highest waves that were measured have 30 m")
 STORED = Usual(high=0.5, why="a wave between two times is lost", of="times the shortest period of the waves")
 STEP = Usual(high=5.0, why="waves have periods of 2 to 30 s", when="waves in the time domain")
 
-DRAG = Usual(high=5.0, why="bluff bodies have up to 2.5", meant=1.0, within=3.0)
+DRAG = Usual(high=5.0, why="bluff bodies have up to 2.5", typical=1.0, within=3.0)
 ALONG_DRAG = (
-    Usual(high=3.0, why="along a line there is less drag than across it", meant=0.1, within=10.0),
+    Usual(high=3.0, why="along a line there is less drag than across it", typical=0.1, within=10.0),
     Usual(high=3.0, why="along a line there is less drag than across it", of="/normal_drag"),
     Usual(high=1.0, why="along a line there is less drag than across it", of="/normal_drag", remark=True),
 )
 INERTIA = Usual(1.0, 6.0, "1 and the added mass: a cylinder has 2, at the seabed 3.3")
 ADDED_MASS = Usual(high=5.0, why="a cylinder has 1, at the seabed 2.3")
 LIFT = Usual(-5.0, 5.0, "at the seabed it stays below 5")
-SHIFT_RAO = Usual(-10.0, 10.0, "metres per metre: in resonance 2 to 5", meant=0.7, within=3.0)
+SHIFT_RAO = Usual(-10.0, 10.0, "metres per metre: in resonance 2 to 5", typical=0.7, within=3.0)
 TURN_RAO = Usual(-30.0, 30.0, "degrees per metre: in resonance 5 to 15")
 LONG_WAVE = Usual(0.5, 1.5, "a vessel rises and falls with long waves", of="as heave in a wave of 40 s and longer")
 VESSEL_HEIGHT = (
@@ -175,12 +181,12 @@ OUTER_WIDTH = Usual(
     high=8.0, why="one of them is in another unit", of="times the drag and buoyancy diameters", code="UNT006"
 )
 YOUNG = (
-    Usual(low=1e5, why="rubber has 1E6, steel 2.07E11", code="UNT005", placeholder=True, meant=2.07e11, within=1000.0),
-    Usual(185e9, 220e9, "steel", when="a steel wall", code="UNT005", placeholder=True, meant=2.07e11, explained=True),
+    Usual(low=1e5, why="rubber has 1E6, steel 2.07E11", code="UNT005", placeholder=True, typical=2.07e11, within=1e3),
+    Usual(185e9, 220e9, "steel", when="a steel wall", code="UNT005", placeholder=True, typical=2.07e11, explained=True),
 )
 SHEAR = (
-    Usual(low=1e5, why="steel has 7.96E10", code="UNT005", placeholder=True, meant=7.96e10, within=1000.0),
-    Usual(71e9, 86e9, "steel", when="a steel wall", code="UNT005", placeholder=True, meant=7.96e10, explained=True),
+    Usual(low=1e5, why="steel has 7.96E10", code="UNT005", placeholder=True, typical=7.96e10, within=1000.0),
+    Usual(71e9, 86e9, "steel", when="a steel wall", code="UNT005", placeholder=True, typical=7.96e10, explained=True),
     Usual(low=-0.02, why="of E and G", of="as Poisson's ratio, E / 2G - 1", code="UNT005", placeholder=True),
     Usual(
         high=0.52,
@@ -199,7 +205,7 @@ WALL = (
         when="a wall without an area of its own",
         code="UNT004",
         placeholder=True,
-        meant=7850.0,
+        typical=7850.0,
         within=12.0,
     ),
     Usual(
@@ -207,12 +213,12 @@ WALL = (
         why="foam to steel with its contents; steel has 7850",
         code="UNT004",
         placeholder=True,
-        meant=7850.0,
+        typical=7850.0,
         within=12.0,
     ),
-    Usual(high=40_000.0, why="steel has 7850", code="UNT004", placeholder=True, meant=7850.0, explained=True),
+    Usual(high=40_000.0, why="steel has 7850", code="UNT004", placeholder=True, typical=7850.0, explained=True),
     Usual(
-        low=7000.0, why="steel", when="the modulus of steel", code="UNT004", placeholder=True, meant=7850.0, within=1.1
+        low=7e3, why="steel", when="the modulus of steel", code="UNT004", placeholder=True, typical=7850.0, within=1.1
     ),
     Usual(7.0, 8.4, "steel", of="times the density of the water", when="unknown units", code="UNT004", explained=True),
 )
@@ -222,7 +228,7 @@ SEA_DENSITY = Usual(
     "fresh water to heavy brine",
     code="UNT004",
     placeholder=True,
-    meant=1025.0,
+    typical=1025.0,
     within=1.08,
     also=(1.1, 1.31),
 )
@@ -233,4 +239,4 @@ LIQUID = Usual(
     remark=True,
     also=(0.0, 10.0),
 )
-GRAVITY = Usual(9.614, 10.006, "9.81 on earth", code="UNT001", meant=9.81, within=1.02)
+GRAVITY = Usual(9.614, 10.006, "9.81 on earth", code="UNT001", typical=9.81, within=1.02)

@@ -1,4 +1,4 @@
-"""What a field of a deck can hold and name, and the facts about a keyword besides its fields."""
+"""Types of values in the fields of a deck, kinds of names, and facts about a keyword besides its fields."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchema
 from pydantic_core import CoreSchema, core_schema
 
 _NO_LINE_END = {"not": {"pattern": "[\\r\\n]"}}
-"""Said apart in JSON Schema: in some dialects of patterns $ matches also before a line end."""
+"""Separate condition in JSON Schema: in some dialects of patterns $ also matches before a line end."""
 
 
 class _Pattern(str):
-    """A string of a fixed form, kept as written."""
+    """String of a fixed form, kept as written."""
 
     __slots__ = ()
     form: ClassVar[str]
@@ -36,12 +36,12 @@ class _Pattern(str):
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The form in JSON Schema."""
+        """Return the form in JSON Schema."""
         return {"type": "string", "pattern": cls.form, **_NO_LINE_END}
 
     @classmethod
     def match(cls, text: str) -> Self | None:
-        """The text as this type, or None when it has not this form."""
+        """Return the text as this type, or None if it does not have the form."""
         return cls(text) if re.search(cls.form, text) and not text.endswith("\n") else None
 
 
@@ -53,7 +53,7 @@ class Equation(_Pattern):
 
     @property
     def expression(self) -> str:
-        """What stands between the brackets."""
+        """Text between the brackets."""
         return self[2:-1]
 
 
@@ -65,7 +65,7 @@ class Label(_Pattern):
 
 
 class Kind(Enum):
-    """How a field's text is read; the sentence says what is expected there."""
+    """Kind of a field's text; the sentence tells what is expected."""
 
     REAL = "a number or an equation =[...]"
     WHOLE = "a whole number or an equation =[...]"
@@ -77,15 +77,15 @@ class Kind(Enum):
     OTHER = "another value"
 
 
-def _whole(given: object) -> object:
-    """1.0 is a whole number in JSON."""
-    return int(given) if isinstance(given, float) and given.is_integer() else given
+def _whole(value: object) -> object:
+    """Return an integral float as int: 1.0 is a whole number in JSON."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 class _Either:
-    """The schema of a type that is one or the other, tried in this order; it is made once for all fields of the type.
+    """Schema of a union, tried in order; created once for all fields of the type.
 
-    To make it for each field takes half of the time in which pydantic makes the models of a deck.
+    A schema for each field would take half of the time in which pydantic creates the models of a deck.
     """
 
     __slots__ = ("_schema", "_types")
@@ -112,14 +112,14 @@ Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
 Title = Annotated[Text, Kind.TITLE]
-"""A text to the end of its line, commas included."""
+"""Text to the end of its line, commas included."""
 Other = Annotated[Text, Kind.OTHER]
-"""Beside the known values of a choice: there are others, which are kept as written."""
+"""Unknown value of a choice with known values, kept as written."""
 
 
 @dataclass(frozen=True, slots=True)
 class Successor:
-    """A keyword that supersedes another one; with `key`, by that setting."""
+    """Keyword that supersedes another keyword; with `key`, a setting of that keyword."""
 
     keyword: str
     key: str = ""
@@ -129,26 +129,35 @@ class Successor:
 
 
 Gift = Literal["elements", "sections", "hydrodynamics", "supports"]
-"""What the lines of a keyword may give to a model: some of these, or nothing; the kinds of names are `Names`."""
+"""Property of the model that the lines of a keyword may define; kinds of names are in `Names`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Facts:
     """Facts about a keyword.
 
-    Which keyword it is: `superseded_by` newer ones, of which each `supersedes` older ones; an `extension` is mudline's
-    own; `plans_decks` says that its lines are about decks to be made, which do not have it.
-
-    What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
-    outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and
-    where they lie is not computed. With `later_wins` an element follows the last record whose SET= holds it, and that
-    record as a whole. `carried` are the fields that a block has from the block before it, where it does not give them.
-    `seabed_type` is the type of seabed that a legacy surface is. `gives_law` is the kind of law that elements get in
-    place of what they had, and the field of a record that asks for it. `soil_springs` hold elements in the soil, and
-    what `moves_vessels` lets them follow the waves or a time history; lines that are kept may be of what it `gives` to
-    elements and nodes; it may stand `once` in a section; of elements with `zero_length` the ends may lie at one place.
-    What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
-    `instead_of` says what to write instead of a setting that other keywords have.
+    Attributes:
+        superseded_by: newer keywords with the same purpose.
+        supersedes: True if older keywords have the same purpose.
+        extension: True for a keyword of mudline itself.
+        plans_decks: True if its lines describe decks to be generated, which do not have the keyword.
+        defines: kind of objects that its records define by number or name.
+        makes: keywords whose objects may be defined outside the deck, by the things that its lines refer to.
+        out_of_sight: True if the deck defines such objects, but their positions are not computed.
+        later_wins: True if an element follows the last record whose SET= contains it, and that record as a whole.
+        carried: fields that a block takes over from the block before it unless it gives them.
+        seabed_type: type of seabed of a legacy surface.
+        gives_law: kind of law that replaces that of the elements, and the field of a record that requests it.
+        soil_springs: True if it holds elements in the soil.
+        moves_vessels: True if vessels follow the waves or a time history because of it.
+        gives: properties of elements and nodes that kept lines may define.
+        once: True if a section may have it only once.
+        zero_length: True if both ends of its elements may be at one place.
+        computed_in: heading, on the page on the contact evaluator, of the results that depend on it.
+        instead_of: replacement for settings that other keywords have, by the setting.
+        beside: keywords that the deck must also have.
+        telling: lines that no other keyword has.
+        tells_units: True if its values show the unit system.
     """
 
     superseded_by: tuple[Successor, ...] = ()
@@ -175,10 +184,10 @@ class Facts:
 
 
 class Names(Enum):
-    """What a value names, or what a field `defines`; the words are for a reader.
+    """Kind of object that a value refers to, or that a field `defines`; the words are for a reader.
 
-    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have
-    checks of their own, as they are more than names; all other kinds share one.
+    Each reference is checked. Sets, force-embedment curves, nodes, elements, parameters and files have checks of their
+    own; all other kinds share one.
     """
 
     SET = "an element set"
@@ -209,11 +218,11 @@ class Names(Enum):
     S_N_CURVE = "an S-N curve"
     VARIABLE = "an output variable"
 
-    __hash__ = object.__hash__  # that of `Enum` is a function of Python, and names are looked up by kind
+    __hash__ = object.__hash__  # that of `Enum` is slow Python, and names are looked up by kind
 
 
-class Contents(Enum):
-    """What a file that a deck names holds; the words are for a reader."""
+class DataFile(Enum):
+    """Contents of a file that a deck names; the words are for a reader."""
 
     OPERATORS = "response amplitude operators"
     MOTIONS = "time and six displacements"
@@ -227,20 +236,29 @@ LINE_SETS: Mapping[str, Names] = {
     "SECTION": Names.SET,
     "ADDITIONAL": Names.SETS,
 }
-"""Settings of lines that make element sets: a line and each of its sections is one."""
+"""Settings of lines that create element sets: a line and each of its sections is a set."""
 
 
 Subject = Literal["deck", "model", "seabed", "loads", "waves", "vessels", "analysis", "post-processing"]
-"""What a keyword is about."""
+"""Subject of a keyword."""
 SUBJECTS: tuple[Subject, ...] = get_args(Subject)
 
 
 class Entry(NamedTuple):
-    """A declaration in the index: its module, its name there, and what has to be known of it before it is imported.
+    """Entry of the index: a declaration, and the facts that are needed before its module is imported.
 
-    The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
-    belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define;
-    `telling` are lines that it alone has.
+    Attributes:
+        keyword: name of the keyword.
+        module: module that declares it.
+        name: name of the declaration in the module.
+        sections: sections where the keyword belongs.
+        subject: subject of the keyword.
+        kept: True if the lines are passed through.
+        sections_inferred: True if the sections are not confirmed.
+        zero_length: True if the elements may have no length.
+        names: kinds of objects that its fields refer to, as members of `Names`.
+        defines: kinds of objects that its fields define.
+        telling: lines that no other keyword has.
     """
 
     keyword: str
@@ -258,14 +276,22 @@ class Entry(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class OpaqueKeyword:
-    """A keyword that is known, and whose lines are passed through unchanged.
+    """Known keyword whose lines are passed through unchanged.
 
-    `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
-    what we conclude. `name_settings` has the settings that give names; of a SET only the first value is a name.
-    `labels` says that any text among its lines may be the label of a node; in `free_text`, words for people, nothing is
-    looked for. `makes` are the keywords of what it may define: a thing of these kinds that is missing may come from
-    here. `gives` is what elements and nodes may have from it: rules that look for what is missing of that say nothing
-    in a deck with it. `sections_inferred` says that its section is not confirmed: in another one it is not reported.
+    Attributes:
+        keyword, summary: name, and sentence for a reader.
+        example: lines that the keyword may have; not its format.
+        certain: known facts, in words.
+        inferred: conclusions from these, in words.
+        sections: sections where the keyword belongs.
+        sections_inferred: True if the sections are not confirmed: the keyword is not reported in other sections.
+        name_settings: settings that hold names; only the first value of SET= is a name.
+        labels: True if any text on its lines may be the label of a node.
+        free_text: True if its lines are words for people, which are not searched for names.
+        makes: keywords whose objects it may define: a missing object of these kinds may come from here.
+        gives: properties that it may define for elements and nodes; rules for missing ones are silent in such a deck.
+        subject: subject of the keyword.
+        zero_length: True if its elements may have no length.
     """
 
     keyword: str
@@ -289,6 +315,6 @@ _WITH_LETTERS = re.compile(r"(?=[^.]*[0-9])[-+]?[0-9OolI]+\.[0-9OolI]*[0-9][0-9O
 
 
 def number_meant(text: str) -> str:
-    """The number with a point of which a text has a letter in the place of a digit, or ""."""
-    meant = text.translate(_LETTERS)
-    return meant if meant != text and _WITH_LETTERS.fullmatch(text) else ""
+    """Return the number that was meant by a text with letters in place of digits and a point, or ""."""
+    number = text.translate(_LETTERS)
+    return number if number != text and _WITH_LETTERS.fullmatch(text) else ""

@@ -1,4 +1,4 @@
-"""A model to the lines of its keyword, comments where they stood."""
+"""Writing of a model as the lines of its keyword, with comments at their places."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from mudline.language.keywords.model import Block, FieldSpec, Part, Record, Rows
 from mudline.language.keywords.table import Cell, Listing, Table
 
 Item = tuple[list[str], int]
-"""Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""
+"""Lines that comments can precede, and their number of items: one for each table row, else one in total."""
 
 
 def block_lines(block: Block) -> Iterator[str]:
-    """The lines of a block, from its `*KEYWORD` on, without line ends."""
+    """Yield the lines of a block without line ends, beginning with its `*KEYWORD`."""
     yield f"*{block.keyword}"
     yield from with_comments(block.comments, _items(block), getattr(block, "unread", ()))
 
 
 def _record_lines(record: Record) -> Iterator[str]:
-    """The opening setting of a record, if its first field is one, then its items."""
+    """Yield the opening setting of a record, if its first field is one, then its items."""
     items = list(_items(record))
     if _opens(record) and items:
         yield from items.pop(0)[0]
@@ -33,13 +33,13 @@ def _record_lines(record: Record) -> Iterator[str]:
 
 
 def _opens(record: Record) -> bool:
-    found = record_schema(type(record))
-    first = next((slot for slot in found.slots if getattr(record, slot.name) is not None), None)
+    schema = record_schema(type(record))
+    first = next((slot for slot in schema.slots if getattr(record, slot.name) is not None), None)
     return first is not None and isinstance(first.about, Setting)
 
 
 def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[KeptLine] = ()) -> Iterator[str]:
-    """The lines of items in their order, and between them comments and, behind these, lines that are kept."""
+    """Yield the lines of items in order; before each item its comments and then its kept lines."""
     between = [*((comment.before, f"C{comment.text}") for comment in comments)]
     between += [(line.before, line.text) for line in kept]
     between.sort(key=itemgetter(0))
@@ -58,12 +58,12 @@ def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable
 
 
 def _items(record: Record) -> Iterator[Item]:
-    """The items of a record in the order of its fields: a line each, a record below it, rows of a table."""
-    found = record_schema(type(record))
-    plain = [slot for slot in found.columns if not slot.row]
-    own_row = plain if len(plain) == len(found.columns) else []
+    """Yield the items of a record in the order of its fields: a line, an inner record, or rows of a table."""
+    schema = record_schema(type(record))
+    plain = [slot for slot in schema.columns if not slot.row]
+    own_row = plain if len(plain) == len(schema.columns) else []
     pending: str = ""
-    for slot in found.slots:
+    for slot in schema.slots:
         if slot in own_row[1:]:
             continue
         value = getattr(record, slot.name)
@@ -77,8 +77,8 @@ def _items(record: Record) -> Iterator[Item]:
             yield [pending], 1
             pending = ""
         if slot in own_row:
-            given = any(own.required or own.name in record.model_fields_set for own in own_row)
-            pending = " " + _row(record, own_row) if given else ""
+            has_row = any(own.required or own.name in record.model_fields_set for own in own_row)
+            pending = " " + _row(record, own_row) if has_row else ""
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
@@ -93,7 +93,7 @@ def _items(record: Record) -> Iterator[Item]:
 
 
 def table_lines(table: Table, slot: FieldSpec) -> Iterator[list[str]]:
-    """The rows of a table, one a line, some thousand at a time."""
+    """Yield the rows of a table, one per line, in chunks of some thousand."""
     for piece in Listing(table, slot.columns).lines(joined):
         yield f" {piece}".replace("\n", "\n ").split("\n")
 
@@ -107,8 +107,8 @@ def _value(value: Any) -> str:
 
 
 def _row(part: Part, columns: list[FieldSpec]) -> str:
-    given = [getattr(part, slot.name) is not None for slot in columns]
-    length = max((index + 1 for index, here in enumerate(given) if here), default=1)
+    present = [getattr(part, slot.name) is not None for slot in columns]
+    length = max((index + 1 for index, here in enumerate(present) if here), default=1)
     values = [getattr(part, slot.name) for slot in columns[:length]]
     if len(values) == 1 and isinstance(values[0], list):
         values = values[0]
@@ -116,13 +116,13 @@ def _row(part: Part, columns: list[FieldSpec]) -> str:
 
 
 def joined(values: list[Cell]) -> str:
-    """Fields of a line; a line of one empty field is a comma, as an empty line would be no line."""
+    """Return the fields of a line; a line of one empty field is a comma, since an empty line is not a line."""
     text = ", ".join(field_text(value) for value in values).rstrip(" ")
     return text or ","
 
 
 def field_text(value: Cell) -> str:
-    """A field: the shortest number that reads back to the same double, text as it is, nothing for an empty field."""
+    """Return the text of a field: the shortest number that reads back to the same double; "" for an empty field."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return ""
     return to_json(value).decode() if isinstance(value, float | int) else str(value)

@@ -1,1 +1,1 @@
-"""Source text, the lossless tree of lines and blocks, fields and rows: how a deck is written, not what it means."""
+"""Syntax of a deck: source text, lossless tree of lines and blocks, fields and rows. Meaning is not part of it."""

@@ -1,4 +1,4 @@
-"""Changes of a text: replacements of spans, applied all at once; untouched text keeps its bytes."""
+"""Edits of a text: replacements of spans, applied at the same time; unchanged text keeps its bytes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _LONE_LF = re.compile(r"(?<!\r)\n")
 
 @dataclass(frozen=True, slots=True)
 class TextEdit:
-    """Put `text` in the place of `span`, offsets of the text before any edit; an empty span inserts."""
+    """Replacement of `span` by `text`; offsets are those of the text before any edit, an empty span inserts."""
 
     span: Span
     text: str
 
 
 class OverlapError(ValueError):
-    """Two edits that want the same characters."""
+    """Overlap of two edits."""
 
     def __init__(self, first: TextEdit, second: TextEdit) -> None:
         self.first = first
@@ -32,10 +32,10 @@ class OverlapError(ValueError):
 
 
 def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
-    """The text with all edits made; their texts are taken literally.
+    """Return the text with all edits applied; the replacement texts are literal.
 
-    Edits may come in any order. Insertions at one place keep theirs, and stand before a replacement that begins there.
-    Raises OverlapError, or ValueError for a span that does not lie in the text.
+    Edits may come in any order. Insertions at one place keep their order, and come before a replacement that begins
+    there. Raises OverlapError, or ValueError for a span outside the text.
     """
     pieces: list[str] = []
     at = 0
@@ -53,7 +53,7 @@ def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
 
 
 class Undoing:
-    """Leads from places in a text with edits made to those in the text as it was, in little time for very many."""
+    """Map from places in an edited text to places in the original text; fast for many places."""
 
     def __init__(self, edits: Iterable[TextEdit]) -> None:
         self._edits = sorted(edits, key=lambda edit: edit.span)
@@ -62,33 +62,33 @@ class Undoing:
         self._ends = [edit.span.end + by for edit, by in zip(self._edits, self._grown[1:], strict=True)]
 
     def before(self, span: Span) -> Span:
-        """A span of the edited text in the text as it was."""
-        # all before the first that ends behind the start only move it
+        """Return the span of the original text that corresponds to a span of the edited text."""
+        # edits that end before the span only shift it
         first = (bisect_right if span.end > span.start else bisect_left)(self._ends, span.start)
         start, end = span.moved(-self._grown[first])
         for edit in islice(self._edits, first, None):
             if edit.span.start >= end:
                 break
             grown = len(edit.text) - (edit.span.end - edit.span.start)
-            if edit.span.start < start + (not edit.text):  # what stands at the place of something left out is behind it
+            if edit.span.start < start + (not edit.text):  # text at the place of a deletion is behind it
                 start = max(start - grown, edit.span.start)
             end = max(end - grown, edit.span.start)
         return Span(start, max(start, end))
 
     def touches(self, place: Span) -> bool:
-        """Whether something in the edited text is in what an edit put in, or around it."""
+        """Return True if a place of the edited text overlaps inserted text."""
         index, new = self._at(place)
         return index < len(self._edits) and new.start < max(place.end, place.start + 1)
 
     def is_in_new_lines(self, place: Span) -> bool:
-        """Whether something in the edited text stands in whole lines that an edit put in."""
+        """Return True if a place of the edited text is within whole lines that an edit inserted."""
         index, new = self._at(place)
         if index == len(self._edits) or self._edits[index].span.end > self._edits[index].span.start:
             return False
         return self._edits[index].text.endswith(("\n", "\r")) and new.start <= place.start < place.end < new.end
 
     def _at(self, place: Span) -> tuple[int, Span]:
-        """The first edit whose text ends behind the start of a place, and where that text is."""
+        """Return the index of the first edit whose text ends behind the start of a place, and the span of that text."""
         index = bisect_right(self._ends, place.start)
         if index == len(self._edits):
             return index, Span(0, 0)
@@ -96,7 +96,7 @@ class Undoing:
 
 
 def with_line_ends(source: Source, edits: Iterable[TextEdit]) -> list[TextEdit]:
-    """The edits with every LF that they bring turned into the line end of the nearest line before (CRLF stays)."""
+    """Return the edits with each LF in their texts replaced by the line end of the nearest line before (CRLF stays)."""
     return [
         replace(edit, text=_LONE_LF.sub(line_end_before(source, edit.span.start), edit.text))
         if "\n" in edit.text
@@ -106,7 +106,7 @@ def with_line_ends(source: Source, edits: Iterable[TextEdit]) -> list[TextEdit]:
 
 
 def line_end_before(source: Source, offset: int) -> str:
-    """The end of the last line that ends before an offset, of the first line where there is none; LF by default."""
+    """Return the end of the last line that ends before an offset; without such a line that of the first; default LF."""
     starts = source.line_starts
     line = max(bisect_right(starts, offset) - 1, 1)
     if line == len(starts):
@@ -116,13 +116,13 @@ def line_end_before(source: Source, offset: int) -> str:
 
 
 def edited_text(source: Source, edits: Iterable[TextEdit]) -> str:
-    """The text of a source with edits whose lines end with LF made in its own line ends. Raises as `apply_edits`."""
+    """Return the text of a source with edits applied, in its own line ends; raises as `apply_edits`."""
     return apply_edits(source.text, with_line_ends(source, edits))
 
 
 def edited_bytes(source: Source, edits: Iterable[TextEdit]) -> bytes:
-    """`edited_text` in the encoding of the file, with its byte-order mark if it had one: untouched bytes stay.
+    """Return `edited_text` in the encoding of the file, with its byte-order mark, if any; unchanged bytes stay.
 
-    Raises as `apply_edits`, and UnicodeEncodeError where an edit brings a character that the encoding lacks.
+    Raises as `apply_edits`, and UnicodeEncodeError if an edit has a character that the encoding lacks.
     """
     return source.to_bytes(edited_text(source, edits))

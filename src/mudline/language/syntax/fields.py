@@ -1,4 +1,4 @@
-"""Splitting a line into fields: commas part them, brackets, braces, quotes and slash lists hold together."""
+"""Fields of a line: separated by commas, except within brackets, braces, quotes and slash lists."""
 
 from __future__ import annotations
 
@@ -22,36 +22,36 @@ _CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
 
 
 class Field(NamedTuple):
-    """The text of a field without outer blanks, and where it begins."""
+    """Text of a field without outer blanks, and its offset."""
 
     text: str
     start: int
 
     @property
     def span(self) -> Span:
-        """Where it is."""
+        """Span of the field."""
         return Span(self.start, self.start + len(self.text))
 
 
 @dataclass(slots=True)
-class Group:
-    """Fields that belong together: the positional ones of a line (key ""), or a KEY with its values."""
+class FieldGroup:
+    """Fields that belong together: the positional fields of a line (key ""), or a KEY with its values."""
 
     key: str
     span: Span
     fields: list[Field] = field(default_factory=list)
 
 
-class Line(NamedTuple):
-    """A line cut into groups, with what was wrong in it."""
+class FieldLine(NamedTuple):
+    """Line split into groups, with its problems."""
 
     span: Span
-    groups: list[Group]
+    groups: list[FieldGroup]
     problems: list[Problem]
 
 
 def trimmed(text: str, start: int, end: int) -> Span:
-    """The span without blanks, tabs and line ends on both sides; an empty one stands at `start`."""
+    """Return the span without blanks, tabs and line ends on both sides; an empty span stands at `start`."""
     right = text[start:end].lstrip(_OUTER)
     left = end - len(right) if right else start
     return Span(left, left + len(right.rstrip(_OUTER)))
@@ -59,36 +59,36 @@ def trimmed(text: str, start: int, end: int) -> Span:
 
 @lru_cache(1024)
 def canonical_key(key: str) -> str:
-    """A KEY in upper case with single blanks."""
+    """Return a KEY in upper case with single blanks."""
     key = key.strip(" \t")
     return key.upper() if key.isalpha() else _BLANKS.sub(" ", key).upper()
 
 
-def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
-    """Cut one line of `text` into groups of fields. `slashes`: `/.../` is one field."""
+def read_line(text: str, span: Span, *, slashes: bool = False) -> FieldLine:
+    """Return one line of `text`, split into groups of fields; with `slashes`, `/.../` is one field."""
     body = trimmed(text, *span)
     fields, problems = _split(text, body, slashes=slashes)
     if text.find("=", body.start, body.end) < 0:
-        return Line(body, [Group("", body, fields)] if fields else [], problems)
-    groups: list[Group] = []
-    for given in fields:
-        match = _KEY.match(given.text) if "=" in given.text else None
+        return FieldLine(body, [FieldGroup("", body, fields)] if fields else [], problems)
+    groups: list[FieldGroup] = []
+    for item in fields:
+        match = _KEY.match(item.text) if "=" in item.text else None
         if match is None:
             if not groups:
-                groups.append(Group("", body))
-            groups[-1].fields.append(given)
+                groups.append(FieldGroup("", body))
+            groups[-1].fields.append(item)
             continue
-        value = given.text[match.end() :].lstrip(_OUTER)
-        first = Field(value, given.start + (len(given.text) - len(value) if value else match.end()))
-        groups.append(Group(canonical_key(match[1]), given.span, [first]))
+        value = item.text[match.end() :].lstrip(_OUTER)
+        first = Field(value, item.start + (len(item.text) - len(value) if value else match.end()))
+        groups.append(FieldGroup(canonical_key(match[1]), item.span, [first]))
     for group in groups:
         if group.key and len(group.fields) > 1:
             group.span = Span(group.span.start, group.fields[-1].span.end)
-    return Line(body, groups, problems)
+    return FieldLine(body, groups, problems)
 
 
 def first_key(text: str, span: Span) -> str:
-    """The KEY that a line begins with, or ""."""
+    """Return the KEY at the beginning of a line, or ""."""
     match = _KEY.match(text, span.start, span.end)
     return canonical_key(match[1]) if match else ""
 
@@ -100,7 +100,7 @@ def _field(text: str, piece: Span) -> Field:
 
 
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
-    """The fields between the top-level commas of a line, and what was wrong with its brackets."""
+    """Return the fields between the top-level commas of a line, and the problems of its brackets."""
     return _split(text, trimmed(text, *span), slashes=slashes)
 
 
@@ -120,7 +120,7 @@ def _split(text: str, body: Span, *, slashes: bool) -> tuple[list[Field], list[P
 
 
 def _parted(body: str, start: int) -> list[Field]:
-    """The fields of a line in which only commas have a meaning; it begins at the offset `start`."""
+    """Return the fields of a line that begins at the offset `start`, and in which only commas are special."""
     if "," not in body:
         return [Field(body, start)]
     fields: list[Field] = []
@@ -132,12 +132,12 @@ def _parted(body: str, start: int) -> list[Field]:
 
 
 def _commas(text: str, body: Span) -> list[int]:
-    found: list[int] = []
+    offsets: list[int] = []
     at = text.find(",", body.start, body.end)
     while at >= 0:
-        found.append(at)
+        offsets.append(at)
         at = text.find(",", at + 1, body.end)
-    return found
+    return offsets
 
 
 def _outside(commas: list[int], protected: list[Span]) -> list[int]:
@@ -153,7 +153,7 @@ def _outside(commas: list[int], protected: list[Span]) -> list[int]:
 
 
 def _protected(text: str, body: Span, problems: list[Problem], *, slashes: bool) -> list[Span]:
-    """Spans of equations, labels, strings and slash lists; an unclosed one reaches to the end of the line."""
+    """Return the spans of equations, labels, strings and slash lists; an unclosed span ends with the line."""
     spans: list[Span] = []
     at = body.start
     while match := _SPECIAL.search(text, at, body.end):
@@ -175,22 +175,22 @@ def _protected(text: str, body: Span, problems: list[Problem], *, slashes: bool)
 
 
 def _begins_field(text: str, body: Span, at: int) -> bool:
-    """Whether a slash is the first character of a field, as it must be to open a list."""
+    """Return True if a slash is the first character of a field, as it must be to open a list."""
     while at > body.start and text[at - 1] in " \t":
         at -= 1
     return at == body.start or text[at - 1] == ","
 
 
 def is_one_field(text: str) -> bool:
-    """Whether a text, as it stands, is one field of a line."""
+    """Return True if a text is exactly one field of a line."""
     fields, problems = split(text, Span(0, len(text)))
     return len(fields) == 1 and not problems and fields[0].text == text
 
 
 def _close(text: str, start: int, end: int) -> int:
-    """Offset behind the mark that closes the one at `start`, or -1.
+    """Return the offset behind the mark that closes the mark at `start`, or -1.
 
-    Strings and braces hold anything; square brackets nest; a slash list may hold equations and strings.
+    Strings and braces hold any text; square brackets nest; a slash list may hold equations and strings.
     """
     opener = text[start]
     if opener in '"{':

@@ -1,4 +1,4 @@
-"""The grammars of the package as lark's parsers: their tables come with the package, or they are compiled."""
+"""Grammars of the package as lark parsers, from tables in the package; without tables they are compiled."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from mudline.basics.files import write_atomically
 from mudline.basics.resources import grammar_file
 
 Makes = type[Transformer[Any, Any]]
-"""A class without a state of its own, whose methods make what the parser gives in the place of a tree."""
+"""Class without state, whose methods create the results of the parser in place of a tree."""
 
 
 @cache
 def parser(name: str, start: str = "start", makes: Makes | None = None) -> Lark:
-    """Return the LALR parser of a grammar from one of its rules.
+    """Return the LALR parser for a rule of a grammar.
 
-    To compile a grammar takes ten times as long as to load its tables.
+    Compiling a grammar takes ten times as long as loading its tables.
     """
     saved = _tables(name, makes).get(start)
     return Lark.load(BytesIO(saved)) if saved else _compiled(name, start, makes)
 
 
 def save_tables(name: str, makes: Makes | None = None) -> Path:
-    """Write the tables of the parsers from all rules of a grammar beside it; returns the file."""
+    """Write the tables of the parsers for all rules of a grammar beside it; return the file."""
     tables: dict[str, bytes] = {}
     for start in (str(rule) for rule, *_ in definitions(name).rule_defs if not rule.startswith("_")):
         saved = BytesIO()
@@ -57,8 +57,8 @@ def _compiled(name: str, start: str, makes: Makes | None) -> Lark:
 @cache
 def definitions(name: str) -> Grammar:
     """Return the rules and terminals of a grammar."""
-    made, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
-    return cast("Grammar", made)
+    grammar, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
+    return cast("Grammar", grammar)
 
 
 def _text(name: str) -> str:
@@ -66,13 +66,13 @@ def _text(name: str) -> str:
 
 
 def _stamp(name: str, makes: Makes | None) -> tuple[str, str, str]:
-    """What tables hold on to: lark's version, the class that they name, and the grammar."""
+    """Return the key of the tables: version of lark, class of the results, and the grammar."""
     return lark.__version__, f"{makes.__module__}.{makes.__qualname__}" if makes else "", _text(name)
 
 
 @cache
 def _tables(name: str, makes: Makes | None) -> dict[str, bytes]:
-    """Return the tables that were made when the package was built; none of another lark, class or grammar."""
+    """Return the tables that were created when the package was built; none for another lark, class or grammar."""
     path = grammar_file(f"{name}.tables")
     if not path.exists():
         return {}
@@ -81,14 +81,14 @@ def _tables(name: str, makes: Makes | None) -> dict[str, bytes]:
 
 
 def _below(grammar: Grammar, start: str) -> Grammar:
-    """Return the part of a grammar that a rule leads to: lark compiles all rules that it is given."""
+    """Return the part of a grammar that a rule needs: lark compiles all rules that it gets."""
     rules = {str(rule[0]): rule for rule in grammar.rule_defs}
-    found: dict[str, None] = {}
-    wanted = [start]
-    while wanted:
-        name = wanted.pop()
-        if name not in found:
-            found[name] = None
+    needed: dict[str, None] = {}
+    waiting = [start]
+    while waiting:
+        name = waiting.pop()
+        if name not in needed:
+            needed[name] = None
             inside = rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))
-            wanted += [inner.name for inner in inside if inner.name in rules]  # another name is an alias
-    return Grammar([rules[name] for name in found], grammar.term_defs, grammar.ignore)
+            waiting += [inner.name for inner in inside if inner.name in rules]  # other names are aliases
+    return Grammar([rules[name] for name in needed], grammar.term_defs, grammar.ignore)

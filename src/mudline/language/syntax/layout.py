@@ -1,4 +1,4 @@
-"""A field in the place of another one, columns kept: blanks beside it make up for the difference in length."""
+"""Replacement of a field with its columns kept: blanks beside the field compensate for the difference in length."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from mudline.language.syntax.source import Source
 
 
 class _Row(NamedTuple):
-    """A line of fields, and where it begins."""
+    """Fields of a line, and the offset of the line."""
 
     start: int
     fields: list[Field]
 
 
 def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdit]:
-    """The edits that put `text` in the place of `span`.
+    """Return the edits that replace `span` by `text`.
 
-    Where the row above or below ends or begins its field of the same number in the same column, the blanks before or
-    behind the field make up for the difference in length, as far as one of them stays.
+    If the field of the same number in the row above or below ends or begins in the same column, the blanks before or
+    behind the field compensate for the difference in length. At least one blank stays.
     """
     replaced = [TextEdit(span, text)]
     growth = len(text) - (span.end - span.start)
@@ -37,28 +37,28 @@ def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdi
 
 
 def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
-    """The blanks before a field that ends in one column with its neighbours, or behind one that begins so.
+    """Return the blanks before a field that ends in the column of its neighbours, or behind one that begins there.
 
-    Columns that are in line only because all fields are of one length are not aligned.
+    Columns that are in line only because all fields are of equal length are not aligned.
     """
     span = row.fields[index].span
-    others = [(one.fields[index].span, one.start) for one in _neighbours(source, span, index)]
-    if any(span.end - row.start == other.end - start for other, start in others):
+    neighbours = [(line.fields[index].span, line.start) for line in _neighbours(source, span, index)]
+    if any(span.end - row.start == near.end - start for near, start in neighbours):
         return _wide_blanks_before(source, row, span)
-    if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
+    if index + 1 < len(row.fields) and any(span.start - row.start == near.start - start for near, start in neighbours):
         return _wide_blanks_before(source, row, row.fields[index + 1].span)
     return None
 
 
 def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
-    """The blanks directly before a field; None where there are fewer than two, or a tab stands before it."""
+    """Return the blanks directly before a field; None if there are fewer than two, or a tab stands before it."""
     before = source.text[row.start : span.start]
     length = len(before) - len(before.rstrip(" "))
     return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
 
 
 def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
-    """The rows directly above and below that have such a field."""
+    """Yield the rows directly above and below that have a field of this index."""
     line = source.position(span.start)[0]
     for number in (line - 1, line + 1):
         row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
@@ -67,7 +67,7 @@ def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
 
 
 def _row(source: Source, number: int) -> _Row | None:
-    """A line as a row of fields; None for a setting, a comment, a keyword."""
+    """Return a line as a row of fields; None for a setting, a comment, a keyword."""
     start = source.line_starts[number - 1]
     line = source.line(number)
     span = Span(start, start + len(line))

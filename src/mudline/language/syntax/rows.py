@@ -1,4 +1,4 @@
-"""Runs of rows to arrays: rows of numbers many at once as JSON, all others field by field."""
+"""Reading of runs of rows to arrays: rows of numbers as JSON, many at a time; all others field by field."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from mudline.language.diagnostics import Span
 from mudline.language.syntax.fields import Field, split
 
 NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
-"""A number as decks write it."""
+"""Number as decks write it."""
 _WORD = re.compile(r"[^ \t\r\n]+")
 GROUPED = re.compile(r'[\["{]')
-"""What opens an equation, a string or a label, in which a comma does not separate fields."""
+"""Opening marks of an equation, a string or a label, in which a comma does not separate fields."""
 _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
-"""A row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
+"""Row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
 PIECE = 256 * 1024
-"""Characters that are read at once: their arrays stay in the fast memory of a processor."""
+"""Number of characters that are read at a time: their arrays stay in the fast memory of a processor."""
 _BLANK = np.isin(np.arange(256), np.frombuffer(b" \t\r\n", np.uint8))
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
@@ -33,20 +33,21 @@ _IN_NUMBERS = b"0123456789+-.eE \t\r"
 _ODD = re.compile(r"[^0-9+\-.eEdD, \t\r]")
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 _SIGNED_ZERO = re.compile(rb"-0(?![.eE])(?<![eE]-0)")
-"""A zero whose sign JSON does not keep."""
+"""Zero whose sign JSON does not keep."""
 _DIGITS = bytes.maketrans(b"123456789", b"000000000")
 _LONG = b"0" * 40
-"""Digits of a number that is left to `float`."""
+"""Digits of a number that is read by `float`."""
 _PARTS, _SMALLEST = 8, 4096
-"""Parts of a piece that is not all numbers, and characters of a part that is not divided."""
+"""Number of parts of a piece that is not all numbers, and characters of a part that is not divided further."""
 
 
-class Rows(NamedTuple):
-    """A run of rows.
+class RawRows(NamedTuple):
+    """Values of a run of rows.
 
-    `values` (rows, columns) holds NaN where `words` has a text that is not a number ("" for an empty field).
-
-    `lengths` (rows,) counts the fields of each row, also those beyond the last column, which are not kept.
+    Attributes:
+        values: (rows, columns); NaN where `words` has a text that is not a number.
+        words: texts of such fields, "" for an empty field.
+        lengths: (rows,) number of fields of each row; fields beyond the last column count, but are not kept.
     """
 
     values: NDArray[np.float64]
@@ -55,7 +56,7 @@ class Rows(NamedTuple):
 
 
 def read_number(text: str) -> float | None:
-    """The finite double that a field spells, or None. Fortran's D exponent is read as E."""
+    """Return the finite double in a field, or None. Fortran's D exponent is read as E."""
     if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
         return None
     try:
@@ -66,23 +67,23 @@ def read_number(text: str) -> float | None:
 
 
 def spells_number(text: str) -> bool:
-    """Whether a text has the form of a number, whatever its size."""
+    """Return True if a text has the form of a number of any size."""
     return NUMBER.fullmatch(text) is not None
 
 
-def read_rows(text: str, span: Span, columns: int) -> Rows:
-    """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
+def read_rows(text: str, span: Span, columns: int) -> RawRows:
+    """Return the lines of a run as at most `columns` columns; `text` must have LF or CRLF line ends."""
     if span.end - span.start <= _SMALLEST:
         values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
         return read_rows_slow(text, span, columns) if values is None else _plain(values)
     return _together(_parts(text, span, columns, PIECE), span.end - span.start)
 
 
-def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, Rows]]:
-    """Yield the rows of one part of a text after the other, each with its characters; smaller parts around odd rows."""
+def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, RawRows]]:
+    """Yield the rows of consecutive parts of a text, each with its number of characters; odd rows split parts."""
     for start, end in _pieces(text, span, size):
         lines = text[start:end]
-        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer: one line without end
+        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer pieces are a single line
         if values is not None:
             yield end - start, _plain(values)
         elif size > _SMALLEST and end - start > _SMALLEST:
@@ -91,28 +92,28 @@ def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int
             yield end - start, _mixed_rows(lines, columns)
 
 
-def _mixed_rows(lines: str, columns: int) -> Rows:
-    """Return the rows of lines of which some hold more than numbers: these one by one, the others at once."""
+def _mixed_rows(lines: str, columns: int) -> RawRows:
+    """Return the rows of lines, some of which hold more than numbers: these are read singly, the others together."""
     texts = lines.split("\n")
     odd = np.array([_ODD.search(text) is not None for text in texts])
     numbers = read_numbers("\n".join(compress(texts, ~odd)), columns)
     if numbers is None or not odd.any():
         return read_rows_slow(lines, Span(0, len(lines)), columns)
     text = "\n".join(compress(texts, odd))
-    others = read_rows_slow(text, Span(0, len(text)), columns)
-    values = np.full((len(texts), max(numbers.shape[1], others.values.shape[1])), math.nan)
+    mixed = read_rows_slow(text, Span(0, len(text)), columns)
+    values = np.full((len(texts), max(numbers.shape[1], mixed.values.shape[1])), math.nan)
     values[~odd, : numbers.shape[1]] = numbers
-    values[odd, : others.values.shape[1]] = others.values
+    values[odd, : mixed.values.shape[1]] = mixed.values
     lengths = np.full(len(texts), numbers.shape[1], dtype=np.intp)
-    lengths[odd] = others.lengths
+    lengths[odd] = mixed.lengths
     places = np.flatnonzero(odd).tolist()
-    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
+    return RawRows(values, lengths, {(places[row], column): word for (row, column), word in mixed.words.items()})
 
 
 def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
-    """Return rows of as many finite numbers each, at most `columns`; None for any other lines.
+    """Return rows of equally many finite numbers, at most `columns`; None for any other lines.
 
-    Without their numbers the lines are commas and line ends, which must be the same in each.
+    The text between the numbers of a line, commas and line end, must be the same in each line.
     """
     data = lines.encode("ascii", "replace").translate(_D_TO_E)
     marks = data.translate(None, _IN_NUMBERS)
@@ -135,7 +136,7 @@ def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
 
 
 def _doubles(numbers: bytes) -> Sequence[float]:
-    """Return the numbers between commas: those that JSON has, else those that `float` reads of the same characters."""
+    """Return the numbers between commas, read as JSON, or by `float` if they are not in the form of JSON."""
     if not _SIGNED_ZERO.search(numbers) and _LONG not in numbers.translate(_DIGITS):
         try:
             return array("d", from_json(b"[%b]" % numbers))
@@ -147,8 +148,8 @@ def _doubles(numbers: bytes) -> Sequence[float]:
     return [float(word) for word in words]
 
 
-def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
-    """The meaning of a table, field by field."""
+def read_rows_slow(text: str, span: Span, columns: int) -> RawRows:
+    """Return the rows of a run, read field by field; slower than `read_rows`, with the same result."""
     values: list[list[float]] = []
     lengths: list[int] = []
     words: dict[tuple[int, int], str] = {}
@@ -165,17 +166,17 @@ def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
         values.append(row)
     array = np.array(values, dtype=np.float64).reshape(len(values), columns)
     width = min(max(lengths, default=0), columns)
-    return Rows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
+    return RawRows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
 
 
-def _plain(values: NDArray[np.float64]) -> Rows:
-    return Rows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
+def _plain(values: NDArray[np.float64]) -> RawRows:
+    return RawRows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
 
 
-def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
-    """The rows of the parts of a text, which has `size` characters, one below the other; each with its own count.
+def _together(parts: Iterable[tuple[int, RawRows]], size: int) -> RawRows:
+    """Return the rows of consecutive parts of a text of `size` characters as one run.
 
-    They are copied to one array as they come, as large as the first part lets expect: to copy all parts at the end
+    Rows are copied to one array as they come; its size is estimated from the first part. Copying all parts at the end
     would take twice the memory.
     """
     values = np.empty((0, 0))
@@ -193,11 +194,11 @@ def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
         lengths.append(part.lengths)
         words |= {(row + start, column): word for (row, column), word in part.words.items()}
         start = end
-    return Rows(values[:start], _all_lengths(lengths), words)
+    return RawRows(values[:start], _all_lengths(lengths), words)
 
 
 def _grown(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.float64]:
-    """A larger array that begins with some values; NaN beside them, anything below."""
+    """Return a larger array that begins with the values; NaN beside them, undefined below."""
     grown = np.empty((rows, columns))
     grown[: len(values), : values.shape[1]] = values
     grown[: len(values), values.shape[1] :] = math.nan
@@ -205,18 +206,18 @@ def _grown(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.f
 
 
 def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
-    """The lengths of all rows; where they are equal, one number that is seen as many."""
-    found = {int(length) for part in parts if len(part) for length in (part.min(), part.max())}
-    if len(found) == 1:
-        return np.broadcast_to(np.intp(found.pop()), sum(map(len, parts)))
+    """Return the lengths of all rows; equal lengths are stored as one number, broadcast to all rows."""
+    extremes = {int(length) for part in parts if len(part) for length in (part.min(), part.max())}
+    if len(extremes) == 1:
+        return np.broadcast_to(np.intp(extremes.pop()), sum(map(len, parts)))
     return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
 
 
 def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
-    """Parts of whole lines, each but the last of about `size` characters, without the line end of the last line.
+    """Yield spans of whole lines of about `size` characters each, without the line end of the last line.
 
-    A C library that has given back a large block keeps smaller ones for the next that are asked for; otherwise every
-    array of a piece would be memory that the system has to clear.
+    A large block is allocated and freed first: afterwards a C library keeps smaller freed blocks for reuse. Otherwise
+    the system would have to clear new memory for every array of a piece.
     """
     start, end = span
     while end > start and text[end - 1] in "\r\n":
@@ -231,7 +232,7 @@ def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
 
 
 def line_spans(text: str, span: Span) -> Iterator[Span]:
-    """The lines of a run without their ends; blank ones are not rows."""
+    """Yield the spans of the lines of a run without line ends; blank lines are not rows."""
     start = span.start
     while start < span.end:
         stop = text.find("\n", start, span.end)
@@ -242,20 +243,20 @@ def line_spans(text: str, span: Span) -> Iterator[Span]:
 
 
 def row_starts(text: str, span: Span) -> array[int]:
-    """Where the rows of a run begin, as `line_spans` gives them, for a million lines in a tenth of the time."""
-    found = array("q")
+    """Return the offsets of the rows of a run, like `line_spans`, ten times as fast for a million lines."""
+    starts = array("q")
     for start, end in _pieces(text, span):
         letters = np.frombuffer(text[start:end].encode("latin-1", "replace"), np.uint8)
         lines = np.append(0, np.flatnonzero(letters == ord("\n")) + 1)
         blank = _BLANK.take(letters)
         lines = lines[: len(lines) - (lines[-1] == end - start)]
         lines = lines[~np.logical_and.reduceat(blank, lines)] + start
-        found.frombytes(lines.astype(np.int64).tobytes())
-    return found
+        starts.frombytes(lines.astype(np.int64).tobytes())
+    return starts
 
 
 def row_fields(text: str, line: Span, columns: int) -> list[Field]:
-    """The first `columns` fields of one row, with their places."""
+    """Return the first `columns` fields of one row, with their places."""
     body = text[line.start : line.end]
     fields: list[Field] = []
     at = 0
@@ -268,9 +269,9 @@ def row_fields(text: str, line: Span, columns: int) -> list[Field]:
 
 
 def _row_words(body: str, columns: int) -> tuple[list[str], int]:
-    """The first `columns` fields of a row, and how many it has: separated by commas, or by spaces where all is numbers.
+    """Return the first `columns` fields of a row, and its number of fields; spaces separate if all fields are numbers.
 
-    Empty fields behind the last column, as trailing commas leave them, do not count.
+    Empty fields behind the last column, which trailing commas leave, do not count.
     """
     if GROUPED.search(body) and not (body.count(",") < columns and _ONLY_EQUATIONS.fullmatch(body)):
         texts = [field.text for field in split(body, Span(0, len(body)))[0]]
@@ -287,7 +288,7 @@ def _row_words(body: str, columns: int) -> tuple[list[str], int]:
 
 
 def blank_separated(body: str) -> bool:
-    """Whether a line without commas is several numbers separated by spaces."""
+    """Return True if a line without commas holds several numbers separated by spaces."""
     if len(body.rstrip("\r")) > LONGEST_BLANK_SEPARATED:
         return False
     words = _WORD.findall(body)

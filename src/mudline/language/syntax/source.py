@@ -1,4 +1,4 @@
-"""The text of one file: decoding, line ends, and the way back to the same bytes."""
+"""Text of one file: decoding, line ends, and encoding to the same bytes."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from mudline.language.diagnostics import Problem, Severity, Span
 
 _BOM = b"\xef\xbb\xbf"
 CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127, 0xFEFF)))
-"""Characters that nobody sees and that are not blanks; in front of a `*` or `$` they are read over."""
+"""Invisible characters other than blanks; they are ignored before a `*` or `$`."""
 _CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
 _NO_CONTROLS = bytes(byte for byte in range(256) if chr(byte) not in CONTROLS)
 _BEFORE_HEAD = re.compile(rf"[ \t{re.escape(CONTROLS)}]++(?=[*$])")
 END_MARK = "\x1a"
-"""What old systems put behind the last character of a file (Ctrl-Z)."""
+"""End-of-file mark that old systems write behind the last character (Ctrl-Z)."""
 _END = f"{END_MARK} \t\r\n"
 _CALLED = {
     "\0": "NUL character",
@@ -29,27 +29,27 @@ _CALLED = {
 }
 _LONE_CR = re.compile(r"\r(?!\n)")
 _FOREIGN_DATA = re.compile(r"(?:\A|(?<=[\r\n]))(?!C(?:[^A-Za-z]|\Z))[^\r\n]*[^\x00-\x7f]")
-"""A letter beyond ASCII in a line that is not a comment."""
+"""Non-ASCII letter in a line that is not a comment."""
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 BINARY = "the file looks like binary data"
-"""How the refusal of such a file begins."""
+"""Beginning of the message that refuses such a file."""
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
 _CHUNK = 1 << 18
 _LF = ord("\n")
 _LINE_FEED = re.compile("\n")
 _SHORT = 20_000
-"""Characters of a text whose lines are found without arrays."""
+"""Number of characters up to which lines are found without arrays."""
 _FEW = 8
 
 
 @dataclass(frozen=True)
 class Source:
-    """A file's text without byte-order mark; `to_bytes` gives back the bytes that were read.
+    """Text of a file without byte-order mark; `to_bytes` returns the bytes that were read.
 
-    `readable` is False for content that is not the text of a deck (UTF-16, binary data, a web page, two versions with
-    the marks of a merge): it is kept, but not parsed.
-    `clean` says that the text holds none of the control characters that are read over; where it does not, it may.
+    `readable` is False if the content is not the text of a deck, but UTF-16, binary data, a web page or two versions
+    with merge marks: such content is kept, but not parsed.
+    `clean` is True if the text has none of the control characters that are ignored; False does not mean that it has.
     """
 
     name: str
@@ -64,7 +64,7 @@ class Source:
 
     @classmethod
     def from_bytes(cls, data: bytes, name: str) -> Source:
-        """Decode as UTF-8, else the whole file as CP1252, else as Latin-1; UTF-16 and binary data are refused."""
+        """Return the source, decoded as UTF-8, else as CP1252 or Latin-1; UTF-16 and binary data are refused."""
         bom = data.startswith(_BOM)
         body = data[len(_BOM) :] if bom else data
         refusal = _refusal(body)
@@ -75,23 +75,22 @@ class Source:
         if foreign := _not_a_deck(text):
             return cls(name, text, encoding, bom, readable=False, problems=(foreign,))
         clean = not body.translate(None, _NO_CONTROLS) and (body.isascii() or _BOM not in body)
-        found = [] if clean else _control_characters(text)
-        return cls(name, text, encoding, bom, problems=(*problems, *found), clean=clean)
+        controls = [] if clean else _control_characters(text)
+        return cls(name, text, encoding, bom, problems=(*problems, *controls), clean=clean)
 
     def to_bytes(self, text: str | None = None) -> bytes:
-        """The bytes of `text` (default: the text as read) in the file's own encoding, with its mark if it had one.
+        """Return the bytes of `text` (default: the text as read) in the file's encoding, with byte-order mark, if any.
 
-        Raises UnicodeEncodeError when a changed text holds a character that the encoding lacks.
+        Raises UnicodeEncodeError if a changed text has a character that the encoding lacks.
         """
         body = (self.text if text is None else text).encode(self.encoding)
         return _BOM + body if self.bom else body
 
     @cached_property
     def unified(self) -> str:
-        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF.
+        """Copy of equal length in which each lone CR is a LF, so that every line ends with LF.
 
-        Control characters in front of a `*` or `$` at the beginning of a line are blanks in it, and so is what old
-        systems put at the end of a file.
+        Control characters before a `*` or `$` at the beginning of a line, and end-of-file marks, become blanks.
         """
         text = _LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text
         return text if self.clean else _ended(_heads_found(text))
@@ -102,9 +101,9 @@ class Source:
         text = self.unified
         starts = array("q", [0])
         if len(text) < _SHORT:
-            starts.extend(found.end() for found in _LINE_FEED.finditer(text))
+            starts.extend(match.end() for match in _LINE_FEED.finditer(text))
             return starts
-        import numpy as np  # noqa: PLC0415 - what lints unchanged decks, or short ones, does without arrays here
+        import numpy as np  # noqa: PLC0415 - not needed for short decks and cached results
 
         for at in range(0, len(text), _CHUNK):
             letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
@@ -112,49 +111,49 @@ class Source:
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:
-        """Line and column of an offset, both from 1, in code points."""
+        """Return line and column of an offset, both from 1, in code points."""
         line = bisect_right(self.line_starts, offset)
         return line, offset - self.line_starts[line - 1] + 1
 
     def offset(self, line: int, column: int) -> int:
-        """Offset of a line and column, both from 1."""
+        """Return the offset of a line and column, both from 1."""
         return self.line_starts[line - 1] + column - 1
 
     def line(self, number: int) -> str:
-        """The text of a line (from 1) without its end."""
+        """Return the text of a line (from 1) without its end."""
         start = self.line_starts[number - 1]
         end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")
 
 
 def _ended(text: str) -> str:
-    """A text with blanks for the end-of-file marks behind its last character."""
+    """Return a text with blanks in place of the end-of-file marks behind its last character."""
     body = text.rstrip(_END)
     return body + text[len(body) :].replace(END_MARK, " ") if END_MARK in text[len(body) :] else text
 
 
 def _heads_found(text: str) -> str:
-    """A text of LF lines with blanks for the control characters in front of its heads."""
+    """Return a text of LF lines with blanks in place of the control characters before a `*` or `$`."""
     pieces: list[str] = []
     done = at = 0
-    while found := _CONTROL.search(text, at):
-        start = max(text.rfind("\n", at, found.start()) + 1, at)
+    while control := _CONTROL.search(text, at):
+        start = max(text.rfind("\n", at, control.start()) + 1, at)
         if match := _BEFORE_HEAD.match(text, start):
             pieces += (text[done:start], " " * (match.end() - start))
             done = match.end()
-        at = text.find("\n", found.end()) + 1 or len(text)
+        at = text.find("\n", control.end()) + 1 or len(text)
     return "".join((*pieces, text[done:])) if pieces else text
 
 
 _MERGE_MARK = re.compile(r"(?:\A|(?<=[\r\n]))(?:<{7}|>{7})(?=[ \r\n]|\Z)")
 KEY_FILE = re.compile(r"\s*<\?xml[^>]*>\s*<KeyFile\b")
-"""How a key file of a password manager begins, whose suffix is that of decks."""
+"""Beginning of a key file of a password manager, which has a suffix of decks."""
 _NO_DECK = re.compile(
     rf"(?P<key>{KEY_FILE.pattern})|\s*(?:(?P<lfs>version https://git-lfs\.)|(?P<page><(?:!DOCTYPE|html)\b)"
     r"|(?P<xml><\?xml\b))",
     re.IGNORECASE,
 )
-"""How files begin that stand where a deck should."""
+"""Beginnings of files that are often mistaken for decks."""
 _INSTEAD = {
     "lfs": "this is a pointer of Git LFS, not a deck: fetch the deck with git lfs pull",
     "key": "this is a key file of a password manager, not a deck",
@@ -164,23 +163,23 @@ _INSTEAD = {
 
 
 def _not_a_deck(text: str) -> Problem | None:
-    """Return the finding on a text that is not a deck; None for one that may be."""
-    if found := _NO_DECK.match(text):
-        return Problem(SYN018, _INSTEAD[str(found.lastgroup)], Span(*found.span()))
-    marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern takes long in a large file
-    if marks and (found := _MERGE_MARK.search(text)):
+    """Return the problem of a text that is not a deck; None if it may be a deck."""
+    if match := _NO_DECK.match(text):
+        return Problem(SYN018, _INSTEAD[str(match.lastgroup)], Span(*match.span()))
+    marks = "<<<<<<<" in text or ">>>>>>>" in text  # the pattern is slow in a large file
+    if marks and (match := _MERGE_MARK.search(text)):
         message = "a merge conflict is not solved: keep one of its versions, and remove its marks"
-        return Problem(SYN018, message, Span(*found.span()))
+        return Problem(SYN018, message, Span(*match.span()))
     return None
 
 
 _OF_NUMBERS = b"+-.,0123456789eEdD \t"
 _STRANGE = bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})
-"""Control characters that no text has many of."""
+"""Control characters that are rare in any text."""
 
 
 def _refusal(body: bytes) -> str:
-    """Why these bytes are not read at all, or nothing."""
+    """Return the reason why bytes are not read at all, or ""."""
     if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
         return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
     sample = body[:_SAMPLE].replace(b"\r\n", b"\n")
@@ -192,10 +191,10 @@ def _refusal(body: bytes) -> str:
 
 
 def _excess(body: bytes) -> str:
-    """Which limit these bytes exceed: the memory of a deck grows with its lines, most with those of words."""
+    """Return the message for an exceeded limit: memory grows with the lines, most with lines of words."""
     if len(body) > LARGEST_DECK:
         return _divide(f"{LARGEST_DECK} bytes")
-    words = body.translate(None, _OF_NUMBERS)  # counting the lines of all would take twice the time
+    words = body.translate(None, _OF_NUMBERS)  # counting all lines would take twice the time
     lines = words.count(b"\n") + words.count(b"\r")
     if lines > MOST_LINES:
         return _divide(f"{MOST_LINES} lines")
@@ -206,8 +205,8 @@ def _excess(body: bytes) -> str:
     return _divide(f"{LONGEST_LINE} bytes on one line") if -2 in ends else ""
 
 
-def _divide(found: str) -> str:
-    return f"more than {found}: is this a deck? If so, divide it, as by *RESTART"
+def _divide(limit: str) -> str:
+    return f"more than {limit}: is this a deck? If so, divide it, as by *RESTART"
 
 
 def _looks_like_utf16(sample: bytes) -> bool:
@@ -237,7 +236,7 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
 
 
 def _control_characters(text: str) -> list[Problem]:
-    """One finding for all control characters, at the first."""
+    """Return one problem for all control characters, at the first one; none for a text without them."""
     first = _CONTROL.search(text)
     if first is None:
         return []

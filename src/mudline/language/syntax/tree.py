@@ -1,4 +1,4 @@
-"""The lossless tree of level one: leaves are spans of the text, laid end to end they are the text."""
+"""Lossless tree of a deck's lines: each leaf is a span of the text, and all leaves together are the whole text."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from mudline.language.syntax.source import CONTROLS, Source
 _BLANKS = re.compile(r"[ \t]+")
 _COMMA = re.compile(r" *, *")
 _REMEMBERED = 100
-"""Characters of a line whose name is remembered: few lines are longer, and most decks have the same ones."""
+"""Greatest length of a line whose name is cached: few lines are longer, and most decks have the same names."""
 
 
 class Kind(Enum):
-    """What a leaf is, by its look alone."""
+    """Kind of a leaf, by its text alone."""
 
     SECTION = "SECTION"
     KEYWORD = "KEYWORD"
@@ -34,7 +34,7 @@ class Kind(Enum):
 
 
 class Leaf(NamedTuple):
-    """One line, or a run of numeric or blank lines, with its line ends."""
+    """Line, or run of numeric or blank lines, with line ends."""
 
     kind: Kind
     span: Span
@@ -42,9 +42,9 @@ class Leaf(NamedTuple):
 
 @dataclass(slots=True)
 class RawBlock:
-    """A `*KEYWORD` line and what follows it; `name` is in upper case with single blanks.
+    """`*KEYWORD` line and the lines of its block; `name` is in upper case with single blanks.
 
-    A block of an `older` program may have what fields that are declared so say.
+    `older` is True for a block of an older program, whose fields may have values that are declared as older.
     """
 
     head: Leaf
@@ -57,7 +57,7 @@ class RawBlock:
 
 @dataclass(slots=True)
 class RawSection:
-    """A `$SECTION` line and its blocks; the preamble has no head and the name ""."""
+    """`$SECTION` line and its blocks; the preamble has no head and the name ""."""
 
     head: Leaf | None
     name: str
@@ -69,7 +69,7 @@ class RawSection:
 
 @dataclass(frozen=True, slots=True)
 class SyntaxTree:
-    """A whole file: what stands before the first section, then the sections."""
+    """Tree of a whole file: the lines before the first section, then the sections."""
 
     source: Source
     preamble: RawSection
@@ -78,7 +78,7 @@ class SyntaxTree:
     __repr__ = short_repr
 
     def leaves(self) -> Iterator[Leaf]:
-        """Every leaf, in the order of the text."""
+        """Yield every leaf, in the order of the text."""
         for section in (self.preamble, *self.sections):
             if section.head:
                 yield section.head
@@ -90,20 +90,20 @@ class SyntaxTree:
 
 @cache
 def _lines() -> re.Pattern[str]:
-    """Return the pattern whose matches, laid end to end, are the tokens of a text; `lastgroup` is the terminal.
+    """Return the pattern whose consecutive matches are the tokens of a text; `lastgroup` is the terminal.
 
-    It cuts a text as lark's basic lexer does, in a third of the time: the first of the terminals that fit is taken, in
-    the order that lark documents.
+    It splits a text like lark's basic lexer, in a third of the time: the first fitting terminal is taken, in the order
+    that lark documents.
     """
     order = sorted(
         parser("deck").terminals,
-        key=lambda one: (-one.priority, -one.pattern.max_width, -len(one.pattern.value), one.name),
+        key=lambda token: (-token.priority, -token.pattern.max_width, -len(token.pattern.value), token.name),
     )
-    return re.compile("|".join(f"(?P<{one.name}>{one.pattern.to_regexp()})" for one in order))
+    return re.compile("|".join(f"(?P<{token.name}>{token.pattern.to_regexp()})" for token in order))
 
 
 def canonical_name(line: str) -> str:
-    """The name that a `$` or `*` line gives: upper case, single blanks, none around a comma."""
+    """Return the name on a `$` or `*` line: upper case, single blanks, no blanks around a comma."""
     return _known_name(line) if len(line) <= _REMEMBERED else _known_name.__wrapped__(line)
 
 
@@ -114,20 +114,20 @@ def _known_name(line: str) -> str:
 
 
 def mark_of(line: str) -> str:
-    """The `$` or `*` with which a line opens a section or a block, or nothing."""
+    """Return the `$` or `*` that opens a section or a block on a line, or ""."""
     first = line.lstrip(f" \t{CONTROLS}")[:1]
     return first if first in ("$", "*") else ""
 
 
 def parse(source: Source) -> SyntaxTree:
-    """The tree of a source. Never fails: content that is not text becomes one leaf before any section."""
+    """Return the tree of a source. Never fails: unreadable content becomes one leaf before any section."""
     if not source.readable:
         leaf = Leaf(Kind.TEXT, Span(0, len(source.text)))
         return SyntaxTree(source, RawSection(None, "", [leaf] if source.text else []), ())
     preamble = section = RawSection(None, "")
     sections: list[RawSection] = []
     leaves = section.leaves
-    new = tuple.__new__  # what the classes call, in a third of the time: a deck has a leaf for nearly every line
+    new = tuple.__new__  # a third of the time of the classes: a deck has a leaf for nearly every line
     for line in _lines().finditer(source.unified):
         kind = _KINDS[line.lastgroup]
         leaf = new(Leaf, (kind, new(Span, line.span())))

@@ -15,13 +15,13 @@ from typing import NamedTuple
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.short_repr import counted
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.values import Contents
+from mudline.language.keywords.values import DataFile
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
 
 _PARTS = re.compile(r"[ ,]+")
 _HEADING = re.compile(r"[ ]*HEADING[ ]*=(.*)", re.IGNORECASE)
-_WIDTH = {Contents.MOTIONS: 7, Contents.ELEVATIONS: 2}
+_WIDTH = {DataFile.MOTIONS: 7, DataFile.ELEVATIONS: 2}
 _SIX = 6
 _PER_LINE = 14
 _HALF_TURN = 180.0
@@ -39,11 +39,11 @@ class DataLine(NamedTuple):
         return [number_of(word, self.number) for word in _PARTS.split(self.text.strip(" ,"))]
 
 
-def fault_of(path: Path, contents: Contents, *, layout: str = "") -> str:
+def fault_of(path: Path, contents: DataFile, *, layout: str = "") -> str:
     """Return the first fault of a file, with its line, or ""; `layout` is MCS or LINE if the deck gives it."""
     try:
         lines = list(_lines(path))
-        if contents is Contents.OPERATORS:
+        if contents is DataFile.OPERATORS:
             _operators(lines, layout)
         elif contents in _WIDTH:
             times = [row[0] for row in _table(lines, _WIDTH[contents])]
@@ -59,7 +59,7 @@ def fault_of(path: Path, contents: Contents, *, layout: str = "") -> str:
 
 def has_uneven_times(path: Path) -> bool:
     """Return True if the times of a file without a fault do not have a constant interval."""
-    times = [row[0] for row in _table(list(_lines(path)), _WIDTH[Contents.ELEVATIONS])]
+    times = [row[0] for row in _table(list(_lines(path)), _WIDTH[DataFile.ELEVATIONS])]
     steps = [after - before for before, after in pairwise(times)]
     return bool(steps) and max(steps) - min(steps) > _UNEVEN * max(steps)
 

@@ -22,7 +22,7 @@ from mudline.language.keywords.keeping import is_read, kept_places
 from mudline.language.keywords.model import Path, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
-from mudline.language.syntax.fields import Field, Group, read_line
+from mudline.language.syntax.fields import Field, FieldGroup, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import COMMENT, data_lines, file_name, find_file, not_found
@@ -107,7 +107,7 @@ def _uses_any_curve(line: str) -> bool:
     return any(group.key == "CURVE" for group in groups) and _uses_curve(groups)
 
 
-def _uses_curve(groups: list[Group]) -> bool:
+def _uses_curve(groups: list[FieldGroup]) -> bool:
     """Return True if CURVE= of a line uses a curve: after a number, a label, or the setting of an object.
 
     If CURVE= comes first, it may name a new curve.
@@ -172,7 +172,7 @@ class _Looking:
             message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number{_UNREAD}"
             self._note(Problem(REF006, message, None, Severity.WARNING, where, lacks=f"{node:.0f}"))
 
-    def _keyless(self, where: Where, keyword: str, groups: list[Group]) -> None:
+    def _keyless(self, where: Where, keyword: str, groups: list[FieldGroup]) -> None:
         """Report a line of a keyword that is read, if the key before its first value is missing."""
         section = self.context.written.sections[where.section].name
         block = catalogue.block_class(section, keyword)

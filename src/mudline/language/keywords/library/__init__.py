@@ -1,1 +1,1 @@
-"""One module per keyword; each declares a BLOCK."""
+"""Library of keywords: one module per subject, which declares the blocks of its keywords."""

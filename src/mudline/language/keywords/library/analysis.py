@@ -1,4 +1,4 @@
-"""Kind of run of a load case: time, steps, convergence, contact, restart, what is stored."""
+"""Analysis of a load case: kind of run, time, steps, convergence, contact, restart, storage of results."""
 
 from typing import Annotated, Literal, Self
 
@@ -20,12 +20,12 @@ _TYPES = ("STATIC", "QUASI-STATIC", "DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN"
 
 
 class AnalysisType(OpenBlock):
-    """The kind of run."""
+    """Kind of run."""
 
     rule = "analysis_type"
     sections = ("LOAD CASE", "ANALYSIS")
     subject = "analysis"
-    summary = "What kind of run a load case is: static, or dynamic in the time or frequency domain."
+    summary = "Kind of run of a load case: static, or dynamic in the time or frequency domain."
     example = "*ANALYSIS TYPE\n TYPE=STATIC\n"
 
     keyword: Literal["ANALYSIS TYPE"] = "ANALYSIS TYPE"
@@ -41,7 +41,7 @@ _RAMP = "time over which loads grow"
 
 
 class FixedSpan(Row):
-    """The line under STEP=FIXED."""
+    """Line under STEP=FIXED."""
 
     start: Annotated[Real, about(_START, unit="T", usual=OF_THE_RUN)]
     end: Annotated[Real, about(_END, unit="T", usual=OF_THE_RUN)]
@@ -60,7 +60,7 @@ class FixedSpan(Row):
 
 
 class VariableSpan(Row):
-    """The first line under STEP=VARIABLE."""
+    """First line under STEP=VARIABLE."""
 
     start: Annotated[Real, about(_START, unit="T", usual=OF_THE_RUN)]
     end: Annotated[Real, about(_END, unit="T", usual=OF_THE_RUN)]
@@ -68,7 +68,7 @@ class VariableSpan(Row):
 
 
 class StepLimits(Record):
-    """A line of limits of a variable step; of several all but the first say from when they hold."""
+    """Line of limits of a variable step; each line after the first gives the time from which it holds."""
 
     rule = "step_limits"
     suggested: Annotated[Real, about("time step to begin with", unit="T", above=0, usual=STEP)]
@@ -79,33 +79,33 @@ class StepLimits(Record):
 
 
 class TimeSpan(Block):
-    """A span of time with a fixed or a variable step."""
+    """Span of time with a fixed or a variable step."""
 
     rule = "time"
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_time"
-    summary = "Start and end of a load case in time, and its steps: of one length, or between limits."
+    summary = "Start and end time of a load case, and its time steps: of fixed length, or between limits."
     sticky = "step"
     example = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
 
     keyword: Literal["TIME"] = "TIME"
     step: Annotated[
         Literal["FIXED", "VARIABLE"] | None,
-        setting("STEP", "one length of the steps, or limits", default="FIXED", inferred="its default, FIXED"),
+        setting("STEP", "fixed length of the steps, or limits", default="FIXED", inferred="its default, FIXED"),
     ] = None
     fixed: Annotated[FixedSpan | None, about("span under STEP=FIXED")] = None
     variable: Annotated[VariableSpan | None, about("span under STEP=VARIABLE")] = None
     limits: Records[StepLimits] = Records()
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The span that STEP= chose."""
-        return str(given.get("step") or "FIXED").lower()
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the span of the chosen STEP=."""
+        return str(values.get("step") or "FIXED").lower()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """Each form has its own lines."""
+        """Raise ValueError unless the lines are those of the chosen STEP=."""
         step = self.step or "FIXED"
         if getattr(self, step.lower()) is None or (self.fixed and self.variable):
             raise ValueError(f"STEP={step} needs the span {step.lower()!r}, and no other")
@@ -113,8 +113,8 @@ class TimeSpan(Block):
             raise ValueError("STEP=VARIABLE needs a line of suggested, least and largest step below its first line")
         if step == "FIXED" and self.limits:
             raise ValueError("STEP=FIXED takes one line: start, end, step and ramp")
-        if any(one.since is None for one in self.limits[1:]):
-            raise ValueError("of several lines of step limits each but the first needs the time from which it holds")
+        if any(limit.since is None for limit in self.limits[1:]):
+            raise ValueError("each line of step limits after the first needs the time from which it holds")
         return self
 
 
@@ -147,7 +147,7 @@ _REPEATED = "several lines, each of another ANALYSIS="
 
 
 class StepTolerances(Row):
-    """The line of static runs and of the time domain."""
+    """Line of static runs and of the time domain."""
 
     displacement: Annotated[
         Real | None,
@@ -169,7 +169,7 @@ class StepTolerances(Row):
 
 
 class FrequencyTolerances(Row):
-    """The line of the frequency domain."""
+    """Line of the frequency domain."""
 
     tolerance: Annotated[Real | None, about("tolerance", unit="-", default="0.025", above=0, usual=ANY)] = None
     iterations: Annotated[Whole | None, about("most iterations", default="20", at_least=1, usual=COUNT)] = None
@@ -180,7 +180,7 @@ class FrequencyTolerances(Row):
 
 
 class Tolerances(Record):
-    """The tolerances of a kind of run."""
+    """Tolerances of a kind of run."""
 
     rule = "tolerances"
     analysis: Annotated[
@@ -191,26 +191,26 @@ class Tolerances(Record):
     frequency: Annotated[FrequencyTolerances | None, about("of FREQUENCY")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The line of the kind of run that ANALYSIS= gives."""
-        return "frequency" if given.get("analysis") == "FREQUENCY" else "steps"
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the line for the kind of run in ANALYSIS=."""
+        return "frequency" if values.get("analysis") == "FREQUENCY" else "steps"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """The line of its kind of run."""
+        """Raise ValueError unless the line is that of the kind of run."""
         require_one(self, "frequency" if self.analysis == "FREQUENCY" else "steps")
         require_one(self, "steps", "frequency")
         return self
 
 
 class Tolerance(Block):
-    """When an iteration has converged."""
+    """Convergence tolerances of iterations."""
 
     rule = "tolerance"
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_tolerance"
-    summary = "When the iterations of a step have converged, and how many there may be."
+    summary = "Convergence tolerances of the iterations of a step, and their largest number."
     example = "*TOLERANCE\n ANALYSIS=FREQUENCY\n 0.025, 30, 0.8\n"
 
     keyword: Literal["TOLERANCE"] = "TOLERANCE"
@@ -218,15 +218,15 @@ class Tolerance(Block):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One line for a kind of run."""
-        kinds = [one.analysis or "STATIC/TIME" for one in self.tolerances]
+        """Raise ValueError unless each kind of run has at most one line."""
+        kinds = [line.analysis or "STATIC/TIME" for line in self.tolerances]
         if len(set(kinds)) < len(kinds):
             raise ValueError("each ANALYSIS= may stand once: keep one line of each")
         return self
 
 
 class Criterion(Record):
-    """A value that is to be reached."""
+    """Value to be reached."""
 
     rule = "criterion"
     criterion: Annotated[
@@ -244,7 +244,7 @@ class Criterion(Record):
         ],
         setting("CRITERION", "quantity"),
     ]
-    monitor: Annotated[Name, setting("MONITOR", "element, element set or guide where it is looked at", inline=True)]
+    monitor: Annotated[Name, setting("MONITOR", "element, element set or guide to be monitored", inline=True)]
     target: Annotated[Real, setting("TARGET", "value to be reached", inline=True, usual=ANY)]
     tolerance: Annotated[
         Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True, usual=ANY)
@@ -258,7 +258,7 @@ class Criteria(Block):
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_criteria"
-    summary = "What a static run is to reach, and what is moved, or made longer, until it does."
+    summary = "Target of a static run, and the object that is moved or lengthened until it is reached."
     example = (
         "*CRITERIA\n CRITERION=TENSION, MONITOR=12, TARGET=2.5E5\n VARIABLE=VESSEL, ADJUST=FPSO, VECTOR=Away\n"
         " MAX ITERATIONS=50\n"
@@ -285,19 +285,19 @@ class Criteria(Block):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One thing is changed."""
+        """Raise ValueError unless the criteria change either a variable or an option."""
         require_one(self, "variable", "option")
         return self
 
 
 class ContactModelling(Block):
-    """The ramp of contact."""
+    """Ramp of contact."""
 
     rule = "contact_modelling"
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_contactmodelling"
-    summary = "How the contact with guides grows over a distance."
+    summary = "Ramp of the contact with guides over a distance."
     example = "*CONTACT MODELLING\n RAMP=0.01, POWER=1.5\n"
 
     keyword: Literal["CONTACT MODELLING"] = "CONTACT MODELLING"
@@ -313,14 +313,14 @@ _WORDS = "the manual writes DYNAMIC/STATIC for both: the words alone are taken t
 
 
 class Restart(OpenBlock):
-    """The run that goes before."""
+    """Earlier run that this run continues."""
 
     rule = "restart"
     known_forms = True
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_restart"
-    summary = "The deck that this one continues: its model holds here, too."
+    summary = "The deck that this deck continues, and whose model it takes over."
     example = "*RESTART\n LAST=static\n"
 
     keyword: Literal["RESTART"] = "RESTART"
@@ -346,13 +346,13 @@ class Restart(OpenBlock):
 
 
 class Database(Block):
-    """When results are stored."""
+    """Times at which results are stored."""
 
     rule = "database"
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_database"
-    summary = "When results are stored: at all times, at selected ones, at the end, or never. Once in a load case."
+    summary = "Times at which results are stored: all, selected, the end, or none. Once in a load case."
     example = "*DATABASE\n TIME=SELECTED\n 60.0, 0.5\n"
 
     keyword: Literal["DATABASE"] = "DATABASE"
@@ -365,7 +365,7 @@ class Database(Block):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """Only selected times have a line of their own."""
+        """Raise ValueError for a line of times, unless selected times are stored."""
         if self.time == "SELECTED" and self.interval is None:
             raise ValueError("TIME=SELECTED needs a line `start, interval` below it")
         if self.time != "SELECTED" and (self.start is not None or self.interval is not None):
@@ -374,7 +374,7 @@ class Database(Block):
 
 
 class AlphaParameters(Row):
-    """The line of TYPE=GENERALISED-ALPHA without P-INFINITY=."""
+    """Line of TYPE=GENERALISED-ALPHA without P-INFINITY=."""
 
     alpha_f: Annotated[
         Real | None, about("alpha_f, the share of the old forces", unit="-", default="0.286", at_least=0, at_most=0.5)
@@ -386,7 +386,7 @@ class AlphaParameters(Row):
 
 
 class HilberHughes(Row):
-    """The line of TYPE=HILBER-HUGHES."""
+    """Line of TYPE=HILBER-HUGHES."""
 
     coefficient: Annotated[
         Real | None, about("coefficient, from -1/3 to 0", unit="-", default="-0.25", at_least=-0.3334, at_most=0)
@@ -394,13 +394,13 @@ class HilberHughes(Row):
 
 
 class TimeStepping(Block):
-    """The scheme of implicit steps."""
+    """Scheme of implicit steps."""
 
     rule = "time_stepping"
     sections = ("LOAD CASE",)
     subject = "analysis"
     page = "kwd_loadcase_timestepping"
-    summary = "Scheme of the implicit time steps, and how it damps the highest frequencies."
+    summary = "Scheme of implicit time stepping, and its damping of the highest frequencies."
     example = "*TIME STEPPING\n TYPE=GENERALISED-ALPHA, P-INFINITY=0.4\n"
 
     keyword: Literal["TIME STEPPING"] = "TIME STEPPING"
@@ -425,13 +425,13 @@ class TimeStepping(Block):
     hilber_hughes: Annotated[HilberHughes | None, about("parameter of HILBER-HUGHES")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The parameters of the scheme that TYPE= chose."""
-        return "hilber_hughes" if given.get("type_", given.get("type")) == "HILBER-HUGHES" else "alphas"
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the parameters of the scheme in TYPE=."""
+        return "hilber_hughes" if values.get("type_", values.get("type")) == "HILBER-HUGHES" else "alphas"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """Each scheme has its own parameters, given once."""
+        """Raise ValueError unless the scheme has its own parameters, given once."""
         of_alpha, of_hughes = self.infinity is not None or self.alphas is not None, self.hilber_hughes is not None
         if (of_alpha and self.type_ == "HILBER-HUGHES") or (of_hughes and self.type_ != "HILBER-HUGHES"):
             raise ValueError(

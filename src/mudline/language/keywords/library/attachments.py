@@ -13,7 +13,7 @@ from mudline.language.keywords.values import Ident, Names, Real, Whole
 
 
 class PointMass(Record):
-    """A mass at a node."""
+    """Mass at a node."""
 
     rule = "point_mass"
     node: Node
@@ -42,7 +42,7 @@ class Masses(Block):
 
 
 class Chain(Record):
-    """A chain at a node."""
+    """Chain at a node."""
 
     rule = "chain"
     node: Node
@@ -60,10 +60,10 @@ class Chain(Record):
 
 
 class ChainRange(ListRow):
-    """Chains like that of a master node, which is defined before."""
+    """Chains like that of a master node, which is defined above them."""
 
     master: Annotated[Ident, about("node with the chain that is repeated", names=Names.NODE)]
-    number: Annotated[Whole, about("number of chains, with that of the master", at_least=1, usual=COUNT)]
+    number: Annotated[Whole, about("number of chains, including the master", at_least=1, usual=COUNT)]
     increment: Annotated[Whole | None, about("step between node numbers", default="1", usual=COUNT)] = None
 
 

@@ -19,21 +19,21 @@ class AuxiliaryRange(ListRow):
 
 
 class AuxiliaryList(Record):
-    """Auxiliary elements, 20 on a line at most."""
+    """Auxiliary elements, at most 20 on a line."""
 
     rule = "auxiliary_list"
     elements: Annotated[list[Whole], about("numbers of auxiliary elements", usual=NUMBER)]
 
 
 class AuxiliaryGenerate(Record):
-    """A range of auxiliary elements."""
+    """Range of auxiliary elements."""
 
     rule = "auxiliary_generate"
     generate: Annotated[AuxiliaryRange, setting("GEN", "range of auxiliary elements")]
 
 
 class AuxiliaryBody(Record):
-    """A body."""
+    """Body."""
 
     rule = "auxiliary_body"
     body: Annotated[Name, setting("BODY", "vessel or node that it moves with; NONE: it does not move")]
@@ -45,7 +45,7 @@ class Auxiliary(Block):
 
     rule = "auxiliary"
     page = "kwd_model_auxiliary"
-    summary = "Auxiliary elements that are drawn as bodies, and what they move with."
+    summary = "Auxiliary elements that are drawn as bodies, and the objects that they move with."
     example = "*AUXILIARY\n BODY=FPSO\n 1, 2, 3\n GEN=10, 20, 2\n"
 
     keyword: Literal["AUXILIARY"] = "AUXILIARY"
@@ -53,7 +53,7 @@ class Auxiliary(Block):
 
 
 class AuxiliaryNode(Row):
-    """An auxiliary node."""
+    """Auxiliary node."""
 
     node: Annotated[Whole, about("number, that of no node of the structure", usual=NUMBER)]
     x: Annotated[Real, about("vertical coordinate", unit="L", usual=POSITION)]
@@ -78,7 +78,7 @@ _ELEMENT_FORM = "the line: a number and 2 nodes; the manual page was not seen"
 
 
 class AuxiliaryElement(Row):
-    """An auxiliary element."""
+    """Auxiliary element."""
 
     element: Annotated[Whole, about("number", inferred=_ELEMENT_FORM, usual=NUMBER)]
     first: Annotated[Whole, about("its first auxiliary node", usual=NUMBER)]
@@ -101,7 +101,7 @@ _PANEL_FORM = "the line: a number and 3 nodes; the manual page was not seen"
 
 
 class AuxiliaryPanel(Row):
-    """An auxiliary panel."""
+    """Auxiliary panel."""
 
     panel: Annotated[Whole, about("number", inferred=_PANEL_FORM, usual=NUMBER)]
     first: Annotated[Whole, about("its first auxiliary node", usual=NUMBER)]

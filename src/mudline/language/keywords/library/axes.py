@@ -11,13 +11,13 @@ from mudline.language.keywords.values import Ident, Name, Names, Real
 
 
 def _component(axis: str, of: str) -> FieldInfo:
-    """A component; the first one of a vector or of two axes stands for all of them."""
+    """Return the field of a component; the first component stands for the whole vector, or for both axes."""
     usual = {("X", "the vector"): LENGTH, ("X", "the local x axis"): AXES}.get((axis, of), COMPONENT)
     return about(f"component of {of} along the global {axis} axis", default="0", usual=usual)
 
 
 class Components(Row):
-    """A vector."""
+    """Vector."""
 
     x: Annotated[Real | None, _component("X", "the vector")] = None
     y: Annotated[Real | None, _component("Y", "the vector")] = None
@@ -25,7 +25,7 @@ class Components(Row):
 
 
 class TwoAxes(Row):
-    """The first two axes of a system."""
+    """First two axes of a system."""
 
     x1: Annotated[Real | None, _component("X", "the local x axis")] = None
     y1: Annotated[Real | None, _component("Y", "the local x axis")] = None
@@ -36,7 +36,7 @@ class TwoAxes(Row):
 
 
 class NamedVector(Record):
-    """A vector."""
+    """Vector."""
 
     rule = "named_vector"
     name: Annotated[Name, setting("VECTOR", "name of the vector", defines=Names.VECTOR)]
@@ -56,7 +56,7 @@ class Vectors(Block):
 
 
 class LocalAxes(Record):
-    """An axis system."""
+    """Axis system."""
 
     rule = "local_axes"
     name: Annotated[Name, setting("NAME", "name of the axis system", unique=True)]
@@ -68,7 +68,7 @@ class LocalAxisSystems(Block):
 
     rule = "local_axis_system"
     page = "kwd_model_localaxissystem"
-    summary = "Axis systems of one's own for elements, by two axes at right angles."
+    summary = "User-defined axis systems for elements, by two axes at right angles."
     example = "*LOCAL AXIS SYSTEM\n NAME=Spool\n 0.0, 1.0, 0.0, 1.0, 0.0, 0.0\n"
 
     keyword: Literal["LOCAL AXIS SYSTEM"] = "LOCAL AXIS SYSTEM"
@@ -79,7 +79,7 @@ _SECTION = "also in $SUMMARY POSTPROCESSING, where *PARA REACTION names axis sys
 
 
 class AxesAtNode(Record):
-    """An axis system for outputs: by two axes, or by a node on its x axis."""
+    """Axis system for outputs: by two axes, or by a node on its x axis."""
 
     rule = "axes_at_node"
     axis: Annotated[Name, setting("AXIS", "name of the axis system", defines=Names.AXIS, inferred=_SECTION)]
@@ -97,7 +97,7 @@ class AxesAtNode(Record):
 
 
 class VectorAtNode(Record):
-    """A vector for outputs."""
+    """Vector for outputs."""
 
     rule = "vector_at_node"
     vector: Annotated[Name, setting("VECTOR", "name of the vector")]

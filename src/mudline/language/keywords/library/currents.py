@@ -1,4 +1,4 @@
-"""Currents: of a load case, and of SHEAR7."""
+"""Currents of a load case, and of SHEAR7."""
 
 from typing import Annotated, Literal, Self
 
@@ -21,7 +21,7 @@ class UniformCurrent(Row):
 
 
 class CurrentPoint(Row):
-    """The velocity at an elevation."""
+    """Velocity at an elevation."""
 
     elevation: Annotated[
         Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L", usual=POSITION)
@@ -31,7 +31,7 @@ class CurrentPoint(Row):
 
 
 class CurrentProfile(Record):
-    """A current."""
+    """Current."""
 
     rule = "current_profile"
     type_: Annotated[
@@ -61,13 +61,13 @@ class CurrentProfile(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What TYPE= says."""
-        return "uniform" if given.get("type") == "UNIFORM" else "profile"
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of the form in TYPE=."""
+        return "uniform" if values.get("type") == "UNIFORM" else "profile"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """What its type has."""
+        """Raise ValueError unless the current has the data of its type."""
         if self.type_ == "SUBROUTINE" and self.user is None:
             raise ValueError("TYPE=SUBROUTINE needs USER=, the file with it")
         if self.type_ != "SUBROUTINE":
@@ -92,7 +92,7 @@ class Current(Block):
 
 
 class VelocityPoint(Row):
-    """The velocity at an elevation."""
+    """Velocity at an elevation."""
 
     elevation: Annotated[
         Real, about("elevation; of XL the place along the line over its length", unit="L", usual=POSITION)
@@ -101,13 +101,13 @@ class VelocityPoint(Row):
 
 
 class ShearCurrent(Block):
-    """A current profile."""
+    """Current profile."""
 
     rule = "shear7_current"
     sections = ("SHEAR7",)
     subject = "loads"
     page = "kwd_shear7_current"
-    summary = "A current profile for vortex-induced vibration, and how probable it is."
+    summary = "Current profile for vortex-induced vibration, and its probability."
     tabular = True
     example = "*CURRENT\n PROBABILITY=0.25, ID=1, OPTION=ASCEND\n 0.0, 0.1\n 300.0, 0.9\n"
 

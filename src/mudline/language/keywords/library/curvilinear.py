@@ -14,7 +14,7 @@ _LINE = "one line with these four data in this order, as the page names the data
 
 
 class CableLine(OpenRecord):
-    """A cable."""
+    """Cable."""
 
     rule = "cable_line"
     cable: Annotated[Whole, about("number of the cable", defines=Names.CABLE, inferred=_LINE)]
@@ -28,7 +28,7 @@ class Cables(OpenBlock):
 
     rule = "cable"
     page = "theory_geomety_cables_data"
-    summary = "Cables between two nodes, along which *NODE,CURVILINEAR places others (older than *LINES)."
+    summary = "Cables between two nodes, along which *NODE,CURVILINEAR places nodes (older than *LINES)."
     example = "*CABLE\n 1, 1, 41, 565.6\n"
 
     keyword: Literal["CABLE"] = "CABLE"
@@ -36,7 +36,7 @@ class Cables(OpenBlock):
 
 
 class CurvilinearNode(Row):
-    """A node on a cable."""
+    """Node on a cable."""
 
     node: Annotated[Whole, about("node number", usual=NUMBER)]
     cable: Annotated[Whole, about("number of the cable", names=Names.CABLE)]

@@ -11,7 +11,7 @@ from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import ANY, DIRECTION, Usual
-from mudline.language.keywords.values import Contents, Name, Names, Real
+from mudline.language.keywords.values import DataFile, Name, Names, Real
 
 Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
 
@@ -20,7 +20,7 @@ _SIX = 6
 
 
 class MatrixRow(Row):
-    """A line of a 6x6 matrix."""
+    """Line of a 6x6 matrix."""
 
     heave: Annotated[Real, about("column of heave", usual=ANY)]
     surge: Annotated[Real, about("column of surge", usual=ANY)]
@@ -39,7 +39,7 @@ def _require_six(matrix: Table | None) -> None:
 
 
 class FrequencyMatrix(Record):
-    """The matrix at a frequency."""
+    """Matrix at a frequency."""
 
     rule = "frequency_matrix"
     frequency: Annotated[
@@ -57,13 +57,13 @@ class FrequencyMatrix(Record):
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
-        """Six lines."""
+        """Raise ValueError unless the matrix has six lines."""
         _require_six(self.matrix)
         return self
 
 
 class MatrixType(Record):
-    """A constant matrix, those by frequency, or that beyond the largest frequency."""
+    """Constant matrix, matrices by frequency, or matrix beyond the largest frequency."""
 
     rule = "matrix_type"
     type_: Annotated[
@@ -77,7 +77,7 @@ class MatrixType(Record):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """What its type has."""
+        """Raise ValueError unless the matrices are those of the type."""
         require_one(self, "frequencies" if self.type_ == "FREQUENCY" else "matrix")
         require_one(self, "frequencies", "matrix")
         _require_six(self.matrix)
@@ -85,19 +85,19 @@ class MatrixType(Record):
 
 
 class BodyMatrices(Record):
-    """The matrices of a body."""
+    """Matrices of a body."""
 
     rule = "body_matrices"
     body: Body
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=Contents.NUMBERS),
+        setting("FILE", "file with the matrices, instead of lines", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     types: Records[MatrixType] = Records()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """A file, or matrices."""
+        """Raise ValueError unless a body has either a file or matrices."""
         require_one(self, "file", "types")
         return self
 
@@ -108,7 +108,7 @@ class AddedMass(Block):
     rule = "added_mass"
     subject = "vessels"
     page = "kwd_model_addedmass"
-    summary = "Added mass of floating bodies in a coupled analysis: a file, a constant matrix, or one a frequency."
+    summary = "Added mass of floating bodies in a coupled analysis: a file, a constant matrix, or one per frequency."
     tabular = True
     example = (
         "*ADDED MASS\n FLOATING BODY=Buoy\n TYPE=CONSTANT\n"
@@ -127,7 +127,7 @@ class RadiationDamping(Block):
     subject = "vessels"
     page = "kwd_model_radiationdamping"
     summary = (
-        "Radiation damping of floating bodies in a coupled analysis: a file, a constant matrix, or one a frequency."
+        "Radiation damping of floating bodies in a coupled analysis: a file, a constant matrix, or one per frequency."
     )
     tabular = True
     example = (
@@ -141,20 +141,20 @@ class RadiationDamping(Block):
 
 
 class BodyDrag(Record):
-    """The matrix of a body."""
+    """Matrix of a body."""
 
     rule = "body_drag"
     body: Body
     type_: Annotated[Literal["MATRIX"], setting("TYPE", "the coefficients are a matrix")] = Field(alias="type")
     option: Annotated[
         Literal["ABSOLUTE", "RELATIVE"] | None,
-        setting("OPTION", "velocity of the body, or that against the water", default="ABSOLUTE"),
+        setting("OPTION", "velocity of the body, or relative to the water", default="ABSOLUTE"),
     ] = None
     matrix: Matrix
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
-        """Six lines."""
+        """Raise ValueError unless the matrix has six lines."""
         _require_six(self.matrix)
         return self
 
@@ -165,7 +165,7 @@ class ViscousDrag(Block):
     rule = "viscous_drag"
     subject = "vessels"
     page = "kwd_model_viscousdrag"
-    summary = "Viscous drag of floating bodies in a coupled analysis, by a matrix each."
+    summary = "Viscous drag of floating bodies in a coupled analysis: one matrix per body."
     tabular = True
     example = (
         "*VISCOUS DRAG\n FLOATING BODY=Buoy\n TYPE=MATRIX\n OPTION=RELATIVE\n"
@@ -191,42 +191,42 @@ class Coefficients(Row):
 
 
 class BodyCoefficients(Record):
-    """The coefficients of a floating body."""
+    """Coefficients of a floating body."""
 
     rule = "body_coefficients"
     body: Body
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """A file, or rows."""
+        """Raise ValueError unless a body has either a file or rows."""
         require_one(self, "file", "headings")
         return self
 
 
 class VesselCoefficients(Record):
-    """The coefficients of the moored vessel."""
+    """Coefficients of the moored vessel."""
 
     rule = "vessel_coefficients"
     tag: Annotated[Literal["MOORED VESSEL"], about(TAG)]
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=DataFile.NUMBERS),
     ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The first line is the tag."""
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of a row: the first line is the tag."""
         return "tag" if number == 0 else "headings"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """A file, or rows."""
+        """Raise ValueError unless the vessel has either a file or rows."""
         require_one(self, "file", "headings")
         return self
 
@@ -238,7 +238,7 @@ class CoefficientBlock(Block):
 
     @model_validator(mode="after")
     def _alone(self) -> Self:
-        """A mooring analysis has one vessel, and nothing else."""
+        """Raise ValueError for other bodies beside a moored vessel."""
         if len(self.bodies) > 1 and any(isinstance(body, VesselCoefficients) for body in self.bodies):
             raise ValueError("MOORED VESSEL stands alone: remove the other bodies")
         return self

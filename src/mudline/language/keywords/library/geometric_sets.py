@@ -150,7 +150,7 @@ class TrussSection(Row):
 
 
 class GeometricSet(Record):
-    """The properties of a set; `option` is given where it changes."""
+    """Properties of a set; `option` is given where it changes."""
 
     rule = "geometric_set"
     sticky = "option"
@@ -183,13 +183,13 @@ class GeometricSet(Record):
     compression_check: Annotated[Name | None, setting("COMPRESSION CHECK", "check for compression")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The format that OPTION= chose, here or at an earlier set."""
-        return str(given.get("option") or last or "FLEXIBLE").lower()
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the format in OPTION=, here or at an earlier set."""
+        return str(values.get("option") or last or "FLEXIBLE").lower()
 
     @property
     def section(self) -> FlexibleSection | RigidSection | MooringSection | TrussSection | None:
-        """The property line, whatever its format."""
+        """Property line of any format."""
         return self.flexible or self.rigid or self.mooring or self.truss
 
     @property
@@ -208,7 +208,7 @@ FORMATS_OF = {
     "EA": ("FLEXIBLE", "TRUSS"),
     **dict.fromkeys(("E", "PLASTIC HARDENING"), ("RIGID",)),
 }
-"""The formats in which a curve may take the place of a number."""
+"""Formats in which a curve may replace a number, by field."""
 
 
 class GeometricSets(Block):
@@ -225,14 +225,14 @@ class GeometricSets(Block):
 
     @model_validator(mode="after")
     def _formats(self) -> Self:
-        """Every set has one property line, in the format that OPTION= says."""
+        """Raise ValueError unless every set has one property line, in the format of its OPTION=."""
         option = "FLEXIBLE"
         for index, entry in enumerate(self.sets):
             option = entry.option or option
-            given = [name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None]
-            if given != [option.lower()]:
-                found = " and ".join(given) or "none"
-                message = f"OPTION={option} needs the section {option.lower()!r}, found {found}"
+            names = [name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None]
+            if names != [option.lower()]:
+                listed = " and ".join(names) or "none"
+                message = f"OPTION={option} needs the section {option.lower()!r}, found {listed}"
                 raise misfit(message, "sets", index)
             for slot in record_schema(GeometricSet).slots:
                 if slot.key in FORMATS_OF and option not in FORMATS_OF[slot.key] and getattr(entry, slot.name):

@@ -21,7 +21,7 @@ _OTHERS = "types by Reynolds number, of moonpools and buoys, whose lines are pas
 
 
 class ConstantCoefficients(Row):
-    """The line of TYPE=CONSTANT."""
+    """Line of TYPE=CONSTANT."""
 
     normal_drag: Annotated[Real, about("normal drag coefficient", unit="-", at_least=0, inferred=_ORDER, usual=DRAG)]
     tangential_drag: Annotated[
@@ -60,7 +60,7 @@ class ConstantCoefficients(Row):
 
 
 class HydrodynamicSet(OpenRecord):
-    """The coefficients of a set."""
+    """Coefficients of a set."""
 
     rule = "hydrodynamic_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET, unique=True)] = Field(alias="set")
@@ -105,14 +105,14 @@ class HydrodynamicSets(OpenBlock):
 
 
 class LiftPoint(Row):
-    """A point of a curve."""
+    """Point of a curve."""
 
     ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-", usual=ANY)]
     coefficient: Annotated[Real, about("drag lift coefficient there", unit="-", usual=LIFT)]
 
 
 class LiftCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "lift_curve"
     curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS", defines=Names.DRAG_LIFT)]

@@ -1,7 +1,7 @@
-"""Lines, which make nodes, elements, labels and element sets in one.
+"""Lines, each of which creates nodes, elements, labels and element sets.
 
-The formats of `*LINES`, `*LINE PATHS` and `*LINE LOCATIONS` are not public: their lines are kept, the names in them
-are used.
+The formats of `*LINES`, `*LINE PATHS` and `*LINE LOCATIONS` are not public: their lines are kept, and the names in
+them are used.
 """
 
 from typing import Annotated, Literal
@@ -84,7 +84,7 @@ class SectionStretch(Row):
 
 
 class PathSection(Record):
-    """A section of a line."""
+    """Section of a line."""
 
     rule = "path_section"
     section: Annotated[SectionStretch, setting("SECTION", "element set of the section, and where it lies")]
@@ -95,7 +95,7 @@ class PathSection(Record):
 
 
 class PathLine(Record):
-    """A line and its sections."""
+    """Line and its sections."""
 
     rule = "path_line"
     line: Annotated[Name, setting("LINE", "line of *LINE PATHS", inferred="it is an element set too")]
@@ -144,7 +144,7 @@ class SectionMesh(Row):
 
 
 class GroupSection(Record):
-    """A section of a group."""
+    """Section of a group."""
 
     rule = "group_section"
     section: Annotated[SectionLength, setting("SECTION", "element set and length of the section")]
@@ -153,7 +153,7 @@ class GroupSection(Record):
 
 
 class SectionGroup(Record):
-    """A group."""
+    """Group."""
 
     rule = "section_group"
     name: Annotated[Name, setting("NAME", "name of the group", inferred="it is an element set too")]

@@ -37,18 +37,18 @@ Fixation = Annotated[
 ]
 
 
-def _counted(given: object) -> object:
-    """A whole number as one, so that a degree of freedom is written as it was; the sign of -0.0 is kept."""
-    whole = isinstance(given, float) and given.is_integer() and math.copysign(1.0, given) > 0
-    return int(given) if whole and isinstance(given, float) and given <= LARGEST_WHOLE else given
+def _counted(value: object) -> object:
+    """Return a whole number as int, so that a degree of freedom is written as it was; the sign of -0.0 is kept."""
+    whole = isinstance(value, float) and value.is_integer() and math.copysign(1.0, value) > 0
+    return int(value) if whole and isinstance(value, float) and value <= LARGEST_WHOLE else value
 
 
 Either = Annotated[Count | Finite | Equation, Field(union_mode="left_to_right"), BeforeValidator(_counted), Kind.REAL]
-"""A degree of freedom or a displacement."""
+"""Degree of freedom or a displacement."""
 
 
 class FixedNode(Record):
-    """A node that is held in a degree of freedom."""
+    """Node that is held in a degree of freedom."""
 
     rule = "fixed_node"
     node: Annotated[Ident, about("node number, or its label", names=Names.NODE)]
@@ -58,7 +58,7 @@ class FixedNode(Record):
 
 
 class FixedValues(ListRow):
-    """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
+    """First and last node, optional step between them, degree of freedom, displacement."""
 
     start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE, usual=OF_A_KIND)]
     end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE, usual=OF_A_KIND)]
@@ -163,7 +163,7 @@ _Switch = Literal["INCLUDE", "EXCLUDE"] | None
 
 
 class FluidSet(Record):
-    """The fluid in a set; it flows from the first element of the set to the last."""
+    """Fluid in a set; it flows from the first element of the set to the last."""
 
     rule = "fluid_set"
     set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", names=Names.SET)] = Field(
@@ -183,7 +183,7 @@ class FluidSet(Record):
             "mass density",
             unit="M/L3",
             at_least=0,
-            usual=(Usual(1.0, 2600.0, "from gas to heavy mud", meant=850.0, within=8.0), LIQUID),
+            usual=(Usual(1.0, 2600.0, "from gas to heavy mud", typical=850.0, within=8.0), LIQUID),
         ),
     ]
     pressure: Annotated[
@@ -230,7 +230,7 @@ class InternalFluid(Block):
     sections = ("LOAD CASE",)
     subject = "loads"
     page = "kwd_loadcase_internalfluid"
-    summary = "Fluid in pipes by element set: level, density, pressure, velocity, and which of its forces count."
+    summary = "Fluid in pipes by element set: level, density, pressure, velocity, and the forces that count."
     example = "*INTERNAL FLUID\n SET=ALL\n 300.0, 850.0, 2.0E6, 3.0, CORIOLIS=EXCLUDE\n"
 
     keyword: Literal["INTERNAL FLUID"] = "INTERNAL FLUID"

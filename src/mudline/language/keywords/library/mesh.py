@@ -79,7 +79,7 @@ class ElementRow(Row):
 
 
 class ElementPattern(ListRow):
-    """Master, number of elements with it, and the step of element and node numbers."""
+    """Master, number of elements including it, and the step of element and node numbers."""
 
     master: Annotated[Whole, about("existing element whose pattern is repeated", names=Names.ELEMENT)]
     count: Annotated[Whole, about("number of elements, the master included", at_least=1, usual=COUNT)]
@@ -123,14 +123,14 @@ class ElementRange(ListRow):
 
 
 class SetList(Record):
-    """Elements by number or label; the language allows 20 on a line."""
+    """Elements by number or label, at most 20 on a line."""
 
     rule = "set_list"
     elements: Annotated[list[Ident], about("element numbers or {labels}", names=Names.ELEMENT)]
 
 
 class SetGenerate(Record):
-    """A range of element numbers."""
+    """Range of element numbers."""
 
     rule = "set_generate"
     generate: Annotated[ElementRange, setting("GEN", "range of element numbers")]
@@ -146,7 +146,7 @@ class SetSubset(Record):
 
 
 class ElementSet(Record):
-    """A set."""
+    """Set."""
 
     rule = "element_set"
     name: Annotated[
@@ -168,24 +168,24 @@ class ElementSets(Block):
 
 
 class LabelledNode(Row):
-    """The node of a label."""
+    """Node of a label."""
 
     number: Annotated[Whole, about("node number", names=Names.NODE)]
 
 
 class LabelledElement(Row):
-    """The element of a label."""
+    """Element of a label."""
 
     number: Annotated[Whole, about("element number", names=Names.ELEMENT)]
 
 
 class LabelLine(Record):
-    """A label; `thing` is given where it changes."""
+    """Label; `thing` is given where it changes."""
 
     rule = "label_line"
     sticky = "thing"
     thing: Annotated[
-        Literal["NODE", "ELEMENT"] | None, setting("TYPE", "what the labels are of, until it is given again")
+        Literal["NODE", "ELEMENT"] | None, setting("TYPE", "kind of labelled object, until it is given again")
     ] = None
     node: Annotated[LabelledNode | None, about("of NODE: the node")] = None
     element: Annotated[LabelledElement | None, about("of ELEMENT: the element")] = None
@@ -194,13 +194,13 @@ class LabelLine(Record):
     ]
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What TYPE= chose, here or on an earlier line."""
-        return str(given.get("thing") or last or "NODE").lower()
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the kind of object in TYPE=, here or on an earlier line."""
+        return str(values.get("thing") or last or "NODE").lower()
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """A node or an element."""
+        """Raise ValueError unless the label belongs to either a node or an element."""
         require_one(self, "node", "element")
         return self
 
@@ -210,7 +210,7 @@ class Labels(Block):
 
     rule = "label"
     page = "kwd_model_label"
-    summary = "Names for nodes and elements, which stand in braces for their numbers elsewhere."
+    summary = "Names for nodes and elements, used in braces in place of their numbers."
     example = "*LABEL\n TYPE=NODE\n 1, LABEL=Anchor\n 11, LABEL=Hang-off\n TYPE=ELEMENT\n 10, LABEL=Top Joint\n"
 
     keyword: Literal["LABEL"] = "LABEL"
@@ -218,7 +218,7 @@ class Labels(Block):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """The first line says what it is of."""
+        """Raise ValueError unless TYPE= stands above the first label."""
         if self.labels and self.labels[0].thing is None:
             raise ValueError("TYPE=NODE or TYPE=ELEMENT must stand above the first label")
         return self

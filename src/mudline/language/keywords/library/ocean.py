@@ -9,7 +9,7 @@ from mudline.language.keywords.values import Facts, Real
 
 
 class Ocean(Block):
-    """The sea."""
+    """Water of the sea."""
 
     rule = "ocean"
     facts = Facts(once=True, tells_units=True)
@@ -34,6 +34,6 @@ class Ocean(Block):
             unit="L2/T",
             default="1.3e-6 m2/s, 1.4e-5 ft2/s, 1e-10 in user units",
             at_least=0,
-            usual=Usual(5e-7, 2e-5, "water has 0.8E-6 to 1.8E-6, air 1.5E-5", meant=1.3e-6),
+            usual=Usual(5e-7, 2e-5, "water has 0.8E-6 to 1.8E-6, air 1.5E-5", typical=1.3e-6),
         ),
     ] = None

@@ -1,4 +1,4 @@
-"""Pipe in pipe: sections, what connects them, and lines that lie in or on each other."""
+"""Pipe in pipe: sections, their connections, and lines in or on each other."""
 
 from typing import Annotated, Literal, Self
 
@@ -14,7 +14,7 @@ from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
 
 
 class PipSets(Record):
-    """A set inside of another one."""
+    """Set inside another set."""
 
     rule = "pip_sets"
     outer: Annotated[Name, setting("OUTER", "set of the outer pipe", names=Names.SET)]
@@ -26,7 +26,7 @@ class PipSections(Block):
 
     rule = "pip_section"
     page = "kwd_model_pipsection"
-    summary = "Which element set lies inside of which one."
+    summary = "Element sets that lie inside other element sets."
     example = "*PIP SECTION\n INNER_HYDRO=LHS, AUTO_CREATE=YES\n OUTER=Outer Pipe, INNER=Inner Pipe\n"
 
     keyword: Literal["PIP SECTION"] = "PIP SECTION"
@@ -35,20 +35,20 @@ class PipSections(Block):
     ] = None
     auto_create: Annotated[
         Literal["YES", "NO"] | None,
-        setting("AUTO_CREATE", "connections are made of themselves", default="YES", inline=True),
+        setting("AUTO_CREATE", "create connections automatically", default="YES", inline=True),
     ] = None
     pipes: Records[PipSets] = Records()
 
 
 class PipPoint(Row):
-    """A point of a curve."""
+    """Point of a curve."""
 
     deflection: Annotated[Real, about("deflection", unit="L", at_least=0, usual=OF_ITS_CURVE)]
     force: Annotated[Real, about("contact force there", unit="F", usual=OF_ITS_CURVE)]
 
 
 class PowerLaw(Row):
-    """The law of TYPE=POWER LAW."""
+    """Power law of TYPE=POWER LAW."""
 
     largest: Annotated[Real, about("largest contact force", unit="F", at_least=0, usual=ANY)]
     exponent: Annotated[
@@ -64,7 +64,7 @@ class PowerLaw(Row):
 
 
 class PipCurve(Record):
-    """A curve, by points or by a law."""
+    """Curve, by points or by a law."""
 
     rule = "pip_curve"
     curve: Annotated[Name, setting("CURVE", "name, for *PIP CONNECTION and *LINES PIP", defines=Names.PIP_STIFFNESS)]
@@ -74,7 +74,7 @@ class PipCurve(Record):
     ] = Field(default=None, alias="type")
     configuration: Annotated[
         Literal["PIP", "POP"] | None,
-        setting("CONFIGURATION", "of POWER LAW: pipe in pipe, or on pipe", default="PIP", inline=True),
+        setting("CONFIGURATION", "for POWER LAW: pipe in pipe, or pipe on pipe", default="PIP", inline=True),
     ] = None
     law: Annotated[PowerLaw | None, about("of POWER LAW: its line")] = None
     points: Annotated[
@@ -89,13 +89,13 @@ class PipCurve(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What TYPE= says."""
-        return "law" if given.get("type") == "POWER LAW" else "points"
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of the form in TYPE=."""
+        return "law" if values.get("type") == "POWER LAW" else "points"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """What its type has."""
+        """Raise ValueError unless the curve has the data of its type."""
         require_one(self, "law" if self.type_ == "POWER LAW" else "points")
         require_one(self, "law", "points")
         return self
@@ -126,9 +126,9 @@ CurveName = Annotated[
 ]
 AxialStiffness = Annotated[
     Real | None,
-    setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True, usual=ANY),
+    setting("AXIAL_STIFF", "for sliding connections: axial stiffness", unit="F/L", at_least=0, inline=True, usual=ANY),
 ]
-AxialCurve = Annotated[Name | None, setting("AXIAL_NONLINEAR", "of sliding ones: axial curve", inline=True)]
+AxialCurve = Annotated[Name | None, setting("AXIAL_NONLINEAR", "for sliding connections: axial curve", inline=True)]
 
 
 class PipRange(ListRow):
@@ -140,7 +140,7 @@ class PipRange(ListRow):
 
 
 class PipPair(Record):
-    """A node that is held at another one, or slides along a set."""
+    """Node that is held at a second node, or slides along a set."""
 
     rule = "pip_pair"
     primary: Node
@@ -155,7 +155,7 @@ class PipPair(Record):
 
 
 class PipPairs(Record):
-    """Many of them."""
+    """Range of pairs."""
 
     rule = "pip_pairs"
     generate: Annotated[PipRange, setting("GEN", "primary nodes")]
@@ -187,14 +187,14 @@ class PipConnections(Block):
 
 
 class Spacing(Row):
-    """Where connections are, measured from the start of the primary line."""
+    """Positions of connections, measured from the start of the primary line."""
 
     spacing: Annotated[Real | None, about("distance between two", unit="L", above=0, usual=ALONG)] = None
     start: Annotated[Real | None, about("distance of the first", unit="L", at_least=0, usual=ALONG)] = None
     end: Annotated[Real | None, about("distance of the last", unit="L", at_least=0, usual=ALONG)] = None
 
 
-class _Stiffness(Row):
+class _ConnectionStiffness(Row):
     stiffness: Annotated[Real, about("stiffness", unit="F/L", at_least=0, usual=ANY)]
 
 
@@ -206,7 +206,7 @@ class _Bulkhead(Row):
     bulkhead: Annotated[Literal["BULKHEAD"], about("the word")]
 
 
-class StiffConnections(Spacing, _Stiffness):  # the last base's fields first
+class StiffConnections(Spacing, _ConnectionStiffness):  # the last base's fields first
     """Values of STIFFNESS=."""
 
 
@@ -215,11 +215,11 @@ class CurveConnections(Spacing, _Curve):
 
 
 class Bulkheads(Spacing, _Bulkhead):
-    """A line of bulkheads."""
+    """Line of bulkheads."""
 
 
 class PipLink(Record):
-    """A line of connections."""
+    """Line of connections."""
 
     rule = "pip_link"
     stiffness: Annotated[StiffConnections | None, setting("STIFFNESS", "connections of a stiffness")] = None
@@ -228,7 +228,7 @@ class PipLink(Record):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One kind of connection."""
+        """Raise ValueError unless a link has exactly one kind of connection."""
         require_one(self, "stiffness", "curve", "bulkhead")
         return self
 
@@ -254,7 +254,7 @@ class LinesPip(Block):
 
     rule = "lines_pip"
     page = "kwd_model_linespip"
-    summary = "Lines that lie in or on each other, and what connects them."
+    summary = "Lines that lie in or on each other, and their connections."
     example = (
         "*LINES PIP\n PRIMARY=Carrier, SECONDARY=Flowline, TYPE=PIP\n STIFFNESS=1.0E6, 12.0, 0.0, 480.0\n"
         " BULKHEAD, 240.0, 0.0, 480.0\n"

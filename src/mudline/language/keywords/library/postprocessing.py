@@ -22,14 +22,14 @@ class ElementSpan(ListRow):
 
 
 class ElementList(Record):
-    """Elements by number or label; the language allows 20 on a line."""
+    """Elements by number or label, at most 20 on a line."""
 
     rule = "element_list"
     elements: Annotated[list[Ident], about("element numbers or {labels}", names=Names.ELEMENT)]
 
 
 class PostElementGenerate(Record):
-    """A range of elements."""
+    """Range of elements."""
 
     rule = "element_span"
     generate: Annotated[ElementSpan, setting("GEN", "range of elements")]
@@ -43,7 +43,7 @@ class OtherSet(Record):
 
 
 class PostSet(Record):
-    """A set."""
+    """Set."""
 
     rule = "post_set"
     name: Annotated[Name, setting("SET", "set name: up to 256 characters; ALL is predefined", defines=Names.SET)]
@@ -68,7 +68,7 @@ _OF_SECTION = "computed from the diameters"
 
 
 class StressSection(Row):
-    """What stresses are computed with."""
+    """Dimensions for the computation of stresses."""
 
     outer: Annotated[
         Real | None,
@@ -95,7 +95,7 @@ class StressSection(Row):
 
 
 class StressSet(Record):
-    """The properties of a set."""
+    """Properties of a set."""
 
     rule = "stress_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -126,7 +126,7 @@ class Timetrace(OpenBlock):
     sections = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
     subject = "post-processing"
     page = "theory_postprocessing_advanced_angles_elements"
-    summary = "What is plotted in time from the database of a run."
+    summary = "Plots over time from the database of a run."
     example = "*TIMETRACE\n TYPE=ELEMENT_ELEMENT_ANGLE\n"
 
     keyword: Literal["TIMETRACE"] = "TIMETRACE"
@@ -140,7 +140,7 @@ _GROUPS = 2
 
 
 class ClearRange(Record):
-    """A group of elements."""
+    """Group of elements."""
 
     rule = "clear_range"
     start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
@@ -157,7 +157,7 @@ class ClearSets(Block):
     sections = ("CLEAR",)
     subject = "post-processing"
     page = "kwd_clear_elementsets"
-    summary = "The two groups of elements between which clearance is looked for: exactly two lines."
+    summary = "The two groups of elements between which clearance is evaluated: exactly two lines."
     example = "*ELEMENT SETS\n 1, 40, 0.35\n 41, 90\n"
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
@@ -165,20 +165,20 @@ class ClearSets(Block):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """Two groups."""
+        """Raise ValueError unless there are two groups."""
         if len(self.ranges) != _GROUPS:
             raise ValueError(f"{len(self.ranges)} lines are given: expected exactly {_GROUPS}")
         return self
 
 
 class ClearDatabase(Block):
-    """Where the positions of the two groups are."""
+    """Files with the positions of the two groups."""
 
     rule = "clear_database"
     sections = ("CLEAR",)
     subject = "post-processing"
     page = "kwd_clear_database"
-    summary = "The databases of the runs between whose elements clearance is looked for."
+    summary = "The databases of the runs between whose elements clearance is evaluated."
     example = "*DATABASE\n DATABASE_1=Riser, DATABASE_2=Umbilical\n"
 
     keyword: Literal["DATABASE"] = "DATABASE"
@@ -189,7 +189,7 @@ class ClearDatabase(Block):
 
 
 class CheckedPlace(Record):
-    """A place."""
+    """Place for code checking."""
 
     rule = "checked_place"
     element: Element
@@ -203,7 +203,7 @@ class CheckedPlace(Record):
 
 
 class CheckedSet(Record):
-    """The places of a set."""
+    """Places of a set."""
 
     rule = "checked_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -225,13 +225,13 @@ class CheckingTimetrace(Block):
 
 
 class SourceType(Block):
-    """The source of stresses."""
+    """Source of stresses."""
 
     rule = "source_type"
     sections = ("LIFETIME FATIGUE",)
     subject = "post-processing"
     page = "kwd_lifetimefatigue_sourcetype"
-    summary = "What fatigue in the time domain takes its stresses from: time traces, or databases."
+    summary = "Source of the stresses for fatigue in the time domain: time traces, or databases."
     example = "*SOURCE TYPE\n SOURCE=DATABASE\n"
 
     keyword: Literal["SOURCE TYPE"] = "SOURCE TYPE"
@@ -256,7 +256,7 @@ class TimeDomainOptions(Block):
     sections = ("LIFETIME FATIGUE",)
     subject = "post-processing"
     page = "kwd_lifetimefatigue_tdoptions"
-    summary = "From when on time histories count for fatigue, in how many ensembles, and their factor."
+    summary = "Time histories for fatigue: start time, number of ensembles, and factor."
     example = "*TD OPTIONS\n 100.0, ENSEMBLES=4, SCALE=1.0\n"
 
     keyword: Literal["TD OPTIONS"] = "TD OPTIONS"

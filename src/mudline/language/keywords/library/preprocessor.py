@@ -1,4 +1,4 @@
-"""Parameters, and the decks that are made from variations."""
+"""Parameters, and decks generated from variations."""
 
 from typing import Annotated, Literal, Self
 
@@ -12,7 +12,7 @@ from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrNam
 
 
 class Parameter(Record):
-    """One line: a name with its value, or a prefix with a list between slashes."""
+    """Line with the name and value of a parameter, or with a prefix and a list between slashes."""
 
     rule = "parameter"
     name: Annotated[Name, about("parameter name, or the prefix of a list of parameters", defines=Names.PARAMETER)]
@@ -51,7 +51,7 @@ class ValueRange(ListRow):
 
 
 class VariedParameter(Record):
-    """A parameter with its values: a list, or a range of numbers."""
+    """Parameter with its values: a list, or a range of numbers."""
 
     rule = "varied_parameter"
     parameter: Annotated[
@@ -71,15 +71,15 @@ class VariedParameter(Record):
 
     @model_validator(mode="after")
     def _given(self) -> Self:
-        """Values come from one of the two."""
+        """Raise ValueError unless the values come from either a list or a range."""
         if (self.values is None) == (self.generate is None):
-            found = "neither" if self.values is None else "both"
-            raise ValueError(f"PARA={self.parameter} needs VALUE= or GEN=, found {found}")
+            count = "neither" if self.values is None else "both"
+            raise ValueError(f"PARA={self.parameter} needs VALUE= or GEN=, found {count}")
         return self
 
 
 class VariedBlock(Record):
-    """A block that is put into the deck, or taken out of it."""
+    """Block that is added to the deck, or removed from it."""
 
     rule = "varied_block"
     action: Annotated[
@@ -108,7 +108,7 @@ class VariedBlock(Record):
 
 
 class NamedVariation(Record):
-    """A variation."""
+    """Variation."""
 
     rule = "named_variation"
     name: Annotated[Name, setting("NAME", "name, by which *COMBINATIONS calls the variation")]
@@ -124,7 +124,7 @@ class Variation(Block):
     subject = "deck"
     facts = Facts(plans_decks=True)
     page = "kwd_preprocessor_variation"
-    summary = "What varies from deck to deck: values of parameters, blocks that come and go."
+    summary = "Variations from deck to deck: values of parameters, blocks to be added or removed."
     example = (
         "*VARIATION\n NAME=Soil\n PARA=su, VALUE=2.0, 5.0, 8.0\n PARA=case, GEN=1, 3\n"
         " NAME=Smooth\n ACTION=REMOVE, KEYWORD=FRICTION, SECTION=LOAD CASE\n"
@@ -138,7 +138,7 @@ _BEHIND = "DESCRIPTION"
 
 
 class CombinedVariations(Record):
-    """A line of names; the language allows 20 on it."""
+    """Line of names, at most 20."""
 
     rule = "combined_variations"
     names: Annotated[
@@ -152,7 +152,7 @@ class CombinedVariations(Record):
 
 
 class Combination(Record):
-    """One deck for every combination of the cases of some variations."""
+    """Decks for every combination of the cases of some variations."""
 
     rule = "combination"
     description: Annotated[Name, setting("DESCRIPTION", "what the decks show")]
@@ -194,7 +194,7 @@ class Combinations(Block):
 
 
 class ExcelVariations(Block):
-    """Decks from a workbook."""
+    """Variations from a workbook."""
 
     rule = "excel_variations"
     sections = ("PREPROCESSOR",)

@@ -1,4 +1,4 @@
-"""Random seas of a load case by their spectra."""
+"""Random seas of a load case, by their spectra."""
 
 from typing import Annotated, Literal, Self
 
@@ -62,23 +62,23 @@ class _Directions(Row):
 
 
 class AreaShape(_Directions, _Area, _Shape):  # the last base's fields first
-    """A line of FREQUENCY=AREA, SPEC=NORMAL."""
+    """Line of FREQUENCY=AREA, SPEC=NORMAL."""
 
 
 class ProgressionShape(_Directions, _Progression, _Shape):
-    """A line of FREQUENCY=GP, SPEC=NORMAL."""
+    """Line of FREQUENCY=GP, SPEC=NORMAL."""
 
 
 class AreaHeight(_Directions, _Area, _Height):
-    """A line of FREQUENCY=AREA, SPEC=HSTZ or HSTP."""
+    """Line of FREQUENCY=AREA, SPEC=HSTZ or HSTP."""
 
 
 class ProgressionHeight(_Directions, _Progression, _Height):
-    """A line of FREQUENCY=GP, SPEC=HSTZ or HSTP."""
+    """Line of FREQUENCY=GP, SPEC=HSTZ or HSTP."""
 
 
 class JonswapSea(OpenRecord):
-    """A sea; `frequency` and `spec` are given where they change."""
+    """Sea; `frequency` and `spec` are given where they change."""
 
     rule = "jonswap_sea"
     sticky = "frequency"
@@ -95,21 +95,21 @@ class JonswapSea(OpenRecord):
     progression_height: Annotated[ProgressionHeight | None, about("of GP and HSTZ or HSTP")] = None
 
     @classmethod
-    def carries(cls, given: dict[str, object], last: object) -> object:
-        """The field that later lines fill."""
-        return cls.row_slot(0, 0, given, last)
+    def carries(cls, values: dict[str, object], last: object) -> object:
+        """Return the name of the field that the next lines fill."""
+        return cls.row_slot(0, 0, values, last)
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What FREQUENCY= and SPEC= chose, here or on an earlier line."""
-        if not given.get("frequency"):
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the form in FREQUENCY= and SPEC=, here or on an earlier line."""
+        if not values.get("frequency"):
             return str(last or "area_shape")
-        chosen = "area" if given["frequency"] == "AREA" else "progression"
-        return f"{chosen}_shape" if given.get("spec") in (None, "NORMAL") else f"{chosen}_height"
+        chosen = "area" if values["frequency"] == "AREA" else "progression"
+        return f"{chosen}_shape" if values.get("spec") in (None, "NORMAL") else f"{chosen}_height"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One line, where its form is known."""
+        """Raise ValueError unless the sea has one line, if its form is known."""
         if self.spec in (None, "NORMAL", "HSTZ", "HSTP"):
             require_one(self, "area_shape", "progression_shape", "area_height", "progression_height")
         return self
@@ -131,7 +131,7 @@ class JonswapSeas(OpenBlock):
 
 
 class _Sea(Record):
-    """A sea with a form for each FREQUENCY=, which is given where it changes."""
+    """Sea with a form for each FREQUENCY=, which is given where it changes."""
 
     sticky = "frequency"
     frequency: Annotated[
@@ -139,13 +139,13 @@ class _Sea(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What FREQUENCY= chose, here or on an earlier line."""
-        return "progression" if (given.get("frequency") or last) == "GP" else "area"
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the form in FREQUENCY=, here or on an earlier line."""
+        return "progression" if (values.get("frequency") or last) == "GP" else "area"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One line."""
+        """Raise ValueError unless the sea has one line."""
         require_one(self, "area", "progression")
         return self
 
@@ -169,15 +169,15 @@ class _Peaks(Row):
 
 
 class AreaPeaks(_Directions, _Area, _Peaks):
-    """A line of FREQUENCY=AREA."""
+    """Line of FREQUENCY=AREA."""
 
 
 class ProgressionPeaks(_Directions, _Progression, _Peaks):
-    """A line of FREQUENCY=GP."""
+    """Line of FREQUENCY=GP."""
 
 
 class OchiHubbleSea(_Sea):
-    """A sea of two peaks."""
+    """Sea of two peaks."""
 
     rule = "ochi_hubble_sea"
     area: Annotated[AreaPeaks | None, about("of AREA")] = None
@@ -208,15 +208,15 @@ class _Fetch(Row):
 
 
 class AreaFetch(_Fetch, _Directions, _Area, _Peak):
-    """A line of FREQUENCY=AREA."""
+    """Line of FREQUENCY=AREA."""
 
 
 class ProgressionFetch(_Fetch, _Directions, _Progression, _Peak):
-    """A line of FREQUENCY=GP."""
+    """Line of FREQUENCY=GP."""
 
 
 class TorsethaugenSea(_Sea):
-    """A sea of wind and swell."""
+    """Sea of wind and swell."""
 
     rule = "torsethaugen_sea"
     area: Annotated[AreaFetch | None, about("of AREA")] = None
@@ -247,15 +247,15 @@ class _Factor(Row):
 
 
 class AreaOfPoints(_Directions, _Harmonics):
-    """The line below FREQUENCY=AREA."""
+    """Line below FREQUENCY=AREA."""
 
 
 class ProgressionOfPoints(_Directions, _Factor):
-    """The line below FREQUENCY=GP."""
+    """Line below FREQUENCY=GP."""
 
 
 class SpectralPoint(Record):
-    """A point of a spectrum."""
+    """Point of a spectrum."""
 
     rule = "spectral_point"
     frequency: Annotated[
@@ -268,7 +268,7 @@ class SpectralPoint(Record):
 
 
 class SpectrumByPoints(_Sea):
-    """A sea whose spectrum is given by points."""
+    """Sea whose spectrum is given by points."""
 
     rule = "spectrum_by_points"
     area: Annotated[AreaOfPoints | None, about("of AREA")] = None

@@ -17,7 +17,7 @@ POINTS = "points of the curve in any order; at least two"
 
 
 class CurvePoint(Row):
-    """A point of a force-embedment curve."""
+    """Point of a force-embedment curve."""
 
     ratio: Annotated[
         Real,
@@ -37,7 +37,7 @@ class CurvePoint(Row):
 
 
 class StiffnessCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "stiffness_curve"
     name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES", defines=Names.CURVE)]
@@ -68,7 +68,7 @@ class SeabedStiffness(Block):
 
 
 class EmbedmentCurve(Record):
-    """A curve and the set that it holds for."""
+    """Curve, and the set for which it holds."""
 
     rule = "embedment_curve"
     set_name: Annotated[

@@ -1,4 +1,4 @@
-"""Resistance of the seabed along it: friction, and the walls of trenches."""
+"""Resistance of the seabed along its surface: friction, and trench walls."""
 
 from typing import Annotated, Literal
 
@@ -23,13 +23,13 @@ _NEEDS = "; a direction whose coefficient is 0 stays free"
 
 
 class LinearFriction(OpenBlock):
-    """Stiffnesses that stand for friction; both zero mean that the model is held fast."""
+    """Stiffnesses in place of friction; if both are zero the model is fixed."""
 
     rule = "friction"
     sections = ("LOAD CASE", "MODES")
     subject = "seabed"
     page = "kwd_loadcase_friction"
-    summary = "Stiffnesses that represent seabed friction in the frequency domain and in modes; both 0: held fast."
+    summary = "Stiffnesses in place of seabed friction in the frequency domain and in modes; both 0: fixed."
     example = "*FRICTION\n 500.0, 250.0\n"
 
     keyword: Literal["FRICTION"] = "FRICTION"
@@ -132,7 +132,7 @@ class Residual(Row):
 
 
 class FrictionSet(Record):
-    """What one SET= gets, taken whole."""
+    """Friction of one SET=, taken as a whole."""
 
     rule = "friction_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -187,7 +187,7 @@ class TrenchGeometry(Row):
 
 
 class ResistancePoint(Row):
-    """A row below PEAK=TABLE."""
+    """Row below PEAK=TABLE."""
 
     offset: Annotated[
         Real, about("distance from the centreline; not negative, larger in each row", unit="L", usual=MODEL)
@@ -202,7 +202,7 @@ class TrenchResidual(Row):
         Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0, usual=MODEL)
     ]
     displacement: Annotated[
-        Real, about("distance from the centreline from which on it holds", unit="L", above=0, usual=MODEL)
+        Real, about("distance from the centreline beyond which it holds", unit="L", above=0, usual=MODEL)
     ]
 
 
@@ -216,7 +216,7 @@ class Centreline(Row):
 
 
 class TrenchSet(Record):
-    """What one SET= gets, taken whole."""
+    """Trench of one SET=, taken as a whole."""
 
     rule = "trench_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -280,7 +280,7 @@ class TrenchSet(Record):
     @field_validator("table")
     @classmethod
     def _of_table(cls, table: Table | None, info: ValidationInfo) -> Table | None:
-        """Rows stand below PEAK=TABLE only."""
+        """Return the table; raise ValueError for rows that are not below PEAK=TABLE."""
         if table is not None and "peak" in info.data and info.data["peak"] != "TABLE":
             raise ValueError("rows belong to PEAK=TABLE only: write that, or remove them")
         return table

@@ -1,4 +1,4 @@
-"""Resistance of the seabed normal to it: contact, soil, unloading, suction (extensions)."""
+"""Resistance of the seabed normal to its surface: contact, soil, unloading, suction (extensions)."""
 
 from typing import Annotated, Literal
 
@@ -12,7 +12,7 @@ from mudline.language.keywords.values import Facts, Name, Names, Real
 
 
 class ContactSet(Record):
-    """What one SET= gets, taken whole."""
+    """Contact of one SET=, taken as a whole."""
 
     rule = "contact_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -101,7 +101,7 @@ class Buoyancy(Row):
 
 
 class SoilSet(Record):
-    """What one SET= gets, taken whole."""
+    """Soil of one SET=, taken as a whole."""
 
     rule = "soil_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -138,7 +138,7 @@ class SeabedSoil(Block):
 
 
 class UnloadingSet(Record):
-    """What one SET= gets."""
+    """Unloading of one SET=."""
 
     rule = "unloading_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -162,7 +162,7 @@ class SeabedUnloading(Block):
 
 
 class MaximumForce(Row):
-    """Values of FORCE=: largest suction per unit length, factor times velocity to a power."""
+    """Values of FORCE=: maximum suction force per unit length, a factor times a power of velocity."""
 
     factor: Annotated[
         Real, about("factor of the largest suction force per unit length", unit="F/L", at_least=0, usual=ANY)
@@ -171,7 +171,7 @@ class MaximumForce(Row):
 
 
 class SuctionDepth(Row):
-    """Values of DEPTH=: uplift at breakout, factor times velocity to a power."""
+    """Values of DEPTH=: uplift at breakout, a factor times a power of velocity."""
 
     factor: Annotated[Real, about("factor of the uplift at breakout", unit="L", above=0, usual=ANY)]
     exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0, usual=ANY)]
@@ -203,7 +203,7 @@ class CyclicLoading(Row):
 
 
 class SuctionSet(Record):
-    """What one SET= gets, taken whole."""
+    """Suction of one SET=, taken as a whole."""
 
     rule = "suction_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
@@ -214,7 +214,7 @@ class SuctionSet(Record):
             "undrained shear strength of the soil; gives force and depth after Bridge et al. (2004)",
             unit="F/L2",
             at_least=0,
-            usual=Usual(95.0, 1e6, "less is a fluid, more is rock", code="UNT002", meant=3e3, within=30.0),
+            usual=Usual(95.0, 1e6, "less is a fluid, more is rock", code="UNT002", typical=3e3, within=30.0),
         ),
     ] = None
     force: Annotated[MaximumForce | None, setting("FORCE", "law of the largest suction force")] = None

@@ -1,4 +1,4 @@
-"""Contact of the seabed by element set, and the legacy surfaces that it supersedes."""
+"""Contact of the seabed by element set, and the legacy surfaces that are superseded by it."""
 
 from typing import Annotated, Literal
 
@@ -91,7 +91,7 @@ class SetSuction(Row):
 
 
 class SeabedSet(Record):
-    """What one SET= gets, taken whole."""
+    """Contact of one SET=, taken as a whole."""
 
     rule = "seabed_set"
     set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", inferred=NO_SET, names=Names.SET)] = (
@@ -148,7 +148,7 @@ _SURFACE_SUCCESSORS = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE
 
 
 class ProfilePoint(Row):
-    """A point of an inline profile."""
+    """Point of an inline profile."""
 
     y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
     elevation: Annotated[Real, about("elevation of the seabed there", unit="L", usual=POSITION)]
@@ -166,7 +166,7 @@ class FrictionCoefficients(Row):
 
 
 class FrictionLengths(Row):
-    """What else a legacy surface says of friction."""
+    """Lengths for the friction of a legacy surface."""
 
     longitudinal_length: Annotated[
         Real | None,
@@ -200,7 +200,7 @@ class FrictionLengths(Row):
 
 
 class Surface(Block):
-    """A legacy surface: a line of properties, then a slope or a profile."""
+    """Legacy surface: a line of properties, then a slope or a profile."""
 
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[
@@ -213,13 +213,13 @@ class Surface(Block):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The first line holds the properties; then one value is a slope, two are a point of the profile."""
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of a row: properties first; then one value is a slope, two are a point of the profile."""
         return "properties" if number == 0 else "slope" if fields == 1 else "profile"
 
 
 class _Stiffness(Row):
-    """What stands before the friction coefficients."""
+    """Values before the friction coefficients."""
 
     stiffness: Annotated[
         Real | None,
@@ -234,7 +234,7 @@ class _Stiffness(Row):
 
 
 class _Resistance(Row):
-    """What stands behind the friction coefficients."""
+    """Values after the friction coefficients."""
 
     lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0, usual=LEAST_SIDE)] = None
     suction_stiffness: Annotated[
@@ -252,7 +252,7 @@ class _Resistance(Row):
 
 
 class ElasticProperties(FrictionLengths, _Resistance, FrictionCoefficients, _Stiffness):  # the last base's fields first
-    """The first line."""
+    """Property line of an elastic surface."""
 
 
 class ElasticSurface(Surface):
@@ -270,7 +270,7 @@ class ElasticSurface(Surface):
 
 
 class RigidProperties(FrictionLengths, FrictionCoefficients):
-    """The first line."""
+    """Property line of a rigid surface."""
 
 
 class RigidSurface(Surface):

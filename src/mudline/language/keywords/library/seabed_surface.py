@@ -29,7 +29,7 @@ class PlaneBounds(Row):
 
 
 class Plane(Record):
-    """A plane."""
+    """Plane."""
 
     rule = "seabed_plane"
     name: Annotated[Name, setting("PLANE", "name of the plane")]
@@ -61,12 +61,12 @@ class Plane(Record):
 
 
 class SeabedPlanes(Block):
-    """Plane surfaces; the highest of those that hold a point is the seabed there."""
+    """Plane surfaces; of the planes over a point the highest is the seabed there."""
 
     rule = "seabed_planes"
     subject = "seabed"
     facts = Facts(extension=True, computed_in="shapes-of-the-seabed")
-    summary = "A seabed of several plane surfaces: the highest one at a place holds (extension)."
+    summary = "A seabed of several plane surfaces, of which the highest at a place is the seabed (extension)."
     example = (
         "*SEABED PLANES\n PLANE=shelf\n POINT=0.0, 0.0, 0.0\n SLOPE=0.0\n"
         " PLANE=slope\n POINT=0.0, 200.0, 0.0\n SLOPE=5.0, DIRECTION=0.0\n BOUNDS=200.0, 900.0, -500.0, 500.0\n"
@@ -83,7 +83,7 @@ _CUBIC = {"2D": ("CUBIC SPLINE", "CUBIC BESSEL"), "3D": ("CUBIC",)}
 
 
 class SeabedProfile(Block):
-    """A slope, or a profile from a file."""
+    """Slope, or a profile from a file."""
 
     rule = "seabed_profile"
     subject = "seabed"
@@ -133,12 +133,12 @@ class SeabedProfile(Block):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """Each type has its own settings."""
-        given = [key for key in _SETTINGS if getattr(self, key.lower()) is not None]
+        """Raise ValueError unless the settings are those of the type."""
+        keys = [key for key in _SETTINGS if getattr(self, key.lower()) is not None]
         for key in _NEEDS[self.type_]:
-            if key not in given:
+            if key not in keys:
                 raise ValueError(f"TYPE={self.type_} needs {key}=")
-        for key in given:
+        for key in keys:
             if key not in _TAKES[self.type_]:
                 raise ValueError(f"TYPE={self.type_} takes no {key}=")
         if self.type_ == "3D" and self.direction is not None:

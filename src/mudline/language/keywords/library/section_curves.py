@@ -1,4 +1,4 @@
-"""Curves of non-linear stiffness that `*GEOMETRIC SETS` names."""
+"""Curves of non-linear stiffness, to which `*GEOMETRIC SETS` refers."""
 
 from typing import Annotated, Literal
 
@@ -12,14 +12,14 @@ from mudline.language.keywords.values import Name, Names, Real
 
 
 class MomentCurvaturePoint(Row):
-    """A point of a curve: moment first."""
+    """Point of a curve: moment first."""
 
     moment: Annotated[Real, about("bending moment; it comes first", unit="FL", usual=OF_ITS_CURVE)]
     curvature: Annotated[Real, about("curvature there", unit="1/L", usual=OF_ITS_CURVE)]
 
 
 class MomentCurvatureCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "moment_curvature_curve"
     curve: Annotated[
@@ -55,14 +55,14 @@ class MomentCurvature(Block):
 
 
 class TorqueTwistPoint(Row):
-    """A point of a curve: torque first."""
+    """Point of a curve: torque first."""
 
     torque: Annotated[Real, about("torque; it comes first", unit="FL", usual=OF_ITS_CURVE)]
     twist: Annotated[Real, about("twist per unit length there", unit="1/L", usual=OF_ITS_CURVE)]
 
 
 class TorqueTwistCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "torque_twist_curve"
     curve: Annotated[
@@ -95,14 +95,14 @@ class TorqueTwist(Block):
 
 
 class ForceStrainPoint(Row):
-    """A point of a curve: force first."""
+    """Point of a curve: force first."""
 
     force: Annotated[Real, about("axial force; it comes first", unit="F", usual=OF_ITS_CURVE)]
     strain: Annotated[Real, about("strain there", unit="-", usual=Usual(-5.0, 5.0, "rubber stretches fivefold"))]
 
 
 class ForceStrainCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "force_strain_curve"
     curve: Annotated[
@@ -135,7 +135,7 @@ class ForceStrain(Block):
 
 
 class StressStrainPoint(Row):
-    """A point of a curve: stress first."""
+    """Point of a curve: stress first."""
 
     stress: Annotated[
         Real, about("stress; it comes first", unit="F/L2", usual=Usual(high=5e9, why="the strongest wire has 3 GPa"))
@@ -144,7 +144,7 @@ class StressStrainPoint(Row):
 
 
 class StressStrainCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "stress_strain_direct_curve"
     curve: Annotated[

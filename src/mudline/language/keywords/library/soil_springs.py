@@ -15,7 +15,7 @@ from mudline.language.keywords.values import Facts, Ident, Name, Names, Other, R
 
 
 class SoilPoint(Row):
-    """A point of a curve: resistance first."""
+    """Point of a curve: resistance first."""
 
     resistance: Annotated[
         Real,
@@ -28,7 +28,7 @@ class SoilPoint(Row):
         about(
             "displacement of the pipe against the soil",
             unit="L",
-            usual=Usual(-5.0, 5.0, "soil yields within a few diameters", meant=0.05, within=30.0),
+            usual=Usual(-5.0, 5.0, "soil yields within a few diameters", typical=0.05, within=30.0),
         ),
     ]
 
@@ -44,7 +44,7 @@ _CURVE = curve_points(
 
 
 class DepthCurve(OpenRecord):
-    """The curve of a depth."""
+    """Curve at a depth."""
 
     rule = "depth_curve"
     depth: Annotated[
@@ -63,7 +63,7 @@ class DepthCurve(OpenRecord):
 
 
 class NodeCurve(OpenRecord):
-    """The curve of a node."""
+    """Curve at a node."""
 
     rule = "node_curve"
     node: Annotated[
@@ -84,7 +84,7 @@ _OTHERS = "the types of other soil models are not public: the lines of one are p
 
 
 class LateralSprings(OpenRecord):
-    """The curves of a set."""
+    """Curves of a set."""
 
     rule = "lateral_springs"
     type_: Annotated[
@@ -117,7 +117,7 @@ class LateralSoil(OpenBlock):
 
 
 class AxialSprings(OpenRecord):
-    """The curves of a set."""
+    """Curves of a set."""
 
     rule = "axial_springs"
     set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(

@@ -14,7 +14,7 @@ from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, Re
 
 
 class SpringPoint(Row):
-    """A point of a curve."""
+    """Point of a curve."""
 
     displacement: Annotated[Real, about("extension, positive as the spring grows longer", unit="L", usual=OF_ITS_CURVE)]
     force: Annotated[Real, about("force there", unit="F", usual=OF_ITS_CURVE)]
@@ -41,13 +41,13 @@ class Springs(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What TYPE= says."""
-        return "points" if given.get("type") == "NONLINEAR" else "stiffness"
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of the form in TYPE=."""
+        return "points" if values.get("type") == "NONLINEAR" else "stiffness"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One way to say which, and what its type has."""
+        """Raise ValueError unless either elements or a set, and the data of the type, are given."""
         require_one(self, "elements", "set_name")
         require_one(self, "stiffness" if self.type_ == "LINEAR" else "points")
         require_one(self, "stiffness", "points")
@@ -68,7 +68,7 @@ class SpringElements(Block):
 
 
 class NodeSpring(Record):
-    """A spring at a node."""
+    """Spring at a node."""
 
     rule = "node_spring_line"
     node: Node
@@ -83,7 +83,7 @@ class NodeSprings(Block):
 
     rule = "node_spring"
     page = "kwd_model_nodespring"
-    summary = "Springs at nodes, each in one degree of freedom; their direction stays as it is."
+    summary = "Springs at nodes, each in one degree of freedom and a fixed direction."
     example = "*NODE SPRING\n 12, 2, 25000.0\n {Hang-off}, 4, 300.0\n"
 
     keyword: Literal["NODE SPRING"] = "NODE SPRING"
@@ -91,14 +91,14 @@ class NodeSprings(Block):
 
 
 class DamperPoint(Row):
-    """A point of a curve."""
+    """Point of a curve."""
 
     variable: Annotated[Real, about("time or velocity", usual=OF_A_KIND)]
     coefficient: Annotated[Real, about("damping coefficient there", unit="FT/L", at_least=0, usual=ANY)]
 
 
 class DamperCurve(Record):
-    """A curve."""
+    """Curve."""
 
     rule = "damper_curve"
     name: Annotated[Name, setting("NAME", "name of the curve", defines=Names.DAMPER)]
@@ -124,7 +124,7 @@ class DamperData(Block):
 
 
 class JointWeights(Row):
-    """The weights of a joint: in water first."""
+    """Weights of a joint, in water first."""
 
     water: Annotated[
         Real | None,
@@ -141,7 +141,7 @@ class JointWeights(Row):
 
 
 class JointPoint(Row):
-    """A point of a curve: moment first."""
+    """Point of a curve: moment first."""
 
     moment: Annotated[Real, about("moment; it comes first", unit="FL", usual=OF_ITS_CURVE)]
     angle: Annotated[
@@ -150,7 +150,7 @@ class JointPoint(Row):
 
 
 class FlexJoint(Record):
-    """A joint, or those of a set."""
+    """Joint, or the joints of a set."""
 
     rule = "flex_joint"
     element: Annotated[Ident | None, setting("ELEMENT", "element, or give SET=", names=Names.ELEMENT)] = None
@@ -172,15 +172,15 @@ class FlexJoint(Record):
     ] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """Weights stand before TYPE=, and what it chose behind it."""
-        if "type" not in given:
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of a row: weights before TYPE=, then the form in TYPE=."""
+        if "type" not in values:
             return "weights"
-        return "points" if given["type"] == "NONLINEAR" else "stiffness"
+        return "points" if values["type"] == "NONLINEAR" else "stiffness"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One way to say which, and what its type has."""
+        """Raise ValueError unless either elements or a set, and the data of the type, are given."""
         require_one(self, "element", "set_name")
         require_one(self, "stiffness" if self.type_ == "LINEAR" else "points")
         require_one(self, "stiffness", "points")
@@ -201,7 +201,7 @@ class FlexJoints(Block):
 
 
 class HingeElement(Record):
-    """A hinge; its two nodes should lie at one place."""
+    """Hinge; its two nodes should be at one place."""
 
     rule = "hinge_line"
     element: Element

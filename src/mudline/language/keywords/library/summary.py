@@ -1,4 +1,4 @@
-"""Requests of summary postprocessing (`*PARA ...`), the part of a run that is summarised, and what is collated."""
+"""Requests of summary postprocessing (`*PARA ...`), time span of the summary, and collated outputs."""
 
 from typing import Annotated, Literal
 
@@ -13,7 +13,7 @@ AXIS = "name of an axis system of *AXIS/VECTOR"
 
 
 class SummaryRequest(Block):
-    """A request: its head."""
+    """Request with its head."""
 
     sections = ("SUMMARY POSTPROCESSING",)
     subject = "post-processing"
@@ -33,14 +33,14 @@ LocalNode = Annotated[
 
 
 class ForceVariable(Row):
-    """What is asked for."""
+    """Requested variable."""
 
     variable: Annotated[Name, about("output variable, in the words of the manual", names=Names.VARIABLE)]
     location: Annotated[Name | None, about(LOCATION)] = None
 
 
 class ParaAngleElement(SummaryRequest):
-    """An angle."""
+    """Angle."""
 
     rule = "para_angle_element"
     page = "kwd_summarypostprocessing_paraangleelement"
@@ -53,11 +53,11 @@ class ParaAngleElement(SummaryRequest):
 
 
 class ParaForce(SummaryRequest):
-    """A force."""
+    """Force."""
 
     rule = "para_force"
     page = "kwd_summarypostprocessing_paraforce"
-    summary = "A force, moment or the like of an element, in the summary."
+    summary = "A force, moment or similar variable of an element, in the summary."
     example = "*PARA FORCE\n TITLE=Tension\n DATA1={Hang-off}\n DATA2=1\n DATA3=EFFECTIVE TENSION\n"
 
     keyword: Literal["PARA FORCE"] = "PARA FORCE"
@@ -80,7 +80,7 @@ class ParaForceEnvelope(SummaryRequest):
 
 
 class ParaKinematic(SummaryRequest):
-    """A motion."""
+    """Motion."""
 
     rule = "para_kinematic"
     page = "kwd_summarypostprocessing_parakinematic"
@@ -98,7 +98,7 @@ class ParaKinematic(SummaryRequest):
 
 
 class ParaReaction(SummaryRequest):
-    """A reaction."""
+    """Reaction."""
 
     rule = "para_reaction"
     page = "kwd_summarypostprocessing_parareaction"
@@ -112,7 +112,7 @@ class ParaReaction(SummaryRequest):
 
 
 class ParaSeabed(SummaryRequest):
-    """What lies on the seabed."""
+    """Request for contact with the seabed."""
 
     rule = "para_seabed"
     page = "kwd_summarypostprocessing_paraseabed"
@@ -130,13 +130,13 @@ class ParaSeabed(SummaryRequest):
 
 
 class SummaryTime(Block):
-    """From when to when."""
+    """Time span of the summary."""
 
     rule = "summary_time"
     sections = ("SUMMARY POSTPROCESSING",)
     subject = "post-processing"
     page = "kwd_summarypostprocessing_time"
-    summary = "The part of a run that is summarised: all of it where nothing is given."
+    summary = "The part of a run that is summarised; by default the whole run."
     example = "*TIME\n START=20.0\n END=120.0\n"
 
     keyword: Literal["TIME"] = "TIME"
@@ -150,7 +150,7 @@ class SummaryTime(Block):
 
 
 class PlotAxis(Record):
-    """An axis."""
+    """Axis of a plot."""
 
     rule = "plot_axis"
     name: Annotated[Name, about("name of the axis", unique=True)]
@@ -158,13 +158,13 @@ class PlotAxis(Record):
 
 
 class CollatePlotAxes(Block):
-    """The place of a run in plots."""
+    """Place of a run in plots."""
 
     rule = "collate_plot_axes"
     sections = ("SUMMARY POSTPROCESSING",)
     subject = "post-processing"
     page = "kwd_summarypostprocessing_collateplotaxes"
-    summary = "Where a run stands on the axes of plots over many runs: the name of each axis, and its value."
+    summary = "Place of a run on the axes of plots over many runs: the name of each axis, and the run's value."
     example = '*COLLATE PLOT AXES\n "Wave Period", 9.0\n Heading, 180.0\n'
 
     keyword: Literal["COLLATE PLOT AXES"] = "COLLATE PLOT AXES"
@@ -172,7 +172,7 @@ class CollatePlotAxes(Block):
 
 
 class CollatedOutput(Record):
-    """An output, and the runs that are left out."""
+    """Output, and the runs that are left out."""
 
     rule = "collated_output"
     title: Annotated[Name, setting("TITLE", "title of the output in each run", unique=True)]
@@ -188,13 +188,13 @@ class CollatedOutput(Record):
 
 
 class Collate(Block):
-    """Outputs that are collated."""
+    """Collated outputs."""
 
     rule = "collate"
     sections = ("SUMMARY COLLATE",)
     subject = "post-processing"
     page = "kwd_summarycollate_collate"
-    summary = "Outputs that are collated over many runs, and limits beyond which a run is left out; without it all are."
+    summary = "Outputs to be collated over many runs (by default all), and limits beyond which a run is left out."
     example = "*COLLATE\n TITLE=Tension, UNITS=kN\n MIN=0.0, MAX=2500.0\n TITLE=Clearance\n"
 
     keyword: Literal["COLLATE"] = "COLLATE"

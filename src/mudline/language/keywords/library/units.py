@@ -1,4 +1,4 @@
-"""What a deck says of itself: its title, and the unit system where its suffix does not say it."""
+"""Title of a deck, and its unit system if the file's suffix does not give it."""
 
 from typing import Annotated, Literal
 
@@ -20,7 +20,7 @@ TITLE = OpaqueKeyword(
 
 
 class Units(Block):
-    """The unit system."""
+    """Unit system."""
 
     rule = "units"
     sections = ("ANALYSIS",)

@@ -21,7 +21,7 @@ from mudline.language.keywords.usual import (
     VERTICAL_OFFSET,
     Usual,
 )
-from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
+from mudline.language.keywords.values import DataFile, Facts, Name, Names, Real
 
 _VESSEL = "vessel of *VESSEL or *VESSEL,INTEGRATED"
 Vessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL)]
@@ -44,7 +44,7 @@ class Motion(Row):
 
 
 class VesselOffset(Record):
-    """The offset of a vessel."""
+    """Offset of a vessel."""
 
     rule = "vessel_offset"
     vessel: OneVessel
@@ -67,7 +67,7 @@ class Offsets(Block):
 
 
 class Velocity(Record):
-    """The velocity of a vessel."""
+    """Velocity of a vessel."""
 
     rule = "velocity"
     vessel: Vessel
@@ -86,7 +86,7 @@ class VesselVelocity(Block):
     sections = ("LOAD CASE",)
     subject = "vessels"
     page = "kwd_loadcase_vesselvelocity"
-    summary = "Vessels that move on at one speed, beside their other motions; not with *VESSEL TIMETRACE."
+    summary = "Constant velocities of vessels, in addition to their other motions; not with *VESSEL TIMETRACE."
     example = "*VESSEL VELOCITY\n VESSEL=FPSO, AXIS=LOCAL\n 0.5, 0.0\n"
 
     keyword: Literal["VESSEL VELOCITY"] = "VESSEL VELOCITY"
@@ -94,7 +94,7 @@ class VesselVelocity(Block):
 
 
 class VesselMotion(Record):
-    """The motion of a vessel."""
+    """Motion of a vessel."""
 
     rule = "vessel_motion"
     vessel: Vessel
@@ -105,7 +105,7 @@ class VesselMotion(Record):
     file: Annotated[
         Name,
         setting(
-            "FILE", "text file of seven columns: time, six displacements", names=Names.FILE, holds=Contents.MOTIONS
+            "FILE", "text file of seven columns: time, six displacements", names=Names.FILE, holds=DataFile.MOTIONS
         ),
     ]
 
@@ -129,7 +129,7 @@ _SEVERAL = "several sinusoids of a vessel: the pair of lines is repeated"
 
 
 class Sinusoid(Row):
-    """A drift in one degree of freedom."""
+    """Drift in one degree of freedom."""
 
     dof: Freedom
     amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees", usual=OF_A_KIND)]
@@ -138,7 +138,7 @@ class Sinusoid(Row):
 
 
 class VesselDrift(Record):
-    """A drift of a vessel: a sinusoid, or a file."""
+    """Drift of a vessel: a sinusoid, or a file."""
 
     rule = "vessel_drift"
     vessel: Vessel
@@ -156,13 +156,13 @@ class VesselDrift(Record):
             "FILE",
             "of FILE: text file of seven columns, time and six displacements",
             names=Names.FILE,
-            holds=Contents.MOTIONS,
+            holds=DataFile.MOTIONS,
         ),
     ] = None
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """A line of its type."""
+        """Raise ValueError unless the line is that of the type."""
         require_one(self, "sinusoid" if self.type_ == "SINUSOIDAL" else "file")
         require_one(self, "sinusoid", "file")
         return self
@@ -183,7 +183,7 @@ class Drift(Block):
 
 
 class Six(Row):
-    """Amplitudes of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations."""
+    """Amplitudes of six motions for a wave of amplitude 1: lengths, and degrees for rotations."""
 
     heave: Annotated[Real, about("amplitude of heave", usual=SHIFT_RAO)]
     surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
@@ -221,13 +221,13 @@ class FrequencyRao(Record):
     phases: Annotated[SixPhases, about("phases, positive for a lag")]
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """Line by line."""
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of the next line: frequency, amplitudes, phases."""
         return ("frequency", "amplitudes", "phases")[min(number, 2)]
 
 
 class HeadingRao(Record):
-    """The operators of a heading."""
+    """Operators of a heading."""
 
     rule = "heading_rao"
     heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180, unique=True)]
@@ -235,7 +235,7 @@ class HeadingRao(Record):
 
 
 class RaoLine(Row):
-    """A line of LAYOUT=LINE."""
+    """Line of LAYOUT=LINE."""
 
     heading: Annotated[Real, about("wave heading", unit="deg", at_least=-180, at_most=180)]
     frequency: Annotated[
@@ -256,7 +256,7 @@ class RaoLine(Row):
 
 
 class VesselRao(Record):
-    """The operators of a vessel: a file, or lines."""
+    """Operators of a vessel: a file, or lines."""
 
     rule = "vessel_rao"
     vessel: OneVessel
@@ -267,7 +267,7 @@ class VesselRao(Record):
     ] = None
     file: Annotated[
         Name | None,
-        setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=Contents.OPERATORS),
+        setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=DataFile.OPERATORS),
     ] = None
     first: Annotated[
         Literal["YES", "NO"] | None,
@@ -278,7 +278,7 @@ class VesselRao(Record):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """A file, or lines of one layout."""
+        """Raise ValueError unless a vessel has either a file or lines of one layout."""
         if self.file or self.first or self.headings or self.lines is not None:
             require_one(self, "file", "first", "headings", "lines")
         return self

@@ -1,4 +1,4 @@
-"""Vessels where they are at first, their moonpools, and bodies that are drawn."""
+"""Vessels at their initial positions, their moonpools, and bodies that are only drawn."""
 
 from typing import Annotated, Literal
 
@@ -12,11 +12,11 @@ from mudline.language.keywords.usual import (
     VESSEL_HEIGHT,
     VESSEL_SIZE,
 )
-from mudline.language.keywords.values import Contents, Ident, Name, Names, Real
+from mudline.language.keywords.values import DataFile, Ident, Name, Names, Real
 
 
 class Position(Row):
-    """Where a vessel is at first."""
+    """Initial position of a vessel."""
 
     x: Annotated[Real, about("vertical coordinate of its reference point", unit="L", usual=VESSEL_HEIGHT)]
     y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
@@ -27,7 +27,7 @@ class Position(Row):
 
 
 class LocalDistance(Row):
-    """A distance in the axes of a vessel."""
+    """Distance in the axes of a vessel."""
 
     heave: Annotated[Real, about("along its heave axis", unit="L", usual=VESSEL_SIZE)]
     surge: Annotated[Real, about("along its surge axis", unit="L", usual=VESSEL_SIZE)]
@@ -35,7 +35,7 @@ class LocalDistance(Row):
 
 
 class Dimensions(Row):
-    """The size of a profile."""
+    """Size of a profile."""
 
     height: Annotated[Real, about("height", unit="L", above=0, usual=VESSEL_SIZE)]
     length: Annotated[Real, about("length", unit="L", above=0, usual=VESSEL_SIZE)]
@@ -43,7 +43,7 @@ class Dimensions(Row):
 
 
 class VesselPosition(Record):
-    """A vessel."""
+    """Vessel."""
 
     rule = "vessel_position"
     vessel: Annotated[Name, setting("VESSEL", "name of the vessel", defines=Names.VESSEL)]
@@ -70,7 +70,7 @@ _MORE = "more lines follow, of which the manual page was not seen: they are pass
 
 
 class IntegratedVessel(OpenRecord):
-    """A vessel."""
+    """Vessel."""
 
     rule = "integrated_vessel"
     vessel: Annotated[Name, setting("VESSEL", "name of the vessel", inferred=_MORE, defines=Names.VESSEL)]
@@ -79,7 +79,7 @@ class IntegratedVessel(OpenRecord):
     ] = None
     position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
     rao: Annotated[
-        Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE, holds=Contents.OPERATORS)
+        Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE, holds=DataFile.OPERATORS)
     ] = None
     format: Annotated[
         Name | None,
@@ -90,7 +90,7 @@ class IntegratedVessel(OpenRecord):
         LocalDistance | None, setting("REF", "point that the operators hold for, from the reference point")
     ] = None
     profile: Annotated[Name | None, setting("PROFILE", "shape that is drawn")] = None
-    file: Annotated[Name | None, setting("FILE", "file with a shape of one's own", names=Names.FILE)] = None
+    file: Annotated[Name | None, setting("FILE", "file with a user-defined shape", names=Names.FILE)] = None
     dimensions: Annotated[Dimensions | None, setting("DIMENSIONS", "size of the shape")] = None
 
 
@@ -101,7 +101,7 @@ class IntegratedVessels(OpenBlock):
     subject = "vessels"
     page = "kwd_model_vesselintegrated"
     known_forms = True
-    summary = "Vessels: initial positions, response amplitude operators, and the shapes that are drawn."
+    summary = "Vessels: initial positions, response amplitude operators, and shapes for drawings."
     example = (
         "*VESSEL,INTEGRATED\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"
         " RAO=fpso.rao\n REF=2.0, 0.0, 0.0\n DIMENSIONS=30.0, 280.0, 55.0\n"
@@ -112,7 +112,7 @@ class IntegratedVessels(OpenBlock):
 
 
 class MoonpoolPlace(Row):
-    """Where a moonpool is at first."""
+    """Initial position of a moonpool."""
 
     x: Annotated[Real, about("vertical coordinate of the centre of its lower face", unit="L", usual=VESSEL_HEIGHT[1])]
     y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
@@ -124,7 +124,7 @@ class MoonpoolPlace(Row):
 
 
 class Moonpool(Record):
-    """A moonpool."""
+    """Moonpool."""
 
     rule = "vessel_moonpool"
     vessel: Annotated[Name, setting("VESSEL", "vessel that it moves with", names=Names.VESSEL, unique=True)]
@@ -137,7 +137,7 @@ class Moonpools(Block):
     rule = "moonpool"
     subject = "vessels"
     page = "kwd_model_moonpool"
-    summary = "Moonpools of vessels, in which the water moves with the vessel: one a vessel, square."
+    summary = "Moonpools, in which the water moves with the vessel: one square moonpool per vessel."
     example = "*MOONPOOL\n VESSEL=FPSO\n 990.0, 0.0, 0.0, 0.0, 9.0\n"
 
     keyword: Literal["MOONPOOL"] = "MOONPOOL"
@@ -145,7 +145,7 @@ class Moonpools(Block):
 
 
 class Location(Row):
-    """A place."""
+    """Position of a drawn body."""
 
     x: Annotated[Real, about("vertical coordinate", unit="L", usual=POSITION)]
     y: Annotated[Real, about("horizontal coordinate Y", unit="L", usual=POSITION)]
@@ -153,7 +153,7 @@ class Location(Row):
 
 
 class DrawnBody(Record):
-    """A body."""
+    """Body."""
 
     rule = "drawn_body"
     body: Annotated[Name, setting("BODY", "name of the body")]
@@ -171,7 +171,7 @@ class DrawnBodies(Block):
 
     rule = "body_integrated"
     page = "kwd_model_bodyintegrated"
-    summary = "Bodies that are drawn: where they are, their shapes, and the nodes that they move with."
+    summary = "Bodies for drawings: their positions, shapes, and the nodes that they move with."
     example = "*BODY,INTEGRATED\n BODY=Manifold\n LOCATION=0.0, 10.0, 0.0\n NODE=1\n PROFILE=PLET\n"
 
     keyword: Literal["BODY,INTEGRATED"] = "BODY,INTEGRATED"

@@ -21,7 +21,7 @@ from mudline.language.keywords.usual import (
     SEA_PERIOD,
     WAVE_PERIOD,
 )
-from mudline.language.keywords.values import Contents, Name, Names, Real, Whole
+from mudline.language.keywords.values import DataFile, Name, Names, Real, Whole
 
 _AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0, usual=AMPLITUDE)
 _LEAST = about("smallest period", unit="T", above=0, usual=WAVE_PERIOD)
@@ -31,7 +31,7 @@ _FIELDS = "a line of four values has no direction"
 
 
 class Wave(Row):
-    """A wave, in the time domain or under OPTION=ONE."""
+    """Wave, in the time domain or under OPTION=ONE."""
 
     amplitude: Annotated[Real, _AMPLITUDE]
     period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
@@ -51,7 +51,7 @@ class Band(Row):
 
 
 class DirectedBand(Row):
-    """The same with a direction."""
+    """Waves of several periods, with a direction."""
 
     amplitude: Annotated[Real, _AMPLITUDE]
     direction: Direction = None
@@ -61,7 +61,7 @@ class DirectedBand(Row):
 
 
 class RegularWave(Record):
-    """A line of waves; `option` is given where it changes."""
+    """Line of waves; `option` is given where it changes."""
 
     rule = "regular_wave"
     sticky = "option"
@@ -73,15 +73,15 @@ class RegularWave(Record):
     directed_band: Annotated[DirectedBand | None, about("the same with a direction", inferred=_FIELDS)] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """What OPTION= chose, here or on an earlier line."""
-        if (given.get("option") or last) != "MANY":
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the form in OPTION=, here or on an earlier line."""
+        if (values.get("option") or last) != "MANY":
             return "wave"
         return "band" if fields == len(Band.model_fields) else "directed_band"
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        """One line."""
+        """Raise ValueError unless the line has exactly one form."""
         require_one(self, "wave", "band", "directed_band")
         return self
 
@@ -104,13 +104,13 @@ _AIRY = "of the Airy wave that moves the vessel"
 
 
 class StokesWave(Block):
-    """A Stokes wave."""
+    """Stokes wave."""
 
     rule = "wave_stokes"
     sections = ("LOAD CASE",)
     subject = "waves"
     page = "kwd_loadcase_wavestokes"
-    summary = "A Stokes V wave, and the Airy wave that stands for it where a vessel moves."
+    summary = "A Stokes V wave, and the Airy wave that replaces it for the motions of vessels."
     example = "*WAVE-STOKES\n OPTION=SUPERPOSE\n 6.0, 12.0, 180.0, 3.0, 12.0\n"
 
     keyword: Literal["WAVE-STOKES"] = "WAVE-STOKES"
@@ -127,13 +127,13 @@ class StokesWave(Block):
 
 
 class DeanWave(Block):
-    """A stream function wave."""
+    """Stream function wave."""
 
     rule = "wave_deans"
     sections = ("LOAD CASE",)
     subject = "waves"
     page = "kwd_loadcase_wavedeans"
-    summary = "A wave of Dean's stream function, and the Airy wave that stands for it where a vessel moves."
+    summary = "A wave of Dean's stream function, and the Airy wave that replaces it for the motions of vessels."
     example = "*WAVE-DEANS\n 6.0, 12.0, 180.0, 0.5, 15, 100, 5, 3.0, 12.0\n"
 
     keyword: Literal["WAVE-DEANS"] = "WAVE-DEANS"
@@ -160,19 +160,19 @@ class DeanWave(Block):
 
 
 class WaveTimeHistory(Block):
-    """A sea from a file."""
+    """Sea from a file."""
 
     rule = "wave_time_history"
     sections = ("LOAD CASE",)
     subject = "waves"
     page = "kwd_loadcase_wavetimehistory"
-    summary = "A random sea by the elevation of the water surface in time, from a file; in the time domain."
+    summary = "A random sea by a time history of the water surface, from a file; in the time domain."
     example = "*WAVE-TIME-HISTORY\n FILE=sea.dat\n 180.0, 0.0, 0.0, 0.25, ENSEMBLES=4\n"
 
     keyword: Literal["WAVE-TIME-HISTORY"] = "WAVE-TIME-HISTORY"
     file: Annotated[
         Name,
-        setting("FILE", "text file with a time and an elevation a line", names=Names.FILE, holds=Contents.ELEVATIONS),
+        setting("FILE", "text file with a time and an elevation a line", names=Names.FILE, holds=DataFile.ELEVATIONS),
     ]
     direction: Direction = None
     y: Annotated[Real | None, about("Y of the point where it was measured", unit="L", default="0", usual=POSITION)] = (
@@ -187,7 +187,7 @@ class WaveTimeHistory(Block):
 
 
 class WaveSpectrum(Block):
-    """The kind of spectrum."""
+    """Kind of spectrum."""
 
     rule = "wave_spectrum"
     sections = ("SUMMARY WAVE SCATTER",)
@@ -205,7 +205,7 @@ class WaveSpectrum(Block):
 
 
 class Seastate(Row):
-    """A seastate."""
+    """Seastate."""
 
     height: Annotated[Real, about("significant wave height", unit="L", above=0, usual=SEA_HEIGHT)]
     period: Annotated[Real, about("period: Tz, Tp or Te, as *WAVE SPECTRUM says", unit="T", above=0, usual=SEA_PERIOD)]
@@ -213,14 +213,14 @@ class Seastate(Row):
 
 
 class OtherSeastate(Record):
-    """A seastate whose results are estimated from those of the reference."""
+    """Seastate whose results are estimated from those of the reference."""
 
     rule = "other_seastate"
     seastate: Annotated[Seastate, about("seastate")]
 
 
 class SeastateBlock(Record):
-    """A block of seastates."""
+    """Block of seastates."""
 
     rule = "seastate_block"
     reference: Annotated[Seastate, setting("REFERENCE", "seastate that was simulated")]
@@ -243,19 +243,19 @@ class ScatterDiagram(Block):
 
 
 class ScatterOptions(Block):
-    """Options."""
+    """Options of the scatter diagram."""
 
     rule = "scatter_options"
     sections = ("SUMMARY WAVE SCATTER",)
     subject = "post-processing"
     page = "kwd_summarywavescatter_options"
-    summary = "Whether summaries that are there are written again, and the largest power of a wave scatter."
+    summary = "Options of a wave scatter: overwriting of existing summaries, and the largest power."
     example = "*OPTIONS\n OVERWRITE DATA=YES\n POWER RATING=250.0\n"
 
     keyword: Literal["OPTIONS"] = "OPTIONS"
     overwrite: Annotated[
-        Literal["YES", "NO"] | None, setting("OVERWRITE DATA", "write summaries that are there again", default="NO")
+        Literal["YES", "NO"] | None, setting("OVERWRITE DATA", "overwrite existing summaries", default="NO")
     ] = None
     rating: Annotated[
-        Real | None, setting("POWER RATING", "average powers are cut off at", default="no limit", at_least=0, usual=ANY)
+        Real | None, setting("POWER RATING", "upper limit of average powers", default="no limit", at_least=0, usual=ANY)
     ] = None
