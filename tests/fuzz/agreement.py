@@ -60,16 +60,16 @@ def _evaluates(data: bytes) -> bool | None:
     return not errors_beside(deck)
 
 
+def _file(data: bytes) -> DeckFile:
+    return DeckFile(data, NAME, None)
+
+
 _VERDICTS: dict[str, Callable[[bytes], bool | None]] = {
     "lint": lambda data: not _errors(lint_bytes(data, NAME, select())),
     "validate": lambda data: judge_content(data, NAME, None, None).verdict.ok,
     "evaluate": _evaluates,
     "show": lambda data: not overview(load_bytes(data, NAME)).errors,
-    "report": lambda data: (
-        report_on(DeckFile(data, NAME, None), LintSettings(rules()), ["verdict"]).json["verdict"]["ok"]
-    ),
-        "ok"
-    ],
+    "report": lambda data: report_on(_file(data), LintSettings(rules()), ["verdict"]).json["verdict"]["ok"],
 }
 
 
