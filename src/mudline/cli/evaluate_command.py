@@ -33,7 +33,7 @@ from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
 class Wanted(NamedTuple):
-    """Where results go: into the file `output`, else to standard output, in `form` and of `table`, or `every` row."""
+    """Destination of results: the file `output`, else standard output, in `form`; rows of `table`, or `every` row."""
 
     output: str | None
     form: str
@@ -199,7 +199,7 @@ def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarn
 
 
 def _sink(evaluation: Evaluation, comparison: ResultComparison | None, wanted: Wanted) -> AbstractContextManager[Sink]:
-    """Where the rows go: files, standard output, or nowhere."""
+    """Open the destination of the rows: files, standard output, or none."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
     if wanted.output:
         return result_files(evaluation, elements, Path(wanted.output), wanted.view)

@@ -147,7 +147,7 @@ class _DocumentReader:
         self.deck = Deck(file, origin=DocumentOrigin(locate))
         self.findings = Findings(self.deck.problems)
         self.unreadable: list[Problem] = []
-        """What is wrong in blocks that are lines."""
+        """Faults of blocks that are given as lines."""
 
     def read(self) -> Deck:
         document = self._format()

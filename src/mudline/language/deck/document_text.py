@@ -16,7 +16,7 @@ from mudline.language.syntax.source import Source
 
 @dataclass
 class LinesOrigin(TextOrigin):
-    """Where the values are, in its keyword text, of a document in which the blocks `raw` are lines.
+    """Places in the keyword text of the values of a document whose blocks `raw` are lines.
 
     `document` knows the places in the file.
     """

@@ -1,4 +1,4 @@
-"""What breaks the schema in a document: every fault with its path and its place in the file."""
+"""Faults of a document against its schema, each with its path and its place in the file."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def _by_place(comments: Iterable[Comment], count: int) -> list[Lines]:
 
 
 def _spans(origin: TextOrigin) -> list[Span]:
-    """Where each piece of the text stands."""
+    """Return the place of each piece of the text."""
     sections = origin.tree.sections
     heads = chain.from_iterable((section.head, *(block.head for block in section.blocks)) for section in sections)
     starts = [0, *(head.span.start for head in heads if head), len(origin.source.text)]
@@ -143,7 +143,7 @@ def _changed(source: Source, span: Span, old: Lines, new: Lines, *, by_lines: bo
 
 
 def _common(old: Lines, new: Lines) -> int:
-    """How many lines both begin with."""
+    """Return the number of lines that both begin with."""
     return next(
         (at for at, (one, two) in enumerate(zip(old, new, strict=False)) if one != two), min(len(old), len(new))
     )

@@ -10,7 +10,7 @@ from mudline.basics.files import suffix_of
 KEYWORD = "keyword"
 
 SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
-"""What files of keyword text end with, in the order in which a name without a suffix is completed."""
+"""Suffixes of keyword text, in the order in which a name without a suffix is completed."""
 
 
 @cache

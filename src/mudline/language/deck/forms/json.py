@@ -164,7 +164,7 @@ class JsonPlaces:
         return Range(*self._source.position(at), *self._source.position(self.ends[at]))
 
     def _below(self, at: int, part: str | int) -> int | None:
-        """Where a value in an object or a list begins."""
+        """Return the index at which a value in an object or a list begins."""
         if self.text[at] == "{" and isinstance(part, str):
             return self._value(at, part)
         if self.text[at] == "[" and isinstance(part, int):
@@ -203,7 +203,7 @@ class JsonPlaces:
             at = self._next(at)
 
     def _starts(self, at: int) -> Iterator[int]:
-        """Where the values of a list begin."""
+        """Return the indices at which the values of a list begin."""
         at = self._skipped(at + 1)
         while self.text[at] != "]":
             yield at
