@@ -127,7 +127,7 @@ def test_times_of_an_archive_rise_for_laws_with_history(
         assert (outcome.code, outcome.err.count("rise")) == (0, 0)
     else:
         assert (outcome.code, outcome.out) == (1, "")
-        assert outcome.err.endswith(f"times that rise: {times[2]} follows {times[1]}\n")
+        assert outcome.err.endswith(f"ascending times: {times[2]} follows {times[1]}\n")
 
 
 def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

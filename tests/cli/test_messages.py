@@ -75,9 +75,9 @@ SAID = [
     ("set OCEAN.depth=1 deck.json clean.keyxm", 1, "deck.json: only decks in keyword text are changed"),
     ("set TIME.step=1 clean.keyxm", 1, "1 deck: 1 without it\nmudline: no deck has TIME.step\n"),
     ("show clean.keyxi", 0, "20.008 ft long"),
-    ("show clean.keyxm -o sheet.csv --output-format xlsx", 2, "sheet.csv is no xlsx"),
+    ("show clean.keyxm -o sheet.csv --output-format xlsx", 2, "sheet.csv is not xlsx"),
     ("show dir.json", 2, "is a directory: this command takes one deck\n"),
-    ("show empty.keyxm --sheet", 0, "mudline: empty.keyxm: the deck shows no elements, which a sheet is of\n"),
+    ("show empty.keyxm --sheet", 0, "mudline: empty.keyxm: the deck has no elements to list in a sheet\n"),
     ("show nowhere.keyxm", 2, "mudline: nowhere.keyxm: no such file or directory\n"),
     ("study clean.keyxm --heave 0", 2, "--heave"),
 ]

@@ -24,7 +24,7 @@ def test_list_has_a_line_for_every_rule() -> None:
     lines = outcome.out.splitlines()
     assert lines[0] == f"{len(CODES)} rules"
     assert [line.split()[0] for line in lines[3:-1] if line[0] != " "] == CODES
-    assert "SYN002 error bad-number A field that needs a number holds none." in [
+    assert "SYN002 error bad-number A field that needs a number does not hold a number." in [
         " ".join(line.split()) for line in lines
     ]
 
@@ -34,7 +34,7 @@ def test_one_rule_is_explained(word: str) -> None:
     outcome = run("rules", word)
     assert outcome.code == 0
     lines = outcome.out.splitlines()
-    assert lines[:3] == ["SYN002 bad-number (error)", "", "A field that needs a number holds none."]
+    assert lines[:3] == ["SYN002 bad-number (error)", "", "A field that needs a number does not hold a number."]
     assert any(line.startswith("Bad (found at line ") for line in lines)
     assert "Good:" in lines
     assert "    $MODEL" in lines

@@ -58,17 +58,24 @@ our reading of what the language leaves open; each page ends with a list.
 
 
 LOOKED_UP = {
+    "page found, with the form of its lines; not read yet": ("PLASTIC HARDENING", "S-N CURVE", "TAPER"),
     "page found; its lines are requests of plots, from which nothing is computed here": (
         *("SPECTRUM", "RAO", "TIMETRACE"),  # of postprocessing, and of a load case
     ),
     "named by pages about theory, without the form of their lines": (
-        *("COATINGS", "DAMPING", "IDENTIFY", "OUTPUT FILES", "PARA ANGLE TENSION", "PLOT", "SEASTATE FILES", "SLUGS"),
-        *("SNAPSHOT", "STANDARD OUTPUT", "STATISTICS", "WAVE-PIERSON-MOSKOWITZ"),
+        *(
+            "COATINGS",
+            "DAMPING",
+            "EQUIVALENT",
+            "FATIGUE DATA",
+            "IDENTIFY",
+            "OUTPUT FILES",
+            "PARA ANGLE TENSION",
+            "PLOT",
+        ),
+        *("SEASTATE FILES", "SLUGS", "SNAPSHOT", "STANDARD OUTPUT", "STATISTICS", "WAVE-PIERSON-MOSKOWITZ"),
     ),
-    "nothing found": (
-        *("DAMPER", "EQUIVALENT", "FATIGUE DATA", "FLOATING BODY", "GUIDE", "PLASTIC HARDENING", "POINT BUOY"),
-        *("POISSON", "S-N CURVE", "TAPER", "TEMPERATURE", "WINCH"),
-    ),
+    "nothing found": (*("DAMPER", "FLOATING BODY", "GUIDE", "POINT BUOY", "POISSON", "TEMPERATURE", "WINCH"),),
     "no page of the manual, but a public reader of `.das` decks": (
         *("DIRECTORY", "DRIFT-OFF LIMITS", "DRILLING MUD", "TIME,DISCONNECT", "TOP TENSION", "WAVE", "WIND"),
     ),

@@ -157,12 +157,12 @@ def test_what_is_not_evaluated_is_said_by_stage() -> None:
 def test_legacy_surfaces_are_evaluated_the_same_way() -> None:
     text = PIPE + STEEL + "*ELASTIC SURFACE\n 500, 0.3, 0.4, 0, 7, 1\n 3.0\n"
     plan = scene_of(text).contact().plan
-    assert plan["floor"].why == "plane through the origin, slope 3 deg, direction 0 deg, without end"
+    assert plan["seabed surface"].why == "plane through the origin, slope 3 deg, direction 0 deg, without end"
     assert plan["friction"].why.startswith("11 nodes with a mobilisation length")
     assert plan["suction"].why == "10 elements with a spring up to an extent, without history (inferred)"
     profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
     plan = scene_of(profile).contact().plan
-    assert plan["floor"].why.startswith("straight lines through 2 points")
+    assert plan["seabed surface"].why.startswith("straight lines through 2 points")
     assert plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"
 
 
