@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from hatch_build import description
+from tests.helpers.checkout import copy_of_checkout
 from tests.helpers.lowest import constraints
 from tests.helpers.processes import TIMEOUT
 
@@ -37,12 +38,17 @@ def contents(wheel: Path) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return copy_of_checkout(tmp_path_factory.mktemp("checkout"))
+
+
 @pytest.mark.slow
-def test_the_source_archive_makes_the_same_wheel(tmp_path: Path) -> None:
-    with tarfile.open(built("sdist", ROOT, tmp_path / "source")) as archive:
+def test_the_source_archive_makes_the_same_wheel(checkout: Path, tmp_path: Path) -> None:
+    with tarfile.open(built("sdist", checkout, tmp_path / "source")) as archive:
         archive.extractall(tmp_path / "unpacked", filter="data")
     (unpacked,) = (tmp_path / "unpacked").iterdir()
-    one = contents(built("wheel", ROOT, tmp_path / "checkout"))
+    one = contents(built("wheel", checkout, tmp_path / "checkout"))
     other = contents(built("wheel", unpacked, tmp_path / "archive"))
     assert list(one) == list(other)
     differ = {Path(name).name for name, data in one.items() if data != other[name]}
@@ -50,8 +56,8 @@ def test_the_source_archive_makes_the_same_wheel(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return built("wheel", ROOT, tmp_path_factory.mktemp("dist"))
+def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return built("wheel", checkout, tmp_path_factory.mktemp("dist"))
 
 
 @pytest.fixture(scope="module")

@@ -17,6 +17,7 @@ import pytest
 import yaml
 
 import mudline
+from tests.helpers.checkout import copy_of_checkout
 from tests.helpers.processes import TIMEOUT
 from tests.project.integration.recipes import BASH
 
@@ -66,7 +67,8 @@ def wheels(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with wheel and source archive of mudline, and wheels of what installing them needs."""
     folder = tmp_path_factory.mktemp("wheels")
     build = [sys.executable, "-m", BUILD, "build", "-d", str(folder)]
-    subprocess.run(build, cwd=ROOT, capture_output=True, timeout=TIMEOUT, check=True)
+    checkout = copy_of_checkout(tmp_path_factory.mktemp("checkout"))
+    subprocess.run(build, cwd=checkout, capture_output=True, timeout=TIMEOUT, check=True)
     core = {re.match(r"[a-z0-9-]+", line)[0] for line in metadata.requires("mudline") or [] if "extra" not in line}  # type: ignore[index]
     for name in needed({*core, BUILD, "typing-extensions"}):
         packed(name, folder)
