@@ -14,7 +14,7 @@ from mudline.model.results.plot_data import PlotData
 from mudline.model.scene.model import Scene
 from mudline.tools.touchdown_study.rest_shape import RestShape, rest_shape
 from tests.helpers.samples import SAMPLES
-from tests.tools.touchdown_study.decks import BUOYS, CHAIN, FLEXIBLE, IMPERIAL, Riser
+from tests.tools.touchdown_study.decks import BUOYS, CHAIN, FLEXIBLE, IMPERIAL, STEEL, Riser
 
 OFFSET = "*OFFSET\n VESSEL=Semi\n OFFSET=0.0, -10.0, 2.0\n"
 FLUID = "*INTERNAL FLUID\n SET=ALL\n 600.0, 900.0\n"
@@ -55,6 +55,15 @@ def test_the_seabed_carries_what_lies() -> None:
     result = scene.contact().evaluate(found.positions.whole[0])
     summary = line_summaries(result)[0]
     assert summary.ratio == pytest.approx(1.0, abs=0.005)
+
+
+def test_each_element_on_the_seabed_has_the_weight_of_its_own_section() -> None:
+    """The wall changes on the seabed, where the bent part of the pipe begins: its middle has the heavy section."""
+    light = STEEL.replace("SET=ALL", "SET=Light").replace("0.2827", "0.2890").removeprefix(" OPTION=RIGID\n")
+    sets = "*ELEMENT SETS\n SET=Light\n GEN=1, 60\n SET=Heavy\n GEN=61, 250\n"
+    scene, found = shape_of(Riser(section=STEEL.replace("SET=ALL", "SET=Heavy") + light, sets=sets))
+    result = scene.contact().evaluate(found.positions.whole[0])
+    assert result.force[:52] == pytest.approx(scene.submerged_weight[:52], rel=0.01)
 
 
 def test_the_top_stands_where_the_deck_and_its_vessel_put_it() -> None:

@@ -46,6 +46,7 @@ class Beam:
         left, right: heights of the ends above the mudline at rest.
         end_moment: moment at the right end.
         amplitude, period: motion of the right end.
+        weights: per length (m,) of the elements, where they differ; `weight` is then that at the touchdown.
     """
 
     lengths: FloatArray
@@ -59,6 +60,7 @@ class Beam:
     end_moment: float
     amplitude: float = 0.0
     period: float = 1.0
+    weights: FloatArray | None = None
 
     @cached_property
     def places(self) -> FloatArray:
@@ -98,7 +100,8 @@ class Beam:
     @cached_property
     def load(self) -> FloatArray:
         """Load (2 n,) of the weight, with the moment at the right end."""
-        force, moment = -0.5 * self.weight * self.lengths, -self.weight * self.lengths**2 / 12.0
+        weight = self.weight if self.weights is None else self.weights
+        force, moment = -0.5 * weight * self.lengths, -weight * self.lengths**2 / 12.0
         load = np.zeros((len(self.lengths) + 1, 2))
         load[:-1] += np.column_stack([force, moment])
         load[1:] += np.column_stack([force, -moment])

@@ -314,11 +314,13 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     if not (depth[first : last + 1] > 0.0).all() or not weight > 0.0:  # rigid seabed, or the pipe is not carried
         return _NO_BEND
     stretch = cut_out(given, elements[first : last + 1], nodes[first : last + 2])
-    moment = bending * weight / tension
+    weights = pipe.weight[elements[first : last + 1]] * upright
+    moment = bending * float(weights[-1]) / tension
     inside = slice(first, last + 2)
     drawn = _parabola(arcs[inside] - arc, vertical[inside] / tension)
     end = float(drawn[-1])
-    beam = Beam(stretch.length, bending, tension, weight, 0.0, 0.0, -float(depth[first]), end, moment)
+    left = -float(depth[first])
+    beam = Beam(stretch.length, bending, tension, weight, 0.0, 0.0, left, end, moment, weights=weights)
     balanced = _balanced(beam, stretch, float(vertical[last + 1]))
     if balanced is None or abs(balanced[-2] - end) > _LIFTED * (bending * weight / tension**2 + given.diameter[own]):
         return _NO_BEND
