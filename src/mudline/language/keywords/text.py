@@ -21,7 +21,7 @@ from mudline.language.syntax.rows import blank_separated, read_number, spells_nu
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 MIXED_FIELDS = 4
-"""Least number of fields in a row with decimal commas among other commas: in shorter rows they cannot be told apart."""
+"""Least number of fields in a row with decimal commas among other commas: shorter rows are ambiguous."""
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")

@@ -57,10 +57,10 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
     hidden = _groups(report, "hidden")
     for name in [name for name in SECTIONS if name in tables]:
         kinds = ["inputs" if name == "inputs" and table == tables[name][0] else "rows" for table in tables[name]]
-        parted = [(table, MOST_BEFORE_APPENDIX[kind]) for table, kind in zip(tables[name], kinds, strict=True)]
-        if long := [table for table, most in parted if len(table.rows) > most]:
+        limited = [(table, MOST_BEFORE_APPENDIX[kind]) for table, kind in zip(tables[name], kinds, strict=True)]
+        if long := [table for table, most in limited if len(table.rows) > most]:
             details[name] = [*long, *details.get(name, ())]
-        tables[name] = [each.first(most, f"more-{name}") if len(each.rows) > most else each for each, most in parted]
+        tables[name] = [each.first(most, f"more-{name}") if len(each.rows) > most else each for each, most in limited]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(

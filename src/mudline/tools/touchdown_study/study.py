@@ -266,8 +266,8 @@ def _judged(study: Study) -> tuple[str, str, float | None]:
     last = study.steps[-1] if row is None else row
     mesh = _of_mesh(study, last)
     if study.own is None:
-        steps = f"{study.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
-        text = f"The deck has no time step in *TIME: {steps} for its touchdown zone. {mesh}"
+        steps = f"{study.milliseconds(fine)} keeps" if fine else "no step that was run keeps"
+        text = f"The deck has no time step in *TIME: {steps} the errors of its touchdown zone within 1 %. {mesh}"
         return text.rstrip(), NOT_STUDIED, fine
     place = f"The deck's own step, {study.milliseconds(study.own.largest)} (line {study.own_line}),"
     verdict, step, tried = verdict_of(last.worst), None, study.milliseconds(last.step)

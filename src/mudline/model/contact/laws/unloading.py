@@ -61,7 +61,7 @@ def line_stiffness(stiffness: Value, z_max: Value, force_max: Value) -> Value:
 
 def trench_bottom(line: Value, z_max: Value, force_max: Value) -> Value:
     """Return z_p, between 0 and z_max; strictly below z_max where there is a force."""
-    # a bottom that rounds to z_max would leave no room for the reaction there
+    # a bottom that rounds to z_max would leave no depth over which the reaction falls
     deepest = where(force_max > 0.0, np.nextafter(z_max, 0.0), z_max)
     bottom = np.minimum(z_max - force_max / line, deepest)
     # a line to the mudline ends at 0, whatever its quotient rounds to
