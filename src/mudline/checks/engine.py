@@ -209,17 +209,6 @@ def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rul
     return context.deck.diagnose(reported) or list(refused)
 
 
-def unreadable_causes(deck: Deck) -> list[Diagnostic]:
-    """Return why a deck cannot be read, in the words of lint: with the cause in the place of what follows from it."""
-    from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
-
-    context = LintContext(deck)
-    found = joined_problems(context, rules(), suppress=False)
-    return context.deck.diagnose(
-        [one for one in found if one.weight is Severity.ERROR and one.code.code.startswith("SYN")]
-    )
-
-
 @contextmanager
 def naming_causes(deck: Deck) -> Iterator[None]:
     """Raise a DeckError from inside again with the causes of its findings."""
@@ -229,17 +218,6 @@ def naming_causes(deck: Deck) -> Iterator[None]:
         from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
 
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
-
-
-def errors_beside(deck: Deck) -> list[Diagnostic]:
-    """Return the errors of a deck in spite of which it is evaluated: contact does not depend on them."""
-    from mudline.checks.registry import rules  # noqa: PLC0415 - as above
-
-    context = LintContext(deck)
-    found = joined_problems(context, rules(), suppress=False)
-    return context.deck.diagnose(
-        [one for one in found if one.weight is Severity.ERROR and one.blocking is not Blocks.WITH_TENSION]
-    )
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:

@@ -13,7 +13,8 @@ from mudline.checks.engine import joined_problems, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.language.codes.contact import SBD006
 from mudline.language.deck.loading import coverage_of, load_bytes
-from mudline.language.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
+from mudline.language.deck.model import Deck
+from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.model.results.warnings import seabed_warnings
 
 
@@ -85,6 +86,19 @@ def all_findings(context: LintContext) -> list[Problem]:
 def errors_of(problems: list[Problem]) -> list[Problem]:
     """Return the findings that make a deck illegal, the same in every command."""
     return [problem for problem in problems if problem.weight is Severity.ERROR]
+
+
+def unreadable_causes(deck: Deck) -> list[Diagnostic]:
+    """Return why a deck cannot be read, as lint reports it: causes instead of their consequences."""
+    context = LintContext(deck)
+    return context.deck.diagnose([one for one in errors_of(all_findings(context)) if one.code.code.startswith("SYN")])
+
+
+def errors_beside(deck: Deck) -> list[Diagnostic]:
+    """Return the errors of a deck in spite of which it is evaluated: contact does not depend on them."""
+    context = LintContext(deck)
+    errors = errors_of(all_findings(context))
+    return context.deck.diagnose([error for error in errors if error.blocking is not Blocks.WITH_TENSION])
 
 
 def judge(context: LintContext) -> Judgement:

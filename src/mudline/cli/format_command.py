@@ -7,7 +7,7 @@ from collections import Counter
 import click
 
 from mudline.basics.short_repr import counted
-from mudline.checks.engine import read_deck, unreadable_causes
+from mudline.checks.engine import read_deck
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import deliver
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
@@ -63,4 +63,6 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
 
 def _causes(file: Input, data: bytes) -> list[Diagnostic]:
     """Why a keyword text cannot be read, as lint says it."""
+    from mudline.checks.verdict import unreadable_causes  # noqa: PLC0415 - only where a deck is refused
+
     return unreadable_causes(read_deck(data, file.name)) if form_of(file.name) == KEYWORD else []
