@@ -15,7 +15,8 @@ def main(arguments: list[str]) -> None:
         report.write(done)
     if "--list" in arguments:
         _list(done)
-    sys.stdout.write(report.by_kind(done) + "\n" + report.summary(done) + "\n" + report.legal(done) + report.mean(done))
+    sys.stdout.write(f"{report.by_kind(done)}\n{report.reasons()}\n{report.summary(done)}\n")
+    sys.stdout.write(report.legal(done) + report.mean(done))
 
 
 def _list(done: Run) -> None:

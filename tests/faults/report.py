@@ -73,19 +73,15 @@ def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def known(reasons: dict[str, str]) -> str:
-    """Kinds and reasons, as a list."""
-    return "".join(f"* `{slug}`: {reason}\n" for slug, reason in reasons.items())
+def reasons() -> str:
+    """Return the kinds of which faults are missed or buried, with the reason of each, as a list."""
+    known = (("missed", MISSED), ("buried", BURIED))
+    return "".join(f"{outcome}: {slug}: {reason}\n" for outcome, kinds in known for slug, reason in kinds.items())
 
 
 def section(run: Run) -> str:
     """What stands in the page, between its two marks."""
-    parts = [summary(run), legal(run)]
-    if MISSED:
-        parts.append("Kinds of which faults are missed, and why:\n\n" + known(MISSED))
-    if BURIED:
-        parts.append("Kinds of which faults are buried, and why:\n\n" + known(BURIED))
-    return "\n" + "\n".join(parts) + "\n"
+    return f"\n{summary(run)}\n{legal(run)}\n"
 
 
 def page(run: Run) -> str:
