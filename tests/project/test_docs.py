@@ -166,7 +166,7 @@ def test_every_option_of_a_command_is_described(name: str) -> None:
     text = (ROOT / "docs/cli.md").read_text(encoding="utf-8")
     section = re.split(rf"^## mudline {name}$", text, flags=re.MULTILINE)[1].partition("\n## ")[0]
     common = {"--color", "--quiet", "--verbose", "--units", "--stdin-filename", "--no-gitignore", "--config"}
-    common |= {"--isolated", "--jobs", "--encoding"}
+    common |= {"--isolated", "--jobs", "--encoding", "--output", "--plot", "--no-outside", "--force-exclude"}
     options = {max(option.opts, key=len) for option in command.params if isinstance(option, click.Option)}
     for option in options - common:
         assert f"`{option}" in section, option
