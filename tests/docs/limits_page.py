@@ -1,4 +1,4 @@
-"""The page of limits, made from `mudline.basics.limits`: each with its value; the reasons stand there."""
+"""The page of the limits of input, made from `mudline.basics.limits`: each with its value; the reasons stand there."""
 
 from __future__ import annotations
 
@@ -12,17 +12,19 @@ from mudline.basics import limits
 
 _HEAD = """# Limits
 
-These limits guard against hostile or huge input, and bound what a message shows. A message names the line that a
-limit refuses. The reasons are in `src/mudline/basics/limits.py`.
+These limits guard against hostile or huge input. A message names the limit and the line of the deck. The reasons are in
+`src/mudline/basics/limits.py`, with the limits of messages, caches and editors.
 """
+_GROUPS = ("text of decks", "sizes that decks cause", "files")
 _GROUP = re.compile(r"^# -+ (.+)$", re.MULTILINE)
 
 
 def limits_page() -> str:
-    """Return the limits in their groups, each with its value."""
+    """Return the limits of input in their groups, each with its value."""
     _, *parts = _GROUP.split(getsource(limits))
     groups = zip(parts[::2], parts[1::2], strict=True)
-    return _HEAD + "".join(f"\n## {title.capitalize()}\n\n{_table(source)}" for title, source in groups)
+    shown = [(title, source) for title, source in groups if title in _GROUPS]
+    return _HEAD + "".join(f"\n## {title.capitalize()}\n\n{_table(source)}" for title, source in shown)
 
 
 def _table(source: str) -> str:

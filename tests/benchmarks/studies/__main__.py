@@ -20,7 +20,7 @@ PARTS = {
     "extremes": extremes,
     "pruning": pruning,
 }
-TABLES = {**curves.TABLES, **steps.TABLES, **landings.TABLES, **friction.TABLES, **pruning.TABLES}
+TABLES = {**curves.TABLES, **steps.TABLES, **landings.TABLES, **pruning.TABLES}
 PAGES = ("precision", "stability", "pruning")
 
 

@@ -42,7 +42,7 @@ from mudline.model.contact.laws.suction import (
 from tests.benchmarks.studies.laws import DIAMETER
 from tests.benchmarks.studies.newton import Newton
 from tests.benchmarks.studies.suction import step
-from tests.benchmarks.tables import digits, load, save, table
+from tests.benchmarks.tables import save
 
 CYCLES, RELEASE = "stability-newton-cycles", "stability-release"
 STARTS = np.linspace(-20.0, 20.0, 101)
@@ -117,11 +117,3 @@ def run(progress: Callable[[str], None]) -> None:
         needed = float(release_stiffness(law, np.array([velocity]))[0])
         found.append([velocity, needed, *(equilibria(law, velocity, share * needed) for share in SHARES)])
     save(RELEASE, ["velocity [m/s]", "needed [N/m2]", *(f"at {share:g} of it" for share in SHARES)], found)
-
-
-def _release() -> str:
-    rows = load(RELEASE)
-    return table(list(rows[0]), [[digits(cell) for cell in row.values()] for row in rows])
-
-
-TABLES = {"release": _release}

@@ -257,16 +257,15 @@ def _draw_stages(figure: Figure) -> None:
 def _stage_table() -> str:
     rows = load(STAGES)
     own = {name: [row for row in rows if row["scene"] == name] for name in dict.fromkeys(row["scene"] for row in rows)}
-    head = ["scene", *(f"{digits(nodes, 6)} nodes" for nodes in LADDER), "times the curve's", "steps", "bytes a node"]
+    head = ["scene", *(f"{digits(nodes, 6)} nodes" for nodes in (LADDER[0], LADDER[-1])), "times the curve's", "steps"]
     return table(
         head,
         [
             [
                 name,
-                *(f"{digits(row['time [ns/node/step]'], 2)} ns" for row in part),
+                *(f"{digits(row['time [ns/node/step]'], 2)} ns" for row in (part[0], part[-1])),
                 digits(part[-1]["times the curve's"], 2),
                 part[-1]["steps"],
-                digits(part[-1]["memory [bytes/node]"]),
             ]
             for name, part in own.items()
         ],

@@ -147,11 +147,9 @@ def _points(rows: Iterable[Tried]) -> Iterator[tuple[float, float]]:
 
 
 def _cells(row: Row) -> str:
-    parts = []
-    for goal in GOALS:
-        step, work = row[f"omega dt for {goal} [-]"], row[f"evaluations a period for {goal} [-]"]
-        parts.append(f"{digits(step, 2)} ({digits(work, 2)})" if step else "none")
-    return "; ".join(parts)
+    goal = next(iter(GOALS))
+    step, work = row[f"omega dt for {goal} [-]"], row[f"evaluations a period for {goal} [-]"]
+    return f"{digits(step, 2)} ({digits(work, 2)})" if step else "none"
 
 
 TABLES = {"goals": lambda: pivot(load(NAME), "scheme", "case", _cells)}
