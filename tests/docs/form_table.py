@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from itertools import groupby
 from pathlib import Path
 
 from mudline.basics.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
@@ -37,8 +38,11 @@ def result_table() -> str:
 
 
 def quantity_rows(quantities: Iterable[Quantity]) -> str:
-    """A row a quantity, with its unit in metric and imperial decks."""
-    return "".join(f"| `{each.name}` | {each.meaning} |{_unit(each)}|\n" for each in quantities)
+    """A row a quantity, with its unit in metric and imperial decks; neighbours with the same meaning share a row."""
+    alike = groupby(quantities, key=lambda each: (each.meaning, _unit(each)))
+    return "".join(
+        f"| {', '.join(f'`{each.name}`' for each in group)} | {meaning} |{unit}|\n" for (meaning, unit), group in alike
+    )
 
 
 def _unit(quantity: Quantity) -> str:
