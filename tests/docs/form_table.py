@@ -1,4 +1,4 @@
-"""Tables of pages written by hand that come from the program: forms of findings and of result files, quantities."""
+"""Tables and lists of pages written by hand that come from the program: forms of findings and results, quantities."""
 
 from __future__ import annotations
 
@@ -49,23 +49,23 @@ def _unit(quantity: Quantity) -> str:
     return f" {quantity.unit_name('metric')} / {quantity.unit_name('imperial')} " if quantity.unit else " "
 
 
-def archive_tables() -> dict[str, str]:
-    """The columns of each table of an archive."""
-    return {_head(table): _head(table) + "".join(_column_rows(table)) for table in TABLES}
+def archive_columns() -> dict[str, str]:
+    """The columns of each table of an archive, as lists."""
+    return {_head(table): _head(table) + "".join(_column_lines(table)) for table in TABLES}
 
 
 def _head(table: str) -> str:
-    return f"| column of {table} | holds |\n| --- | --- |\n"
+    return f"Columns of `{table}`:\n\n"
 
 
-def _column_rows(table: str) -> Iterable[str]:
-    return (f"| `{name}` | {marked(meaning)} |\n" for name, _, meaning in columns_of(table) if name != "file")
+def _column_lines(table: str) -> Iterable[str]:
+    return (f"* `{name}`: {marked(meaning)}\n" for name, _, meaning in columns_of(table) if name != "file")
 
 
 def pages_with_tables() -> dict[str, str]:
     """The pages written by hand that have such tables, with the tables written anew."""
     tables = {
-        "docs/archive.md": archive_tables(),
+        "docs/archive.md": archive_columns(),
         "docs/outputs.md": {_FINDINGS: form_table()},
         "docs/evaluate.md": {_RESULTS: result_table()},
         "docs/json.md": {
@@ -81,7 +81,7 @@ def pages_with_tables() -> dict[str, str]:
 def _with_tables(page: str, tables: dict[str, str]) -> str:
     text = (_ROOT / page).read_text(encoding="utf-8")
     for head, table in tables.items():
-        parts = re.split(re.escape(head) + r"(?:\|[^\n]*\n)*", text)
+        parts = re.split(re.escape(head) + r"(?:[|*][^\n]*\n)*", text)
         assert len(parts) == 2
         text = table.join(parts)
     return text

@@ -11,8 +11,8 @@ _HEAD = """\
 # The contact laws
 
 Every law that the evaluator knows, with its parameters as `LawAssignment` takes them: one number for each row, or an
-array (rows,). Units are powers of force F, length L and time T. What the laws mean, and what a deck writes for them, is
-in [contact.md](contact.md). This page is made from the program.
+array (rows,). Brackets hold the unit, as powers of force F, length L and time T, the range and the default. The meaning
+of the laws, and the lines of a deck for them, are in [contact.md](contact.md).
 """
 
 
@@ -35,21 +35,16 @@ def _section(law: Law) -> str:
     facts += ["needs a diameter"] * law.needs_diameter + ["has a history"] * law.history
     equation = f"    {law.equation}\n\n" if law.equation else ""
     source = f"Source: {law.source}.\n" if law.source else ""
-    alike = groupby(law.parameters, key=_cells)
-    rows = "".join(_row([each.name for each in group], cells) for cells, group in alike)
-    table = (
-        f"| parameter | unit | range | default | meaning |\n| --- | --- | --- | --- | --- |\n{rows}\n" if rows else ""
-    )
+    alike = groupby(law.parameters, key=_facts)
+    rows = "".join(f"* {', '.join(f'`{each.name}`' for each in group)}{facts}\n" for facts, group in alike)
+    parameters = f"{rows}\n" if rows else ""
     what = law.summary[0].upper() + law.summary[1:]
     picture = f"\n{_PICTURES[law.name]}\n" if law.name in _PICTURES else ""
-    return f"## {law.name}\n\n{what}; {', '.join(facts)}.\n\n{equation}{table}{source}{picture}"
+    return f"## {law.name}\n\n{what}; {', '.join(facts)}.\n\n{equation}{parameters}{source}{picture}"
 
 
-def _cells(parameter: Parameter) -> tuple[str, ...]:
-    """Unit, range, default and meaning: neighbours with the same share a row."""
-    default = "" if parameter.default is None else "none" if isnan(parameter.default) else f"{parameter.default:g}"
-    return parameter.unit, parameter.valid_range, default, parameter.meaning.replace("|", "\\|")
-
-
-def _row(names: list[str], cells: tuple[str, ...]) -> str:
-    return f"| {', '.join(f'`{name}`' for name in names)} | {' | '.join(cells)} |\n"
+def _facts(parameter: Parameter) -> str:
+    """Return unit, range, default and meaning: neighbours with the same share a line."""
+    default = parameter.default
+    without = () if default is None else ("may be left out",) if isnan(default) else (f"default {default:g}",)
+    return f" ({', '.join([parameter.unit, parameter.valid_range, *without])}): {parameter.meaning}"
