@@ -12,7 +12,7 @@ from mudline.basics import limits
 
 _HEAD = """# Limits
 
-These limits guard against hostile or huge input. A message names the limit and the line of the deck. The reasons are in
+These limits guard against hostile or huge input. A message names the line that is refused. The reasons are in
 `src/mudline/basics/limits.py`, with the limits of messages, caches and editors.
 """
 _GROUPS = ("text of decks", "sizes that decks cause", "files")
