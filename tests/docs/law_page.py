@@ -44,7 +44,8 @@ def _section(law: Law) -> str:
 
 
 def _facts(parameter: Parameter) -> str:
-    """Return unit, range, default and meaning: neighbours with the same share a line."""
+    """Return unit, range, default and meaning in words: neighbours with the same share a line."""
     default = parameter.default
     without = () if default is None else ("may be left out",) if isnan(default) else (f"default {default:g}",)
-    return f" ({', '.join([parameter.unit, parameter.valid_range, *without])}): {parameter.meaning}"
+    unit = () if parameter.unit == "1" else (parameter.unit,)
+    return f" ({', '.join([*unit, parameter.valid_range, *without])}): {parameter.meaning}"
