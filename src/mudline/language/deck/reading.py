@@ -285,7 +285,7 @@ class _DeckReader:
         self.deck.preamble = self._lines(Span(0, end)) if end else []
 
     def _of_deeplines(self) -> RawBlock | None:
-        """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or two with spaced rows."""
+        """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or spaced rows."""
         blocks = self.tree.preamble.blocks if not self.tree.sections and "," not in self.text else []
         own = [block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES]
         spaced = [block for block in blocks if any(map(_SPACED.match, map(self._text_of, block.leaves)))]

@@ -150,9 +150,7 @@ def elements_loop(
                 if suction and index[e, col.PULLS] != NOTHING:
                     held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
                     state[step, e], regularised[step, e] = 0, False
-                    if (
-                        step == 0 or pressed or past_episodes[0][held] or past_episodes[1][held] != 0
-                    ):  # else it stays idle
+                    if step == 0 or pressed or past_episodes[0][held] or past_episodes[1][held] != 0:  # else idle
                         known = (past_episodes[2][held], past_episodes[3][held], past_episodes[4][held])
                         was = (past_episodes[0][held], past_episodes[1][held], known)
                         now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held, 0))
