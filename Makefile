@@ -112,7 +112,7 @@ studies: $(VENV)/.developer ## measure the tables and pictures of docs/studies/ 
 dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and other programs: docs/studies/benchmark.md (15 minutes)
 	$(BIN)/python -m tests.benchmarks.dynamics $(ARGS)
 
-bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)
+bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (20 minutes)
 	$(BIN)/python -m tests.benchmarks $(ARGS)
 
 fuzz: $(VENV)/.developer ## look for inputs that break a promise: ARGS="--seconds N --target NAME"

@@ -24,7 +24,6 @@ from tests.benchmarks.runner import ROOT, Job, environment
 SUBJECTS: dict[str, Callable[[Bench], None]] = {
     "reading": reading.run,
     "spellings": reading.spellings,
-    "growth": reading.growth,
     "start": start.run,
     "decks": decks.run,
     "commands": commands.run,

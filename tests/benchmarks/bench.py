@@ -12,18 +12,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tests.benchmarks.peers import Environment
-from tests.benchmarks.runner import ROOT, Cost, Figure, Job, alternate, cpu, elapsed, environment
+from tests.benchmarks.runner import ROOT, Cost, Figure, Job, alternate, environment
 
 Maker = Callable[[int], Job]
 """The job for a size."""
-Series = dict[str, list[tuple[int, float]]]
-"""Sizes and seconds by the name of a program."""
 
 _SMALL = 200
-_BRIEF = 3.0
-"""Seconds by the clock of a run; at the size behind a longer one, a series has a single run."""
-_LONG = 15.0
-"""Seconds by the clock of the last run of a series: the next would take minutes."""
 
 _TIMED = """
 import sys, time
@@ -57,7 +51,6 @@ class Results:
     """
 
     figures: dict[str, Figure] = field(default_factory=dict)
-    series: dict[str, Series] = field(default_factory=dict)
     runs: dict[str, str] = field(default_factory=dict)
     failed: list[str] = field(default_factory=list)
 
@@ -72,15 +65,8 @@ class Results:
         if not path.exists():
             return cls()
         kept = json.loads(path.read_text(encoding="utf-8"))
-        return cls(
-            {key: Figure(*value) for key, value in kept["figures"].items()},
-            {
-                key: {name: [(n, s) for n, s in points] for name, points in of.items()}
-                for key, of in kept["series"].items()
-            },
-            kept["runs"],
-            kept["failed"],
-        )
+        figures = {key: Figure(*value) for key, value in kept["figures"].items()}
+        return cls(figures, kept["runs"], kept["failed"])
 
 
 @dataclass
@@ -131,25 +117,6 @@ class Bench:
         """A command of mudline, with a folder for its cache."""
         place = {"MUDLINE_CACHE_DIR": str(self.folder / cache)}
         return Job([sys.executable, "-m", "mudline", *words], codes=frozenset(codes), environment=place)
-
-    def grow(self, panel: str, sizes: Sequence[int], makers: Mapping[str, Maker]) -> None:
-        """Measure jobs of growing sizes for the picture: least processor time of two runs.
-
-        What takes long is run once, and left out at the sizes where it would take minutes.
-        """
-        series: Series = {}
-        last = dict.fromkeys(makers, 0.0)
-        for size in sizes:
-            for rounds, names in (
-                (2, [name for name, took in last.items() if took < _BRIEF]),
-                (1, [name for name, took in last.items() if _BRIEF <= took < _LONG]),
-            ):
-                taken = self.costs({name: makers[name](size) for name in names}, rounds, warm=False)
-                for name in names:
-                    last[name] = min(elapsed(taken[name])) if name in taken else _LONG
-                for name, costs in taken.items():
-                    series.setdefault(name, []).append((size, min(cpu(costs))))
-        self.results.series[panel] = series
 
 
 _SUFFIXES = {"abaqus": ".inp", "opm-curve": ".data", "opm-nodes": ".data"}

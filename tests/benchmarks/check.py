@@ -63,11 +63,7 @@ def commands(bench: Bench) -> Iterator[tuple[str, float]]:
     imports, cold, again = (cpu(costs) for costs in bench.costs(start.lints(bench), 7).values())
     yield "cold lint / bare imports", min(cold) / min(imports)
     yield "lint of an unchanged deck / bare imports", min(again) / min(imports)
-    folder = decks.folder_of(bench, decks.DECKS)
-    jobs = {"mudline": bench.mudline("lint", "--no-cache", "--jobs", "1", folder)}
-    if bench.has("yamllint"):
-        jobs["yamllint"] = decks.linters(bench, decks.apart)["yamllint"](decks.DECKS)
-    found = bench.costs(jobs, 2, warm=False)
+    found = bench.costs(decks.linters(bench, decks.DECKS), 2, warm=False)
     if "yamllint" in found:
         yield "1000 different decks / yamllint", min(cpu(found["mudline"])) / min(cpu(found["yamllint"]))
 

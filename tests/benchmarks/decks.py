@@ -1,4 +1,4 @@
-"""Many decks of 41 lines: beside yamllint and ruff on the same lines, from the cache, and memory."""
+"""Many decks of 41 lines: beside yamllint on the same lines, from the cache, and memory."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from tests.benchmarks.bench import Bench, Maker
+from tests.benchmarks.bench import Bench
 from tests.benchmarks.runner import Figure, Job, cpu, ratio
 
 DECKS = 1000
 MANY = 10_000
-MOST = 100_000
-SIZES = (1, 10, 100, 1000, 10_000)
+MOST = 40_000
 
 Writer = Callable[[int], str]
 """What writes the deck of a number."""
@@ -93,81 +92,54 @@ def apart(number: int) -> str:
 
 def as_yaml(deck: str) -> str:
     """The lines of a deck as as many of YAML: a keyword is a key, a row a list."""
-    return "".join(_converted(deck, "{}:", "  - [{}]", "  - {}"))
-
-
-def as_python(deck: str) -> str:
-    """The lines of a deck as as many of Python."""
-    return "".join(_converted(deck, "{} = 0", "row = ({})", 'text = "{}"'))
-
-
-def _converted(deck: str, head: str, row: str, other: str) -> list[str]:
     lines = []
     for line in deck.splitlines():
         words = re.split(r"[ ]*,[ ]*", line.strip())
         if line.startswith("C "):
-            form, text = "# {}", line
+            lines.append(f"# {line}\n")
         elif line[0] in "$*":
-            form, text = head, line[1:].replace(" ", "_")
+            lines.append(f"{line[1:].replace(' ', '_')}:\n")
         else:
-            form, text = (row if len(words) > 1 and "=" not in line else other), ", ".join(words)
-        lines.append(form.format(text) + "\n")
-    return lines
+            text = ", ".join(words)
+            lines.append(f"  - [{text}]\n" if len(words) > 1 and "=" not in line else f"  - {text}\n")
+    return "".join(lines)
 
 
 def folder_of(bench: Bench, count: int, write: Writer = apart, suffix: str = "keyxm") -> Path:
-    """A folder with so many decks."""
+    """A folder with so many decks, as keyword text or as YAML."""
     folder = bench.folder / f"{write.__name__}-{suffix}-{count}"
-    convert: dict[str, Callable[[str], str]] = {"yaml": as_yaml, "py": as_python}
     if not folder.exists():
         folder.mkdir()
         for number in range(count):
             text = write(number)
             path = folder / f"deck{number:06}.{suffix}"
-            path.write_text(convert[suffix](text) if suffix in convert else text, encoding="utf-8")
+            path.write_text(as_yaml(text) if suffix == "yaml" else text, encoding="utf-8")
     return folder
 
 
-def linters(bench: Bench, write: Writer) -> dict[str, Maker]:
-    """Mudline in one process and without its cache, and the peers that are there.
+def linters(bench: Bench, count: int, write: Writer = apart) -> dict[str, Job]:
+    """Mudline in one process and without its cache, and yamllint if it is there.
 
     The times of processes that a fork server starts are not in those of the children that were waited for.
     """
-    makers: dict[str, Maker] = {
-        "mudline": lambda count: bench.mudline("lint", "--no-cache", "--jobs", "1", folder_of(bench, count, write)),
-    }
-    peers: dict[str, tuple[str, str, tuple[str, ...]]] = {
-        "yamllint": ("yaml", "python", ("-I", "-m", "yamllint", "-d", "default")),
-        "ruff": ("py", "ruff", ("check", "--isolated", "--no-cache")),
-    }
-
-    def maker(peer: str) -> Maker:
-        suffix, program, words = peers[peer]
-        start: list[str | Path] = [bench.environments[peer].program(program), *words]
-        return lambda count: Job([*start, folder_of(bench, count, write, suffix)], codes=frozenset({0, 1}), peer=peer)
-
-    return makers | {peer: maker(peer) for peer in peers if bench.has(peer)}
+    jobs = {"mudline": bench.mudline("lint", "--no-cache", "--jobs", "1", folder_of(bench, count, write))}
+    if bench.has("yamllint"):
+        python = bench.environments["yamllint"].program("python")
+        folder = folder_of(bench, count, write, "yaml")
+        words: list[str | Path] = [python, "-I", "-m", "yamllint", "-d", "default", folder]
+        jobs["yamllint"] = Job(words, codes=frozenset({0, 1}), peer="yamllint")
+    return jobs
 
 
 def run(bench: Bench) -> None:
     """Measure all of it."""
     count = bench.size(DECKS)
     for key, write in (("apart", apart), ("alike", alike)):
-        found = bench.costs({name: maker(count) for name, maker in linters(bench, write).items()}, 5)
+        found = bench.costs(linters(bench, count, write), 5)
         if "yamllint" in found:
             bench.results.figures[key] = ratio(cpu(found["yamllint"]), cpu(found["mudline"]))
     _alone(bench)
     _cached(bench)
-    if not bench.quick:
-        again = {"mudline, from its cache": lambda size: _filled(bench, size)}
-        bench.grow("decks", SIZES, linters(bench, apart) | again)
-
-
-def _filled(bench: Bench, count: int) -> Job:
-    """A second run of the same decks: the first has filled the cache."""
-    job = bench.mudline("lint", folder_of(bench, count), cache=f"filled-{count}")
-    bench.costs({"": job}, 1, warm=False)
-    return job
 
 
 def _alone(bench: Bench) -> None:

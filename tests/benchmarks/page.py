@@ -1,4 +1,4 @@
-"""The tables of docs/benchmarks.md: the goals beside what was measured, growth, the machine.
+"""The tables of docs/benchmarks.md: the goals beside what was measured, and the machine.
 
 The text of the page is written by hand.
 """
@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import os
 import platform
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.metadata import PackageNotFoundError, version
 from itertools import groupby
-from math import log
 from pathlib import Path
 
 from tests.benchmarks.bench import Results
@@ -19,7 +18,7 @@ from tests.benchmarks.peers import Environment
 from tests.benchmarks.runner import ROOT, Figure
 from tests.benchmarks.tables import inserted, table
 
-PAGE, PICTURE = ROOT / "docs" / "benchmarks.md", "images/benchmarks.svg"
+PAGE = ROOT / "docs" / "benchmarks.md"
 _OURS = ("mudline", "numpy", "pydantic", "lark", "pyyaml", "pyarrow", "numba")
 
 QUICK = "a quick run"
@@ -30,7 +29,6 @@ def page(results: Results, environments: Iterable[Environment]) -> str:
     """The page with its tables made again."""
     found = {
         "goals": lambda: _goals(results),
-        "growth": lambda: _growth(results),
         "machine": lambda: _machine(results, environments),
     }
     return inserted(PAGE.read_text(encoding="utf-8"), found)
@@ -43,45 +41,20 @@ def _goals(results: Results) -> str:
     parts = [f"Of {len(GOALS)} goals {met} are met, {len(measured) - met} missed, {missing} not measured.\n"]
     if QUICK in results.runs.values():
         parts.append("This was a quick run: the inputs were small, and no goal can be judged by it.\n")
+    rows: list[list[str]] = []
     for subject, goals in groupby(GOALS, key=lambda goal: goal.subject):
-        head = ["what", "goal", "median", "lowest to highest", "of the least times", "met"]
-        parts += [f"### {subject}\n", table(head, [_row(goal, results.figures.get(goal.key)) for goal in goals])]
-    return "\n".join(parts)
+        rows += [[f"**{subject}**", "", "", ""], *(_row(goal, results.figures.get(goal.key)) for goal in goals)]
+    return "\n".join([*parts, table(["what", "goal", "median (lowest to highest)", "met"], rows)])
 
 
 def _row(goal: Goal, found: Figure | None) -> list[str]:
     unit = f" {goal.unit}" if goal.unit else ""
     wanted = f"{goal.direction} {goal.limit:g}{unit}" + (f", aim {goal.aim:g}" if goal.aim else "")
     if found is None:
-        return [goal.what, wanted, "not measured", "", "", ""]
+        return [goal.what, wanted, "not measured", ""]
     spread = f"{_short(min(found.values))} to {_short(max(found.values))}" if len(found.values) > 1 else "one run"
     verdict = "yes" if goal.met(found.median) else "**missed**"
-    return [goal.what, wanted, f"{_short(found.median)}{unit}", spread, _short(found.least), verdict]
-
-
-def _growth(results: Results) -> str:
-    rows = [
-        [panel, name, f"{sizes[0][0]:,} to {sizes[-1][0]:,}", f"{sizes[-1][1]:.3g}", _exponent_cell(sizes)]
-        for panel, series in results.series.items()
-        for name, sizes in series.items()
-    ]
-    return table(["size", "program", "sizes", "s at the largest", "exponent"], rows)
-
-
-def exponent(points: Sequence[tuple[int, float]]) -> float | None:
-    """The power of the size with which time grows; None where there are too few sizes to say."""
-    size, start = min(points)
-    kept = [(log(n), log(t - start)) for n, t in points if n >= 100 * size and t > start]
-    if len(kept) < 2:
-        return None
-    x = sum(x for x, _ in kept) / len(kept)
-    y = sum(y for _, y in kept) / len(kept)
-    return sum((a - x) * (b - y) for a, b in kept) / sum((a - x) ** 2 for a, _ in kept)
-
-
-def _exponent_cell(points: Sequence[tuple[int, float]]) -> str:
-    found = exponent(points)
-    return "" if found is None else f"{found:.2f}"
+    return [goal.what, wanted, f"{_short(found.median)}{unit} ({spread})", verdict]
 
 
 def _machine(results: Results, environments: Iterable[Environment]) -> str:
@@ -90,8 +63,8 @@ def _machine(results: Results, environments: Iterable[Environment]) -> str:
         [
             f"{_processor()}, {os.cpu_count()} cores; {platform.system()}; {platform.python_implementation()}",
             f"{platform.python_version()}; {', '.join(_versions(_OURS))}.\n",
-            table(["subject", "measured in"], [[subject, run] for subject, run in results.runs.items()]),
-            "The other programs, each in an environment of its own:\n",
+            *(f"* {subject}: {run}" for subject, run in results.runs.items()),
+            "\nThe other programs, each in an environment of its own:\n",
             table(["program", "versions", "what it reads"], rows),
         ]
     )
@@ -129,10 +102,6 @@ def _short(value: float) -> str:
 
 
 def write(results: Results, environments: Mapping[str, Environment], folder: Path) -> None:
-    """Write the page, and its picture if matplotlib is there."""
-    from tests.benchmarks.picture import draw  # noqa: PLC0415 large, and not before all is measured
-
-    (folder / PICTURE).parent.mkdir(parents=True, exist_ok=True)
+    """Write the page."""
+    folder.mkdir(parents=True, exist_ok=True)
     (folder / "benchmarks.md").write_text(page(results, environments.values()), encoding="utf-8", newline="\n")
-    if results.series:
-        draw(results.series, folder / PICTURE)

@@ -35,7 +35,6 @@ PEERS = (
     Peer(
         "yamllint", ("yamllint==1.38.0", "pyyaml==6.0.3"), "decks as YAML, line for line, in its default configuration"
     ),
-    Peer("ruff", ("ruff==0.17.6",), "decks as Python, line for line, `ruff check` without its cache"),
 )
 
 

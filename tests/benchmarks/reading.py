@@ -10,7 +10,6 @@ ROWS = 10**6
 SPELLED = 10**5
 _HEADS = {"curve": 3, "nodes": 2}
 """Lines in front of the rows."""
-SIZES = tuple(10**power for power in range(2, 8))
 
 _OURS = Work("import mudline", "return mudline.read(path)")
 LINT = Work("import mudline", "return mudline.lint(path)")
@@ -24,13 +23,6 @@ def run(bench: Bench) -> None:
     _files(bench)
     _arrays(bench)
     _faults(bench)
-
-
-def growth(bench: Bench) -> None:
-    """Measure files of growing sizes, for the picture."""
-    sizes = SIZES[:2] if bench.quick else SIZES
-    for panel, kinds in (("rows of a curve", CURVE), ("nodes", NODES)):
-        bench.grow(panel, sizes, readers(bench, kinds))
 
 
 CURVE = {"mudline": "curve", "np.loadtxt": "curve", "opm": "opm-curve"}

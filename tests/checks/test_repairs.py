@@ -188,6 +188,13 @@ def test_a_curve_that_a_comment_keeps_keeps_its_block() -> None:
     assert fixed(text, "REF003") == f"{CURVES}{kept}{PROPERTIES} STIFFNESS=1000.0\n"
 
 
+@pytest.mark.parametrize("line", [" SET=ALL STIFFNESS=Clay\n", " SET=ALL\nC STIFFNESS=Clay\n", " SET=ALL\n SET=B\n"])
+def test_a_curve_stays_where_the_line_that_names_it_is_faulty(line: str) -> None:
+    text = f"{CURVES} CURVE=Clay\n 0, 0\n 0.1, 300\n{PROPERTIES}".replace(" SET=ALL\n", line)
+    assert findings(text, "REF003")
+    assert fixed(text, "REF003") is None
+
+
 # ------------------------------------------------------------------------------------------------------------ legacy
 
 EMBEDMENT = "*EMBEDMENT\n SET=ALL\n 0.0, 0.0\n 0.5, 4000.0\n"

@@ -151,9 +151,10 @@ def test_damaged_deck_never_breaks_a_command(data: st.DataObject) -> None:
     ("content", "told"),
     [
         (CLEAN.encode() + b"<<<<<<< HEAD\n*OCEAN\n", "SYN018 a merge conflict is not solved: keep one of its versions"),
+        (CLEAN.encode() + b"||||||| base\n*OCEAN\n", "SYN018 a merge conflict is not solved"),
         (BINARY, "SYN012 the file looks like binary data"),
     ],
-    ids=["merge conflict", "binary"],
+    ids=["merge conflict", "common ancestor", "binary"],
 )
 def test_a_file_that_is_no_text_of_its_own_is_named_by_its_cause(
     place: Place, command: tuple[str, ...], content: bytes, told: str

@@ -12,6 +12,11 @@ def test_a_deck_of_deeplines_is_recognised() -> None:
     assert told.startswith("1:1 SYN007 this seems to be a deck of DeepLines: it has *SOIL and no $SECTION")
 
 
+def test_spaced_rows_of_two_keywords_are_enough() -> None:
+    (told,) = faults("*NODE\n 1 0.0 0.0\n*ELEMENT\n 1 1 2\n")
+    assert told.startswith("1:1 SYN007 this seems to be a deck of DeepLines: it has *NODE and no $SECTION")
+
+
 def test_other_decks_are_not_taken_for_one() -> None:
     assert "DeepLines" not in "".join(faults(f"$MODEL\n{DEEPLINES}"))
     assert "DeepLines" not in "".join(faults(DEEPLINES.replace("0.3 0.5", "0.3, 0.5")))

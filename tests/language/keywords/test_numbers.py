@@ -58,7 +58,7 @@ def test_its_repair_leaves_a_legal_deck() -> None:
         ("7.0+2", "if +2 is its exponent, write 7.0E+2 for x"),
         ("-.5-103", "if -103 is its exponent, write -.5E-103 for x"),
         ("7+2", "expected a number or an equation =[...] for x"),
-        ("****", "asterisks stand for one too wide for its column, write x itself"),
+        ("****", "asterisks stand for a number too wide for its column, write x itself"),
     ],
 )
 def test_a_number_as_other_programs_print_it(written: str, told: str) -> None:

@@ -74,7 +74,15 @@ def test_a_rigid_seabed_holds_what_lies_at_it() -> None:
     (point,) = found.touchdown
     assert (point.arc_length, point.contact) == (10.0, "before")
     assert found.contact_length == 10.0
-    assert (found.largest_force, found.submerged_weight) == (None, 0.0)
+    assert (found.largest_force, found.reaction, found.submerged_weight) == (None, None, 10.0 * WEIGHT)
+
+
+def test_only_elements_with_a_law_are_in_contact() -> None:
+    given = line_input(4)
+    (law,) = given.laws
+    given = replace(given, laws=(LawAssignment(law.law, np.array([0]), {"stiffness": 1000.0}),))
+    (found,) = line_summaries(ContactModel(given).evaluate(at_heights(-1.0, -1.0, -1.0, 1.0)))
+    assert (found.touchdown, found.contact_length, found.submerged_weight) == ((), 10.0, 10.0 * WEIGHT)
 
 
 def test_uplift_is_the_largest_pull() -> None:

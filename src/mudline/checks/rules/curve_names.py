@@ -69,7 +69,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     if not idle or (len(idle) == 1 and len(unknown) == 1):
         return
     places = [curve.where for curves in idle.values() for curve in curves]
-    repairs = removals(context.text, places) if context.text else {}
+    repairs = removals(context.text, places) if context.text and _all_else_is_given(context) else {}
     soils = {_without_estimate(name) for name in scene.laws.referenced}
     for curve, *_ in idle.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
@@ -120,6 +120,13 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         for varied in variation.blocks
         if varied.action == "ADD"
     )
+
+
+def _all_else_is_given(context: LintContext) -> bool:
+    """Return True if the deck has no error, and no law without stiffness, in whose place the curve may be meant."""
+    if any(law.kind is LawKind.NONE for law in context.scene.laws.set_laws):
+        return False
+    return not any(each.weight is Severity.ERROR for problems in context.noticed.values() for each in problems)
 
 
 def _stiffnesses(blocks: Iterable[tuple[Where, SeabedProperties]]) -> Iterator[object]:

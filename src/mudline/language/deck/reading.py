@@ -19,6 +19,7 @@ from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Wh
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, meant_section, words_behind
 from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.numbers import TOO_WIDE
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
 from mudline.language.syntax.fields import trimmed
@@ -36,10 +37,14 @@ _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=
 
 _DEEPLINES = frozenset({"SOIL", "TRENCH"})
 """Keywords of another program, whose columns are separated by spaces."""
+_SPACED = re.compile(r"[ \t]*[-+.\d][-+.\deE]*[ \t]+[-+.\d]")
+"""Row of numbers that are separated by spaces."""
 _NOT_READ = ("lines", "unread")
 """First step of the path to an unread line: of a block without a model, or kept by a model."""
 _ENDS = 2
 _OF_EVERY_BLOCK = {"keyword", "comments"}
+_NUMBERS = re.compile(r"(?=.*[,\d])(?:[,* ]++|[-+.\d][-+.\dED]*+)*+")
+"""Rest of a line that begins with asterisks in place of a number: numbers, or asterisks behind a comma."""
 
 
 class Findings:
@@ -71,8 +76,13 @@ class Findings:
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 replacement = f"*{near}" if catalogue.entries(near) else ""
                 if keyword.startswith("*"):
+                    rest = keyword.lstrip("* ")
+                    if _NUMBERS.fullmatch(rest):
+                        message = f"*{keyword[:40]} ends the block before it: {TOO_WIDE}, write the number itself"
+                        self.problems.append(Problem(SYN009, message, None, Severity.ERROR, where))
+                        return
                     message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
-                    replacement = f"C {keyword.lstrip('* ')}"
+                    replacement = f"C {rest}"
                 self._misspelt(SYN009, message, where, replacement, head)
         elif (
             sections
@@ -275,9 +285,14 @@ class _DeckReader:
         self.deck.preamble = self._lines(Span(0, end)) if end else []
 
     def _of_deeplines(self) -> RawBlock | None:
-        """Return the first block that only decks of DeepLines have, in a text without sections and commas."""
+        """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or spaced rows."""
         blocks = self.tree.preamble.blocks if not self.tree.sections and "," not in self.text else []
-        return next((block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES), None)
+        own = [block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES]
+        spaced = [block for block in blocks if any(map(_SPACED.match, map(self._text_of, block.leaves)))]
+        return own[0] if own else spaced[0] if len(spaced) > 1 else None
+
+    def _text_of(self, leaf: Leaf) -> str:
+        return self.text[leaf.span.start : leaf.span.end]
 
     def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
         """Report all data lines of a place in one finding; they may be a `title` if no line looks like data."""

@@ -12,6 +12,7 @@ from mudline.language.syntax.rows import read_number, spells_number
 
 _GROUPED = re.compile(r"[-+]?[0-9]{1,3}(?:[ '_\xa0\u202f][0-9]{3})+(?:\.[0-9]*)?")
 """Number with its digits in groups of three."""
+TOO_WIDE = "asterisks stand for a number too wide for its column"
 _MINUS = "\u2010\u2011\u2012\u2013\u2014\u2212\ufe63\uff0d"
 """Hyphens, dashes and minus signs of word processors."""
 _QUOTES = "\u2018\u2019\u201a\u201c\u201d\u201e\xab\xbb"
@@ -78,7 +79,7 @@ def _fault(text: str, label: str, kind: Kind | None) -> str:
     if kind is Kind.IDENT and Equation.match(text):
         return f"{cut(text, 60)!r} is an equation: expected {kind.value} for {label}"
     if text and not text.strip("*"):
-        return f"{text!r} is not a number: asterisks stand for one too wide for its column, write {label} itself"
+        return f"{text!r} is not a number: {TOO_WIDE}, write {label} itself"
     if text.startswith(("[", "=")):
         return f"{text!r} is not an equation: write =[...] for {label}"
     if lower[:1].isdigit() and any(mark in lower for mark in "ed"):

@@ -157,7 +157,7 @@ class LineSummary:
         first_element, last_element: numbers of the elements at its ends.
         length: length of the line.
         touchdown: points where the line leaves the seabed or touches down, along the line.
-        contact_length: length below the seabed, between the touchdown points.
+        contact_length: length below the seabed, between the touchdown points, of elements with a law.
         largest_force: largest force out of the seabed; None if there is none.
         largest_uplift: largest pull by suction or a curve, a negative force; None if there is none.
         reaction: total normal force on its nodes; a junction counts for its first line only. None on a rigid seabed,

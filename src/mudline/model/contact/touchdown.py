@@ -1,4 +1,4 @@
-"""Touchdown of lines: touchdown points, length on the seabed, and the forces there."""
+"""Touchdown of lines: touchdown points, length on the seabed, and the forces there; of elements with a law."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Touchdown:
         self.lines = given.lines
         self._arcs = [self.lines.node_arcs(line, given.length) for line in range(len(self.lines.elements))]
         self._own_nodes = [np.flatnonzero(self.lines.of_node == line) for line in range(len(self.lines.elements))]
-        self._carries = given.law != LawKind.NONE
+        self._carries, self._rigid = given.law != LawKind.NONE, given.law == LawKind.RIGID
         with np.errstate(over="ignore", invalid="ignore"):
             self._weights = None if given.weight is None else given.weight * given.length
             self._empty = self._weights if given.empty_weight is None else given.empty_weight * given.length
@@ -99,7 +99,7 @@ class Touchdown:
         if result.restrained is not None:
             touches |= result.restrained[:, nodes]
         known = ~np.isnan(gap)
-        between = known[:, :-1] & known[:, 1:]
+        between = known[:, :-1] & known[:, 1:] & self._carries[elements]
         changes = (touches[:, :-1] != touches[:, 1:]) & between
         step, segment = np.nonzero(changes)
         before, behind = gap[step, segment], gap[step, segment + 1]
@@ -115,7 +115,7 @@ class Touchdown:
         first, last = np.full(steps, np.nan), np.full(steps, np.nan)
         first[step[::-1]], last[step] = at[::-1], at
         force = result.force[:, elements]
-        held = result.contact[:, elements] & self._carries[elements]
+        held = (result.contact[:, elements] & self._carries[elements]) | (both & self._rigid[elements])
         weight, empty = (
             np.full(steps, np.nan) if of is None else np.where(held, of[elements], 0.0).sum(axis=1)
             for of in (self._weights, self._empty)

@@ -386,7 +386,6 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
     content.doubt = caption(warnings)
     result = part.result.step(0)
     lying = scene.law != LawKind.NONE  # elements without a law may be held in soil
-    lying = lying if lying.any() else ~lying
     depth = np.where(lying & result.evaluated & ~np.isnan(result.depth), result.depth, -np.inf)
     deepest = int(depth.argmax()) if depth.size else -1
     touches = deepest >= 0 and depth[deepest] > 0.0

@@ -149,14 +149,16 @@ def elements_loop(
 
                 if suction and index[e, col.PULLS] != NOTHING:
                     held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
-                    known = (past_episodes[2][held], past_episodes[3][held], past_episodes[4][held])
-                    was = (past_episodes[0][held], past_episodes[1][held], known)
-                    now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held, 0))
-                    if now[1] == SUCTION:
-                        f, s, k = f + g, s + h * diameter, k + h
-                    episodes[0][held], episodes[1][held] = now[0], now[1]
-                    episodes[2][held], episodes[3][held], episodes[4][held] = now[2]
-                    state[step, e], regularised[step, e] = now[1], slow
+                    state[step, e], regularised[step, e] = 0, False
+                    if step == 0 or pressed or past_episodes[0][held] or past_episodes[1][held] != 0:  # else idle
+                        known = (past_episodes[2][held], past_episodes[3][held], past_episodes[4][held])
+                        was = (past_episodes[0][held], past_episodes[1][held], known)
+                        now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held, 0))
+                        if now[1] == SUCTION:
+                            f, s, k = f + g, s + h * diameter, k + h
+                        episodes[0][held], episodes[1][held] = now[0], now[1]
+                        episodes[2][held], episodes[3][held], episodes[4][held] = now[2]
+                        state[step, e], regularised[step, e] = now[1], slow
 
                 wrong += (not math.isfinite(f + k)) | math.isinf(s)
                 depth[step, e], ratio[step, e], contact[step, e] = deep, share, touches
