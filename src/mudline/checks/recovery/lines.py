@@ -28,10 +28,9 @@ from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import is_choice, kinds_of, opened, repeated_set
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.keeping import is_choice, opened
 from mudline.language.keywords.model import Block, record_schema
-from mudline.language.keywords.naming import kinds_of, repeated_set
 from mudline.language.keywords.reader import ReadBlock, all_keys, reads, schemas_of
 from mudline.language.keywords.values import Facts, Names
 from mudline.language.keywords.values import Kind as Value

@@ -1,14 +1,15 @@
-"""Superseded keywords, decks that mix them with newer ones, and extension keywords in decks for Flexcom."""
+"""Keywords of other versions and programs: no section, superseded, mixed or extension keywords, and variations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from mudline.basics.limits import LISTED
-from mudline.checks.context import LintContext
-from mudline.language.diagnostics import Code, Problem, Repair, Severity, Where
+from mudline.checks.context import LintContext, of_variations
+from mudline.language.diagnostics import Blocks, Code, DeckError, Problem, Repair, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
@@ -17,9 +18,33 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.model import Scene
 from mudline.model.scene.rules.laws import SBD002
 
+SYN019 = Code("SYN019", "no-section", Severity.ERROR)
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
+REF023 = Code("REF023", "cannot-expand", Severity.WARNING)
+
+
+@rule(SYN019)
+def no_section(context: LintContext) -> Iterator[Problem]:
+    """The file has no section, so it is not a deck.
+
+    An empty file is left by an interrupted copy or a full disk. A file of comments or text alone is a title whose deck
+    is missing. Fetch the file again, or take it out of the folder of decks.
+
+    Example:
+         C Export riser, rev C
+        +$MODEL
+        +*OCEAN
+        + 500.0, 1025.0, 9.81
+
+    Finds: 1:1
+    """
+    deck = context.deck
+    if deck.sections or any(problem.weight is Severity.ERROR for problem in deck.problems):
+        return
+    has = "has no $SECTION" if deck.comments or any(map(str.strip, deck.preamble)) else "is empty"
+    yield Problem(SYN019, f"the file {has}: choose the file of a deck, or fetch it again")
 
 
 @rule(LEG001)
@@ -173,3 +198,45 @@ def extension_keyword(context: LintContext) -> Iterator[Problem]:
             if is_extension(block.keyword):
                 message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
                 yield Problem(SBD018, message, where=Where(i, j))
+
+
+# ----------------------------------------------------------------------------------------------------------- variations
+
+
+@rule(REF023)
+def cannot_expand(context: LintContext) -> Iterator[Problem]:
+    """The decks that *VARIATION and *COMBINATIONS describe cannot be written.
+
+    Parameters of one variation have different numbers of values, two decks would have one name, or a file cannot be
+    added: `mudline expand` refuses the deck. Misspelt names of parameters, variations and keywords have their own
+    rules. If one of them reports the deck, or the deck has errors, this rule reports nothing.
+
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+          Offset, 0.0
+          Period, 8.0
+         *VARIATION
+          NAME=Sea
+          PARA=Offset, VALUE=-10.0, 0.0, 10.0
+        - PARA=Period, VALUE=8.0, 10.0
+        + PARA=Period, VALUE=8.0, 10.0, 12.0
+         *COMBINATIONS
+          DIRECTORY=Runs
+          DESCRIPTION=All, FILENAME=T%Period%
+
+    Finds: 6:2
+    """
+    named = context.written("COMBINATIONS", "PREPROCESSOR")
+    if not named or any(problem.code.severity is Severity.ERROR for problem in context.deck.problems):
+        return
+    if any(True for _ in of_variations(context.deck)):
+        return
+    from mudline.editing.variations.planning import plan_faults  # noqa: PLC0415 - few decks have combinations
+
+    try:
+        faults = plan_faults(context.deck)
+    except DeckError:  # reported elsewhere
+        return
+    for problem in {problem.where: problem for problem in reversed(faults)}.values():  # the first of a place
+        yield replace(problem, code=REF023, blocks=Blocks.NEVER)

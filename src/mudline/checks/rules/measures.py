@@ -14,9 +14,8 @@ from mudline.checks.rules.curve_shape import swapped
 from mudline.checks.unit_slips import DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.contents import kept_lines, names_given
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
-from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import SEA_FREQUENCY, SEA_PERIOD, WALL, WAVE_PERIOD, YOUNG
 from mudline.language.keywords.values import Names

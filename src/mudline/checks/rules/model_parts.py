@@ -17,9 +17,8 @@ from mudline.checks.rules.seabed_position import first_of, held_nodes
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
-from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.contents import idents_given, kept_lines, may_name
 from mudline.language.keywords.model import Block, Part
-from mudline.language.keywords.naming import idents_given, may_name
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number

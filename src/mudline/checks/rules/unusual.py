@@ -15,13 +15,13 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
-from mudline.checks.rules.data_files import operator_files
 from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
+from mudline.checks.rules.references import operator_files
 from mudline.checks.unit_slips import DeckUnits, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.contents import in_words
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
-from mudline.language.keywords.ranges import in_words
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual

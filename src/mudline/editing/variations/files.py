@@ -22,8 +22,8 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names

@@ -21,11 +21,10 @@ from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Sect
 from mudline.language.deck.reading import Findings
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import is_read, is_refused
 from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.ranges import is_refused
 from mudline.language.keywords.reader import read_block
 from mudline.language.keywords.table import AS_TABLES, Listing
 from mudline.language.keywords.text import hint

@@ -14,13 +14,21 @@ from mudline.basics.spelling import nearest
 from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import grammar
-from mudline.language.keywords.attaching import Between, attach, doubtful, of_other_form
 from mudline.language.keywords.builder import Builder
+from mudline.language.keywords.contents import is_choice, opened
 from mudline.language.keywords.fields import AS_TEXT
 from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.language.keywords.keeping import is_choice, opened
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
-from mudline.language.keywords.parsed import ParsedRecord, Places, construct, lose
+from mudline.language.keywords.parsed import (
+    Between,
+    ParsedRecord,
+    Places,
+    attach,
+    construct,
+    doubtful,
+    lose,
+    of_other_form,
+)
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.rows import line_spans

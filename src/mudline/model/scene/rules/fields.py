@@ -13,8 +13,7 @@ from mudline.language.codes.references import REF015
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_have_no_length
-from mudline.language.keywords.keeping import is_read
-from mudline.language.keywords.ranges import range_faults, ranged_slots
+from mudline.language.keywords.contents import is_read, range_faults, ranged_slots
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import missing_files, not_found
 from mudline.model.scene.references import THINGS, undefined
