@@ -13,8 +13,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import chain
-from typing import Literal, NamedTuple, TypeGuard, get_args
+from typing import Literal, NamedTuple, TypeGuard, cast, get_args
 
+import numpy as np
 from pydantic import Field
 
 from mudline.language.keywords import grammar
@@ -319,41 +320,31 @@ def range_faults(part: Part) -> Iterator[tuple[Path, str]]:
     """Yield path and message of each value that is out of range."""
     for path, slot, value in part.walk(_is_ranged):
         if isinstance(value, Table):
-            yield from (((*path, *cell), fault) for cell, fault in _table_faults(value, slot))
-        elif isinstance(value, float | int) and (fault := range_fault(value, slot)):
-            yield path, fault
+            for index, column in enumerate(record_schema(cast("type[Part]", slot.row)).columns):
+                values = value.column(index) if column.about.limits else np.zeros(0)
+                low, high = column.span
+                for row in np.flatnonzero((values < low) | (values > high)).tolist():
+                    yield (*path, row, index), range_fault(float(values[row]), column)
+        elif isinstance(value, float | int) and (value < slot.span[0] or value > slot.span[1]):
+            yield path, range_fault(value, slot)
+
+
+@cache
+def has_ranges(part: type[Part]) -> bool:
+    """Return True if a field of a part or of its inner parts has a range."""
+    return any(map(_is_ranged, fields_of(part)))
 
 
 def _is_ranged(slot: FieldSpec) -> bool:
     """Return True for a field with a range, except those of GEN=, and for a table with a ranged column."""
     if isinstance(slot.about, Rows):
-        return bool(_ranged_columns(slot.row))
+        return slot.row is not None and any(column.about.limits for column in record_schema(slot.row).columns)
     return bool(slot.about.limits) and not slot.of_list
 
 
 def _is_ranged_in_list(slot: FieldSpec) -> bool:
     """Return True for a field of a GEN= that has a range."""
     return bool(slot.about.limits) and slot.of_list
-
-
-@cache
-def ranged_slots(part: type[Part]) -> tuple[FieldSpec, ...]:
-    """Return the ranged fields of a part and of its inner parts."""
-    return tuple(slot for slot in fields_of(part) if slot.about.limits and not slot.of_list)
-
-
-@cache
-def _ranged_columns(row: type[Part] | None) -> tuple[tuple[int, FieldSpec], ...]:
-    columns = record_schema(row).columns if row else ()
-    return tuple((index, column) for index, column in enumerate(columns) if column.about.limits)
-
-
-def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
-    """Yield row, column and message of each value of a table that is out of range."""
-    for index, column in _ranged_columns(slot.row):
-        for row, value in enumerate(table.column(index).tolist()):
-            if fault := range_fault(value, column):
-                yield (row, index), fault
 
 
 def _is_curve(slot: FieldSpec) -> bool:
