@@ -254,7 +254,8 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
             return
         numbers.update(number.groups() if number else ())
     # Rows fit many keywords.
-    path = repeated_set(read.model) if read and all(each.kind is Kind.SETTING for each in data_of(block.leaves)) else ()
+    by_settings = facts.later_wins and all(each.kind is Kind.SETTING for each in data_of(block.leaves))
+    path = repeated_set(read.model) if read and by_settings else ()
     again = read.places.find(path) if read and path else None
     for start in [again.start] if again else _foreign_lines(text, block, read):
         line = trimmed(unified, *line_at(text, start))

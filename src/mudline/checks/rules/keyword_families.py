@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from mudline.basics.limits import LISTED
 from mudline.checks.context import LintContext, of_variations
 from mudline.language.diagnostics import Blocks, Code, DeckError, Problem, Repair, Severity, Where
-from mudline.language.keywords.catalogue import is_extension, is_superseded, supersedes
+from mudline.language.keywords.catalogue import is_extension
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import with_line_ends
@@ -125,13 +125,19 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:1
     """
-    legacy = _first(context, filter(is_superseded, context.keywords))
-    new = _first(context, filter(supersedes, context.keywords)) if legacy else None
+    deck = context.scene.deck
+    legacy, new = (
+        min(
+            ((where, block.keyword) for where, block in deck.blocks_with(fact) if block.subject == "seabed"),
+            default=None,
+        )
+        for fact in ("superseded_by", "supersedes")
+    )
     if not legacy or not new or context.problems_of(SBD002):
         return  # two types of seabed, of which one is removed: SBD002 reports them
-    own = len(context.scene.deck.own_sections)
+    own = len(deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
-    second = (new if is_superseded(keyword) else legacy)[1]
+    second = (new if keyword == legacy[1] else legacy)[1]
     message = f"*{keyword} and *{second} are in one model{_laws_by_set(context.scene)}: keep one family"
     yield Problem(SBD016, message, where=where)
 
@@ -168,10 +174,6 @@ def _called(scene: Scene, index: int) -> str:
         case LawKind.RIGID:
             return "a rigid seabed"
     return "no stiffness"
-
-
-def _first(context: LintContext, names: Iterable[str]) -> tuple[Where, str] | None:
-    return min(((where, name) for name in names for where, _ in context.blocks(name)), default=None)
 
 
 @rule(SBD018)

@@ -39,8 +39,13 @@ UNT008 = Code("UNT008", "remarkable-value", Severity.INFO)
 CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UNT006, UNT007)}
 
 
-def unusual_values(context: LintContext) -> list[Problem]:
-    """Return the problems of values outside the usual range of their field; rules call `context.once`.
+def of_code(context: LintContext, code: Code) -> list[Problem]:
+    """Return the unusual values of one code."""
+    return context.once(_by_code).get(code, [])
+
+
+def _by_code(context: LintContext) -> dict[Code, list[Problem]]:
+    """Return the problems of values outside the usual range of their field by code.
 
     Lines in which SYN015 found decimal commas are left out. If gravity, a density or a length is unusual, the weight of
     a pipe counts as unknown. If nodes lie too high for the depth of the water, that depth counts as unknown.
@@ -53,10 +58,13 @@ def unusual_values(context: LintContext) -> list[Problem]:
         shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
         if heavy or shallow:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
-    problems = [each.problem for each in judged]
     text = context.text
-    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and problems else set()
-    return [problem for problem in problems if not commas or not text or text.place(problem).line not in commas]
+    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and judged else set()
+    by_code: dict[Code, list[Problem]] = {}
+    for problem in (each.problem for each in judged):
+        if not commas or not text or text.place(problem).line not in commas:
+            by_code.setdefault(problem.code, []).append(problem)
+    return by_code
 
 
 def _of_deck(deck: Numbers) -> list[Judged]:
@@ -77,11 +85,6 @@ def _in_files(deck: Numbers) -> Iterator[Judged]:
             heading, frequency = file.rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
             message = f"{file.name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
             yield judged._replace(problem=replace(judged.problem, message=message, where=file.where))
-
-
-def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
-    """Return the unusual values of one code."""
-    return (problem for problem in context.once(unusual_values) if problem.code is code)
 
 
 # ------------------------------------------------------------------------------------------------------- what is judged
