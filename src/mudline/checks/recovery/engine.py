@@ -23,7 +23,7 @@ from mudline.checks.recovery.blocks import (
     line_at,
     start_of,
 )
-from mudline.checks.rules.keyword_families import LEG001
+from mudline.checks.rules.keywords import LEG001
 from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010, SYN011, SYN013
 from mudline.language.deck.model import Deck

@@ -19,7 +19,7 @@ from mudline.checks.recovery.blocks import (
     start_of,
     whole,
 )
-from mudline.checks.rules.seabed_overlaps import SBD008
+from mudline.checks.rules.coverage import SBD008
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN013

@@ -1,16 +1,21 @@
-"""Keywords of other versions and programs: no section, superseded, mixed or extension keywords, and variations."""
+"""Keywords as such: no section, keywords of other versions and programs or given twice, and decks of variations."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from mudline.basics.limits import LISTED
-from mudline.checks.context import LintContext, of_variations
+from mudline.checks.context import Found, Joined, LintContext, joint, of_variations
+from mudline.checks.rules.geometry import GEO006
+from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Blocks, Code, DeckError, Problem, Repair, Severity, Where
 from mudline.language.keywords.catalogue import is_extension
+from mudline.language.keywords.contents import is_name, is_read
+from mudline.language.keywords.model import Block, FieldSpec, Path
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import with_line_ends
@@ -20,6 +25,7 @@ from mudline.model.scene.rules.laws import SBD002
 
 SYN019 = Code("SYN019", "no-section", Severity.ERROR)
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
+REF022 = Code("REF022", "given-twice", Severity.WARNING)
 SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
 REF023 = Code("REF023", "cannot-expand", Severity.WARNING)
@@ -200,6 +206,67 @@ def extension_keyword(context: LintContext) -> Iterator[Problem]:
             if is_extension(block.keyword):
                 message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
                 yield Problem(SBD018, message, where=Where(i, j))
+
+
+@rule(REF022)
+def given_twice(context: LintContext) -> Iterator[Problem]:
+    """A keyword that may be given once is given twice, or two records have the same set, vessel or heading.
+
+    So are two records with the same frequency or depth. A run takes one of the two, and a change of the unused one has
+    no effect. Mostly a copied block kept its first name. Of two sections or coefficients of a set the later one is
+    used; for the others this is not documented. Remove one of them, or correct its name. Sets, curves, nodes, elements
+    and seabed laws have their own rules.
+
+    Example:
+         $MODEL
+         *OCEAN
+          500.0, 1025.0, 9.81
+        -*OCEAN
+        - 450.0, 1025.0, 9.81
+
+    Finds: 4:1
+    """
+    deck = context.scene.deck
+    for i, section in enumerate(deck.own_sections):
+        seen: set[object] = set()
+        for j, block in enumerate(section.blocks):
+            if not isinstance(block, Block):
+                continue
+            if block.facts.once and block.keyword in seen and is_read(block):
+                message = f"*{block.keyword} already stands in this ${section.name}: remove one of the two"
+                yield Problem(REF022, message, where=Where(i, j))
+            seen.add(block.keyword)
+            for path, slot, value in block.walk(_is_unique):
+                known = is_name(value) or (isinstance(value, int | float) and math.isfinite(value))
+                key = (block.keyword, *_list_of(path, j), slot.name, name_key(str(value)))
+                if known and value != "" and key in seen:
+                    yield Problem(REF022, _words(slot, value, block), where=Where(i, j, path))
+                seen.add(key)
+
+
+def _is_unique(slot: FieldSpec) -> bool:
+    return slot.about.unique
+
+
+def _list_of(path: Path, block: int) -> Path:
+    """Return the path of the list whose records a field distinguishes; a list may go on in the next block."""
+    return path[:-2] if len(path) <= len(("records", 0, "field")) else (block, *path[:-2])
+
+
+def _words(slot: FieldSpec, value: object, block: Block) -> str:
+    held = "the later one holds" if block.facts.later_wins else "which of them holds is not documented"
+    words = shown(value) if isinstance(value, str) else f"{value:g}"
+    label = f"{slot.key}={words}" if slot.key else f"{slot.label} {words}"
+    return f"{label} is already given in *{block.keyword}, and {held}: remove one of the two, or correct it"
+
+
+@joint(GEO006)
+def said_of_the_section(_: LintContext, found: Found) -> Iterator[Joined]:
+    """Join a repeated section of a set to the finding that another set has none."""
+    for problem in found[GEO006.code]:
+        same = [repeat for repeat in found.get(REF022.code, ()) if repeat.where == problem.where]
+        if same:
+            yield Joined(problem, same)
 
 
 # ----------------------------------------------------------------------------------------------------------- variations
