@@ -302,7 +302,10 @@ class _BlockParser:
             message = f"{where} is incomplete: missing {expected}"
             lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
             span = trimmed(self.text, *lines[-1].span)
-            self.problems.append(Problem(code, message, span))
+            cut_off = self.last and not self.text.endswith("\n")
+            reported = any(problem.span and problem.span.end == span.end for problem in self.problems)
+            if cut_off or not reported:  # a line in place of the missing one has its finding
+                self.problems.append(Problem(code, message, span))
             return
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:
