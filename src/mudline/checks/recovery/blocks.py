@@ -16,7 +16,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.sets import ALL
 
@@ -78,7 +78,7 @@ def whole(block: RawBlock) -> Span:
 
 def data_of(leaves: Sequence[Leaf]) -> list[Leaf]:
     """Return the lines that are not comments."""
-    return [leaf for leaf in leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)]
+    return [leaf for leaf in leaves if leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)]
 
 
 def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:

@@ -18,7 +18,7 @@ from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import FieldGroup, first_key, read_line, trimmed
 from mudline.language.syntax.rows import blank_separated, row_fields
-from mudline.language.syntax.tree import Kind, Leaf, canonical_name
+from mudline.language.syntax.tree import Leaf, LeafKind, canonical_name
 
 STY002 = Code("STY002", "lower-case-comment", Severity.WARNING)
 STY005 = Code("STY005", "indented-keyword", Severity.WARNING)
@@ -31,7 +31,7 @@ STY004 = Code("STY004", "blank-separated", Severity.INFO)
 STY007 = Code("STY007", "trailing-blank", Severity.INFO)
 
 
-_DATA = (Kind.RUN, Kind.SETTING, Kind.TEXT)
+_DATA = (LeafKind.RUN, LeafKind.SETTING, LeafKind.TEXT)
 
 _KEY_LIKE = r"\n[Cc][A-Za-z]"
 INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
@@ -99,7 +99,7 @@ def data_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock]]:
 
 def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
     """Return True if a line is a KEY= that the keyword knows."""
-    known = leaf.kind in (Kind.SETTING, Kind.UNDECIDED)
+    known = leaf.kind in (LeafKind.SETTING, LeafKind.UNDECIDED)
     return known and first_key(source, leaf.span) in all_keys(type(read.model))
 
 
@@ -133,7 +133,7 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """
     for leaf, _, kept in placed_leaves(text):
         start = leaf.span.start
-        if leaf.kind is Kind.COMMENT and source[start] == "c" and not kept:
+        if leaf.kind is LeafKind.COMMENT and source[start] == "c" and not kept:
             mark = Span(start, start + 1)
             repair = Repair("safe", "write a capital C", ((mark, "C"),))
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
@@ -177,7 +177,7 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     Finds: 3:3
     """
     for leaf, read, kept in placed_leaves(text):
-        if kept or leaf.kind not in (Kind.TEXT, Kind.SETTING) or not INDENTED_COMMENT.match(source, *leaf.span):
+        if kept or leaf.kind not in (LeafKind.TEXT, LeafKind.SETTING) or not INDENTED_COMMENT.match(source, *leaf.span):
             continue
         if read is None or not is_setting(source, leaf, read):
             message = "an indented line is data, not a comment: if it is meant as one, put its C in column 1"
@@ -357,7 +357,7 @@ def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
     """Yield the lines of a run, or the text after a KEY=, of numbers and spaces only; a single value is a name."""
-    if leaf.kind is Kind.RUN:
+    if leaf.kind is LeafKind.RUN:
         yield from (trimmed(source, *match.span()) for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span))
     elif match := _BEHIND_KEY.search(source, *leaf.span):
         row = trimmed(source, match.end(), leaf.span.end)
@@ -391,7 +391,7 @@ def _own_lines(text: TextOrigin) -> Iterator[Span]:
     """Yield all lines except the data of blocks without a model, and data outside of blocks."""
     yield from head_lines(text)
     for leaf, read, kept in placed_leaves(text):
-        if not kept and (read is not None or leaf.kind in (Kind.COMMENT, Kind.BLANK)):
+        if not kept and (read is not None or leaf.kind in (LeafKind.COMMENT, LeafKind.BLANK)):
             yield leaf.span
 
 

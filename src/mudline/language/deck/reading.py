@@ -23,7 +23,7 @@ from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree, parse
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.ocean import Ocean
@@ -281,7 +281,7 @@ class _DeckReader:
 
     def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
         """Report all data lines of a place in one finding; they may be a `title` if no line looks like data."""
-        data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        data = [leaf for leaf in leaves if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)]
         if data:
             first = data[0].span
             end = self.text.find("\n", *first)
@@ -299,9 +299,9 @@ class _DeckReader:
         self._stray(raw.leaves, f"of ${raw.name}", title=not known)
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
-            if leaf.kind is Kind.COMMENT:
+            if leaf.kind is LeafKind.COMMENT:
                 section.comments.append(Comment(before=0, text=line[0][1:]))
-            elif leaf.kind is not Kind.BLANK:
+            elif leaf.kind is not LeafKind.BLANK:
                 section.lines += line
         for block in raw.blocks:
             self._block(section, index, block)

@@ -32,7 +32,7 @@ from mudline.language.keywords.parsed import (
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.rows import line_spans
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
 
 
 @dataclass(slots=True)
@@ -112,7 +112,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     ends: frozenset[str] = frozenset()
     keys = all_keys(declared)
     for leaf in raw.leaves:
-        key = first_key(text, leaf.span) if leaf.kind is Kind.SETTING else ""
+        key = first_key(text, leaf.span) if leaf.kind is LeafKind.SETTING else ""
         if key and (not ends or key in ends):
             value = text[slice(*leaf.span)].partition("=")[2]
             ends = opened(declared, key, value)
@@ -219,21 +219,21 @@ class _BlockParser:
         ends: frozenset[str] = frozenset()
         for leaf in self.raw.leaves:
             kind, span = leaf
-            if ends and kind not in (Kind.COMMENT, Kind.BLANK):
+            if ends and kind not in (LeafKind.COMMENT, LeafKind.BLANK):
                 if first_key(self.text, span) not in ends:
                     self._keep(span)
                     continue
                 ends = frozenset()
             match kind:
-                case Kind.COMMENT:
+                case LeafKind.COMMENT:
                     self._comment(leaf)
-                case Kind.UNDECIDED:
+                case LeafKind.UNDECIDED:
                     ends = self._undecided(leaf, contents)
-                case Kind.SETTING:
+                case LeafKind.SETTING:
                     ends = self._setting(span, contents)
-                case Kind.RUN if not self.declared.tabular:
+                case LeafKind.RUN if not self.declared.tabular:
                     contents += [Content(ROW, line) for line in line_spans(self.text, span)]
-                case Kind.RUN | Kind.TEXT:
+                case LeafKind.RUN | LeafKind.TEXT:
                     contents.append(Content(ROW, span))
                 case _:
                     pass
@@ -300,7 +300,11 @@ class _BlockParser:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
             message = f"{where} is incomplete: missing {expected}"
-            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+            lines = [
+                leaf
+                for leaf in (self.raw.head, *self.raw.leaves)
+                if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)
+            ]
             span = trimmed(self.text, *lines[-1].span)
             cut_off = self.last and not self.text.endswith("\n")
             reported = any(problem.span and problem.span.end == span.end for problem in self.problems)
