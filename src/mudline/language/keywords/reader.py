@@ -300,11 +300,8 @@ class _BlockParser:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
             message = f"{where} is incomplete: missing {expected}"
-            lines = [
-                leaf
-                for leaf in (self.raw.head, *self.raw.leaves)
-                if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)
-            ]
+            no_data = LeafKind.BLANK, LeafKind.COMMENT
+            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in no_data]
             span = trimmed(self.text, *lines[-1].span)
             cut_off = self.last and not self.text.endswith("\n")
             reported = any(problem.span and problem.span.end == span.end for problem in self.problems)

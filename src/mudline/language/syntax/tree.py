@@ -21,7 +21,7 @@ _REMEMBERED = 100
 
 
 class LeafKind(Enum):
-    """LeafKind of a leaf, by its text alone."""
+    """Kind of a leaf, by its text alone."""
 
     SECTION = "SECTION"
     KEYWORD = "KEYWORD"
