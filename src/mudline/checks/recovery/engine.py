@@ -213,8 +213,9 @@ class _Round:
                     proposed += recovery.corrector(self.blocks, asked)
             proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
             for one in proposed:
-                apart = self._is_sayable(one) and not any(_meet(one.region, accepted.region) for accepted in taken)
-                if apart and self._is_better(one):
+                start, end = one.region
+                apart = all(end <= other.region.start or other.region.end <= start for other in taken)
+                if apart and self._is_sayable(one) and self._is_better(one):
                     taken.append(one)
             explained = {id(one.cause) for one in taken}
             problems = [one for one in problems if one.repair is None and id(one) not in explained]
@@ -260,10 +261,6 @@ class _Round:
         for problem in read_source(source, units="user", read=self.read).problems:
             if problem.weight is Severity.ERROR or problem.code in (SYN009, SYN013):
                 yield problem.code, problem.message
-
-
-def _meet(first: Span, second: Span) -> bool:
-    return first.start < second.end and second.start < first.end
 
 
 _DIGITS = re.compile(r"[0-9]+")

@@ -96,7 +96,8 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
     ends = scene.element_nodes
     joins = (ends[:, 0] >= 0) & (ends[:, 1] >= 0) & (ends[:, 0] != ends[:, 1])
     pairs = ends.min(axis=1) * len(scene.node_ids) + ends.max(axis=1)
-    if np.diff(np.sort(pairs[joins])).all() or _has_unread_joints(context):
+    unread = (keyword for keyword in context.keywords if catalogue.declared(keyword) is None)
+    if np.diff(np.sort(pairs[joins])).all() or any(map(catalogue.may_have_no_length, unread)):
         return
     usable = np.flatnonzero(joins & ~without_sections(scene))
     _, firsts, same = np.unique(pairs[usable], return_index=True, return_inverse=True)
@@ -106,11 +107,6 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
         which = first_of("element", scene.element_ids[second], twice.size)
         message = f"{which} between nodes that element {scene.element_ids[first]} joins already: correct the nodes, or"
         yield Problem(GEO014, f"{message} remove one", where=scene.table.numbered.where(int(second)))
-
-
-def _has_unread_joints(context: LintContext) -> bool:
-    unread = (keyword for keyword in context.keywords if catalogue.declared(keyword) is None)
-    return any(map(catalogue.may_have_no_length, unread))
 
 
 @rule(BND001)

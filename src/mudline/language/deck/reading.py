@@ -388,7 +388,7 @@ def units_of(deck: Deck) -> str:
     for _, block in deck.blocks("UNITS", "ANALYSIS"):
         if units := cast("Units", block).units:
             return units.lower()
-    gravity = gravity_of(deck)
+    gravity = _of_ocean(deck, "gravity")
     system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
     if system == "metric" and suffix == ".keyx":
         density = _of_ocean(deck, "density")
@@ -398,11 +398,6 @@ def units_of(deck: Deck) -> str:
 
 _TONNES = (0.9, 1.3)
 """Densities of water and brines in t/m3."""
-
-
-def gravity_of(deck: Deck) -> float | None:
-    """Return the gravity of the last `*OCEAN` that has a value, evaluated; None if there is none."""
-    return _of_ocean(deck, "gravity")
 
 
 def _of_ocean(deck: Deck, name: str) -> float | None:

@@ -9,7 +9,7 @@ place; documents with them are refused.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import chain
@@ -148,16 +148,13 @@ def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], by_k
             opener.far.update([key, *far])
             opener.ends.update([key, *far, *near])
     for slot in schema.slots:
-        firsts = {record: [*_first_keys(record)] for record in slot.record.values()}
+        firsts: dict[type[Record], list[str]] = {}
+        for record in slot.record.values():  # the keys with which its lines may begin
+            terminals = grammar.first_terminals(record.rule)
+            firsts[record] = [key for key in record_schema(record).keys if grammar.terminal_of(key) in terminals]
         for record, own in firsts.items():
             siblings = [key for sibling, keys in firsts.items() if sibling is not record for key in keys]
             _add_openers(record, own, [*near, *far, *siblings], by_key)
-
-
-def _first_keys(record: type[Record]) -> Iterable[str]:
-    """Return the keys with which the lines of a record may begin."""
-    terminals = grammar.first_terminals(record.rule)
-    return [key for key in record_schema(record).keys if grammar.terminal_of(key) in terminals]
 
 
 def is_choice(block: type[Block], key: str, value: str) -> bool:

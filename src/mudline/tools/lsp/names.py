@@ -24,7 +24,7 @@ KINDS = {
     Names.CURVE: Names.CURVE,
     Names.PARAMETER: Names.PARAMETER,
 }
-"""LeafKind of the named object, for each way to name it."""
+"""Kind of the named object, for each way to name it."""
 WORDS = {Names.SET: "set", Names.CURVE: "curve", Names.PARAMETER: "parameter"}
 _SET = "SET"
 _EQUATION = re.compile(r"=\[(?:[^\[\]\r\n]|\[[^\[\]\r\n]*\])*\]")
