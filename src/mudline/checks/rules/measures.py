@@ -18,7 +18,17 @@ from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import kept_lines, names_given
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import BED, CURVE_FORCE, SEA_FREQUENCY, SEA_PERIOD, WALL, WAVE_PERIOD, YOUNG, Usual
+from mudline.language.keywords.usual import (
+    BED,
+    CURVE_FORCE,
+    SEA_FREQUENCY,
+    SEA_PERIOD,
+    WALL,
+    WAVE_PERIOD,
+    YOUNG,
+    Usual,
+    exceeded,
+)
 from mudline.language.keywords.values import Names
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
@@ -96,19 +106,17 @@ class Numbers:
 
     def outside(self, slot: FieldSpec, value: float) -> Usual | None:
         """Return the first range that a value of a field (as in the deck) lies outside of and that applies to it."""
-        usual = next((usual for usual in slot.usuals if self._is_unusual(slot, usual, value)), None)
-        return usual if usual and not slot.about.fault(value) else None
-
-    def _is_unusual(self, slot: FieldSpec, usual: Usual, value: float) -> bool:
-        unit = slot.about.unit
-        if (value == 0.0 and usual.of[:1] in ("", "/")) or not (usual.of or self.units.known or unit in UNITLESS):
-            return False
-        if usual.holds(self.quantity(slot, usual, value * self.units.size(unit))):
-            return False
-        if usual.when and not CONDITIONS[usual.when](self):
-            return False
-        placeholder = usual.placeholder and is_placeholder(value)
-        return not (placeholder or usual.explained) or bool(self.explanation(slot, usual, value, strict=placeholder))
+        comparable = self.units.known or slot.about.unit in UNITLESS
+        asked = [each for each in slot.usuals if each.of or comparable]
+        if value == 0.0:  # is usual by itself and as a ratio
+            asked = [each for each in asked if each.of[:1] not in ("", "/")]
+        in_si = value * self.units.size(slot.about.unit)
+        for usual in exceeded(asked, [self.quantity(slot, each, in_si) for each in asked]):
+            placeholder = usual.placeholder and is_placeholder(value)
+            explained = not (placeholder or usual.explained) or self.explanation(slot, usual, value, strict=placeholder)
+            if explained and (not usual.when or CONDITIONS[usual.when](self)):
+                return None if slot.about.fault(value) else usual
+        return None
 
     def quantity(self, slot: FieldSpec, usual: Usual, value: float) -> float:
         """Return the compared quantity of a number in SI."""
