@@ -65,7 +65,6 @@ _SHARE = 0.3
 _LEAST_FORCE = 100.0
 """Force in N/m that a curve is compared with if the pipe's weight is unknown; less for cables thinner than 0.1 m."""
 
-
 NOWHERE = Where()
 
 
@@ -97,12 +96,10 @@ class Numbers:
 
     def __call__(self, name: str) -> float:
         """Return a number in SI by the name of its field; NaN if it is not given."""
-        changed_value = self.changed.get(name)
-        return number(self.part, name) * self.size(name) if changed_value is None else changed_value
-
-    def size(self, name: str) -> float:
-        """Return the unit of a field in SI."""
-        return next((self.units.size(slot.about.unit) for slot in self.columns if slot.name == name), 1.0)
+        if name in self.changed:
+            return self.changed[name]
+        size = next((self.units.size(slot.about.unit) for slot in self.columns if slot.name == name), 1.0)
+        return number(self.part, name) * size
 
     def outside(self, slot: FieldSpec, value: float) -> Usual | None:
         """Return the first range that a value of a field (as in the deck) lies outside of and that applies to it."""
