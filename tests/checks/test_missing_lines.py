@@ -56,3 +56,30 @@ def test_little_follows_from_a_letter_in_a_number(name: str, right: str, wrong: 
     assert {each.code for each in told} == codes
     assert len(told) <= 3
     assert not any("UNKNOWN" in each.message or "nan" in each.message.split() for each in told)
+
+
+VESSEL = "$MODEL\n*VESSEL\n VESSEL=Semi\n 1000.0, 904.6, 0.0, 0.0\n"
+
+
+@pytest.mark.parametrize("rest", ["", "*OCEAN\n 1000.0, 1025.0, 9.81\n"])
+def test_a_row_in_place_of_the_missing_line_is_one_finding(rest: str) -> None:
+    found = lint_bytes((VESSEL + rest).encode(), "deck.keyxm", select())
+    assert [(each.code, each.line) for each in found] == [("SYN001", 4)]
+
+
+def test_a_row_that_is_cut_off_in_place_of_the_missing_line_is_also_told_to_be_incomplete() -> None:
+    found = lint_bytes(VESSEL.removesuffix("\n").encode(), "deck.keyxm", select())
+    assert [(each.code, each.line) for each in found] == [("SYN001", 4), ("SYN014", 4)]
+
+
+@pytest.mark.parametrize("lines", [" GEN=1, 4S\n", " 1, 2, 3, 4S\n"])
+def test_nothing_follows_from_a_set_whose_elements_could_not_be_read(lines: str) -> None:
+    deck = (
+        "$MODEL\n*NODE\n 1, -0.05, 0.0\n 5, -0.05, 40.0\n GEN=1, 5\n*ELEMENT\n 1, 1, 2\n GEN=1, 4\n"
+        f"*ELEMENT SETS\n SET=Flowline\n{lines}"
+        "*GEOMETRIC SETS\n OPTION=RIGID\n SET=Flowline\n 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0\n"
+        "*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.5, 5000.0\n 1.0, 9000.0\n"
+        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+    )
+    found = lint_bytes(deck.encode(), "deck.keyxm", select())
+    assert [(each.code, each.line) for each in found if each.severity is not Severity.INFO] == [("SYN002", 11)]

@@ -118,7 +118,7 @@ def read_configuration(
         return outermost
     chain, at, whole = [path], outermost, [outermost]
     while EXTEND in at.values:
-        base, line = _base_of(chain[-1], at.values[EXTEND]), at.origins[EXTEND][1]
+        base, line = Path(os.path.normpath(chain[-1].parent / at.values[EXTEND])), at.origins[EXTEND][1]
         place = f"{chain[-1].as_posix()}:{line}: {EXTEND}"
         known = [os.path.realpath(file) for file in chain]
         if (real := os.path.realpath(base)) in known:
@@ -133,11 +133,6 @@ def read_configuration(
         chain.append(base)
         whole.append(at)
     return reduce(lambda above, own: own.over(above), reversed(whole))
-
-
-def _base_of(path: Path, extended: str) -> Path:
-    """Return the file that `extend` names, relative to the folder of the file with this key."""
-    return Path(os.path.normpath(path.parent / extended))
 
 
 def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:

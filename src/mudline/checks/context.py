@@ -103,7 +103,11 @@ class LintContext:
 
 def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, Any]]:
     """Return every entry below a SET= of some blocks, with its place."""
-    return [(where.inside("sets", index), entry) for where, block in blocks for index, entry in enumerate(block.sets)]
+    return [
+        (where._replace(path=("sets", index)), entry)
+        for where, block in blocks
+        for index, entry in enumerate(block.sets)
+    ]
 
 
 def of_variations(deck: Deck) -> Iterator[Problem]:

@@ -20,8 +20,8 @@ from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import BaseProblem, Deck, Opaque
 from mudline.language.deck.reading import TextOrigin, units_of
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest
+from mudline.language.keywords.contents import repeated_set
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.naming import repeated_set
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.language.rules import Rule, findings
 from mudline.language.syntax.tree import RawBlock

@@ -28,7 +28,7 @@ from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity, Span
 from mudline.language.syntax.edits import TextEdit, Undoing, edited_bytes, with_line_ends
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, SyntaxTree, parse
+from mudline.language.syntax.tree import LeafKind, SyntaxTree, parse
 
 
 @dataclass(frozen=True, slots=True)
@@ -289,7 +289,7 @@ class FixState:
     def comments(self) -> Counter[str]:
         """Comments without their layout and how often each occurs; comments for mudline are left out."""
         text = self.source.unified
-        comments = (text[slice(*leaf.span)] for leaf in self.tree.leaves() if leaf.kind is Kind.COMMENT)
+        comments = (text[slice(*leaf.span)] for leaf in self.tree.leaves() if leaf.kind is LeafKind.COMMENT)
         return Counter(" ".join(comment[1:].split()) for comment in comments if not MARK.match(comment))
 
     def untouched(self, edits: Sequence[Span]) -> Iterator[tuple[int, int]]:

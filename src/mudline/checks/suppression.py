@@ -28,7 +28,7 @@ from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
 from mudline.language.rules import Rule, first_reported
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, Leaf
+from mudline.language.syntax.tree import Leaf, LeafKind
 
 STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 
@@ -208,16 +208,16 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
     text = origin.source.unified
     if not ("mudline" in text.lower() if text.isascii() else _NAMED.search(text)):  # the first is many times as fast
         return None
-    if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
+    if not any(leaf.kind is LeafKind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None
     suppressions_ = Suppressions(origin, own_text)
     waiting: list[Directive] = []
     for leaf, where in _placed(origin, suppressions_.blocks):
-        if leaf.kind is Kind.COMMENT:
+        if leaf.kind is LeafKind.COMMENT:
             directive = _directive(text, leaf.span, where, suppressions_)
             if directive is not None and directive.order == "ignore":
                 waiting.append(directive)
-        elif leaf.kind is not Kind.BLANK:
+        elif leaf.kind is not LeafKind.BLANK:
             line = origin.source.position(leaf.span.start)[0]
             for directive in waiting:
                 directive.scope = ("line", line)

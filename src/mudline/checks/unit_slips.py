@@ -69,6 +69,10 @@ Specific weights are listed as densities.
 """
 
 
+UNITLESS = ("", "-", "%", "deg", "T", "Hz")
+"""Units of fields that are the same in every deck."""
+
+
 class DeckUnits(NamedTuple):
     """Units of a deck: the name that `unit_text` knows, and sizes in SI, which are 1 if the units are not `known`."""
 
@@ -77,10 +81,6 @@ class DeckUnits(NamedTuple):
     force: float = 1.0
     mass: float = 1.0
     known: bool = True
-
-    def compares(self, unit: str) -> bool:
-        """Return True if numbers of a unit can be compared with those in SI."""
-        return self.known or unit in ("", "-", "%", "deg", "T", "Hz")
 
     @lru_cache(256)  # noqa: B019 - there are few units
     def size(self, unit: str) -> float:

@@ -19,8 +19,8 @@ from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Problem, Severity
+from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import FEWEST_POINTS, Block
-from mudline.language.keywords.ranges import is_refused
 
 _FORMS = click.Choice(form_names())
 _TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}

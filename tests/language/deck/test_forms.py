@@ -16,8 +16,8 @@ from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Severity
+from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.ranges import is_refused
 from tests.helpers.builders.documents import validator
 from tests.helpers.builders.keyword_texts import deck_texts, mutated
 from tests.helpers.builders.scenes import deck_of

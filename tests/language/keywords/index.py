@@ -8,8 +8,8 @@ from pathlib import Path
 from pkgutil import iter_modules
 
 from mudline.language.keywords import catalogue, library
+from mudline.language.keywords.contents import ROLES, kinds_of
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.naming import ROLES, kinds_of
 from mudline.language.keywords.values import SUBJECTS, Entry, OpaqueKeyword
 
 _WIDE = 115

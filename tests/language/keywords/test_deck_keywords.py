@@ -9,7 +9,7 @@ import pytest
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.keeping import can_keep, is_read
+from mudline.language.keywords.contents import can_keep, is_read
 from mudline.language.keywords.model import Block
 from tests.helpers.builders.scenes import all_reported, deck_of, faults
 from tests.language.deck.test_forms import held

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.keeping import OpenBlock, can_keep, is_read, kept_lines, openers
+from mudline.language.keywords.contents import OpenBlock, can_keep, is_read, kept_lines, openers
 from mudline.language.keywords.model import Block, Record, record_schema
 from tests.helpers.builders.scenes import deck_of, faults
 

@@ -8,7 +8,7 @@ from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.keeping import is_read
+from mudline.language.keywords.contents import is_read
 from tests.helpers.builders.scenes import deck_of, faults
 from tests.language.deck.test_forms import held
 

@@ -13,7 +13,7 @@ from mudline.language.keywords.reader import all_keys
 from mudline.language.syntax.fields import Field, first_key, read_line, trimmed
 from mudline.language.syntax.rows import blank_separated, line_spans, spells_number
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, Leaf, SyntaxTree, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, SyntaxTree, parse
 
 Classes = list[str]
 """A class for each character, "" where none is expected: blanks, commas, signs."""
@@ -54,9 +54,9 @@ def _tokens(tree: SyntaxTree) -> Iterator[tuple[Span, str]]:
 
 def _leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[tuple[Span, str]]:
     known = declared is not None and first_key(text, leaf.span) in all_keys(declared)
-    if leaf.kind is Kind.COMMENT or (leaf.kind is Kind.UNDECIDED and not known):
+    if leaf.kind is LeafKind.COMMENT or (leaf.kind is LeafKind.UNDECIDED and not known):
         yield leaf.span, "comment"
-    elif leaf.kind is not Kind.BLANK:
+    elif leaf.kind is not LeafKind.BLANK:
         for line in line_spans(text, leaf.span):
             yield from _line(text, line, declared)
 

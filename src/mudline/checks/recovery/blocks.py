@@ -16,7 +16,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.sets import ALL
 
@@ -78,7 +78,7 @@ def whole(block: RawBlock) -> Span:
 
 def data_of(leaves: Sequence[Leaf]) -> list[Leaf]:
     """Return the lines that are not comments."""
-    return [leaf for leaf in leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)]
+    return [leaf for leaf in leaves if leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)]
 
 
 def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
@@ -152,16 +152,13 @@ class Blocks:
         at = bisect_right(starts, offset)
         return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
 
-    def raw_at(self, offset: int) -> RawBlock | None:
-        """Return the block whose lines are around an offset; None above the first block and after a block's lines."""
-        at = bisect_right(self._block_starts, offset)
-        block = self.blocks[at - 1][1] if at else None
-        return block if block is not None and offset < whole(block).end else None
-
     def declared_at(self, offset: int) -> type[Block] | None:
         """Return the declaration of the block around an offset; None if its lines are not read."""
-        block = self.raw_at(offset)
-        return catalogue.block_class(self.section_name(offset), block.name) if block else None
+        at = bisect_right(self._block_starts, offset)
+        block = self.blocks[at - 1][1] if at else None
+        if block is None or offset >= whole(block).end:  # above the first block, or after the lines of a block
+            return None
+        return catalogue.block_class(self.section_name(offset), block.name)
 
     def section_name(self, offset: int) -> str:
         """Return the name of the section around an offset, "" before the first."""

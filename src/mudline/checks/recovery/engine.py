@@ -23,7 +23,7 @@ from mudline.checks.recovery.blocks import (
     line_at,
     start_of,
 )
-from mudline.checks.rules.keyword_families import LEG001
+from mudline.checks.rules.keywords import LEG001
 from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010, SYN011, SYN013
 from mudline.language.deck.model import Deck
@@ -213,8 +213,9 @@ class _Round:
                     proposed += recovery.corrector(self.blocks, asked)
             proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
             for one in proposed:
-                apart = self._is_sayable(one) and not any(_meet(one.region, accepted.region) for accepted in taken)
-                if apart and self._is_better(one):
+                start, end = one.region
+                apart = all(end <= other.region.start or other.region.end <= start for other in taken)
+                if apart and self._is_sayable(one) and self._is_better(one):
                     taken.append(one)
             explained = {id(one.cause) for one in taken}
             problems = [one for one in problems if one.repair is None and id(one) not in explained]
@@ -260,10 +261,6 @@ class _Round:
         for problem in read_source(source, units="user", read=self.read).problems:
             if problem.weight is Severity.ERROR or problem.code in (SYN009, SYN013):
                 yield problem.code, problem.message
-
-
-def _meet(first: Span, second: Span) -> bool:
-    return first.start < second.end and second.start < first.end
 
 
 _DIGITS = re.compile(r"[0-9]+")

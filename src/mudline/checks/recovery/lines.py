@@ -19,7 +19,7 @@ from mudline.checks.recovery.blocks import (
     start_of,
     whole,
 )
-from mudline.checks.rules.seabed_overlaps import SBD008
+from mudline.checks.rules.coverage import SBD008
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN013
@@ -28,17 +28,15 @@ from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import is_choice, kinds_of, opened, repeated_set
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.keeping import is_choice, opened
 from mudline.language.keywords.model import Block, record_schema
-from mudline.language.keywords.naming import kinds_of, repeated_set
 from mudline.language.keywords.reader import ReadBlock, all_keys, reads, schemas_of
-from mudline.language.keywords.values import Facts, Names
-from mudline.language.keywords.values import Kind as Value
+from mudline.language.keywords.values import Facts, Kind, Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, RawBlock, parse
+from mudline.language.syntax.tree import LeafKind, RawBlock, parse
 from mudline.model.scene.references import CURVES, THINGS
 
 LONGEST_PIECE = 600
@@ -62,7 +60,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     problems_by_line = {line_at(text, start_of(text, item)).start: item for item in reversed(problems)}
     for section in text.tree.sections:
         for leaf in (*section.leaves, *(leaf for block in section.blocks for leaf in block.leaves)):
-            if leaf.kind not in (Kind.TEXT, Kind.UNDECIDED):
+            if leaf.kind not in (LeafKind.TEXT, LeafKind.UNDECIDED):
                 continue
             line = line_at(text, leaf.span.start)
             written = text.source.unified[slice(*line)].rstrip()
@@ -70,7 +68,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             problem = problems_by_line.get(line.start)
             if not name or (problem is None and written[:1].isspace()):
                 continue
-            comment = problem.code is SYN013 if problem else leaf.kind is not Kind.TEXT
+            comment = problem.code is SYN013 if problem else leaf.kind is not LeafKind.TEXT
             read = "a comment" if comment else "data"
             mark = "star" if name[0] == "*" else "dollar"
             message = f"{written.strip()} without its {mark} is read as {read}: write {name}"
@@ -117,7 +115,7 @@ def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corre
 def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
     end = whole(block).end
     line = blocks.text.source.unified.rfind("\n", 0, at) + 1
-    settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
+    settings = [leaf.span.start for leaf in block.leaves if leaf.kind is LeafKind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
     declared = blocks.declared_at(at)
     key = first_key(blocks.text.source.unified, line_at(blocks.text, line))
@@ -169,7 +167,7 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collec
     first = next(iter(data_of(block.leaves)), None)
     if first is None:
         return []
-    if first.kind in (Kind.SETTING, Kind.UNDECIDED):
+    if first.kind in (LeafKind.SETTING, LeafKind.UNDECIDED):
         candidates = _taking(section, first_key(text, first.span))
     else:
         beside = {other for each in blocks.keywords for other in catalogue.facts_of(each).beside}
@@ -210,7 +208,7 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
     """Return True if every required value in the rows of a keyword is a whole number."""
     tables = [schema.table.row for schema in schemas_of(declared) if schema.table and schema.table.row]
     columns = [slot for row in tables for slot in record_schema(row).columns if slot.required]
-    return bool(columns) and all(slot.kind in (Value.WHOLE, Value.IDENT) for slot in columns)
+    return bool(columns) and all(slot.kind in (Kind.WHOLE, Kind.IDENT) for slot in columns)
 
 
 def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
@@ -255,7 +253,8 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
             return
         numbers.update(number.groups() if number else ())
     # Rows fit many keywords.
-    path = repeated_set(read.model) if read and all(each.kind is Kind.SETTING for each in data_of(block.leaves)) else ()
+    by_settings = facts.later_wins and all(each.kind is LeafKind.SETTING for each in data_of(block.leaves))
+    path = repeated_set(read.model) if read and by_settings else ()
     again = read.places.find(path) if read and path else None
     for start in [again.start] if again else _foreign_lines(text, block, read):
         line = trimmed(unified, *line_at(text, start))
@@ -307,7 +306,7 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
         choice = is_choice(declared, key, value)
         unknown = bool(opened(declared, key, value)) and not choice
         behind = choice or (behind and line.start in kept)  # lines of an unknown form belong there
-        if leaf.kind is Kind.SETTING and not behind and (unknown or line.start in kept):
-            begins = above.kind is Kind.SETTING and above is not leaves[0]
+        if leaf.kind is LeafKind.SETTING and not behind and (unknown or line.start in kept):
+            begins = above.kind is LeafKind.SETTING and above is not leaves[0]
             offsets += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
     return list(dict.fromkeys(offsets))[:MOST_NAMED]

@@ -17,15 +17,15 @@ from mudline.checks.recovery.blocks import (
     line_at,
     start_of,
 )
-from mudline.checks.rules.style_lines import INDENTED_COMMENT
+from mudline.checks.rules.style import INDENTED_COMMENT
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF005, REF006, REF007, REF008
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
+from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import Block, Part, record_schema
-from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.reader import schemas_of
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.edits import TextEdit

@@ -1,31 +1,39 @@
-"""Overlaps of what elements and nodes are given: sections, coefficients, conditions; two elements in one place."""
+"""Overlaps of what elements and nodes are given: properties, conditions, seabed laws; two elements in one place."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.checks.context import LintContext, entries_of_sets
 from mudline.checks.rules.geometry import without_sections
-from mudline.checks.rules.seabed_overlaps import overlaps, within
 from mudline.checks.rules.seabed_position import first_of, held_nodes
+from mudline.language.codes.contact import SBD025
+from mudline.language.codes.references import REF010
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.naming import is_name
+from mudline.language.keywords.contents import is_name
+from mudline.language.keywords.model import Record
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
-from mudline.model.scene.numbering import Indices
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.laws import SetLaw, present
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.references import KEYWORD
+from mudline.model.scene.sets import ALL, NamedSet
 from mudline.model.scene.unread_lines import is_of_vessels, unread_lines
 
 GEO013 = Code("GEO013", "overlapping-properties", Severity.INFO)
 GEO014 = Code("GEO014", "parallel-elements", Severity.WARNING)
 BND001 = Code("BND001", "held-twice", Severity.WARNING)
 BND002 = Code("BND002", "constant-and-vessel", Severity.WARNING)
+SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
 
 
 @rule(GEO013)
@@ -88,7 +96,8 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
     ends = scene.element_nodes
     joins = (ends[:, 0] >= 0) & (ends[:, 1] >= 0) & (ends[:, 0] != ends[:, 1])
     pairs = ends.min(axis=1) * len(scene.node_ids) + ends.max(axis=1)
-    if np.diff(np.sort(pairs[joins])).all() or _has_unread_joints(context):
+    unread = (keyword for keyword in context.keywords if catalogue.declared(keyword) is None)
+    if np.diff(np.sort(pairs[joins])).all() or any(map(catalogue.may_have_no_length, unread)):
         return
     usable = np.flatnonzero(joins & ~without_sections(scene))
     _, firsts, same = np.unique(pairs[usable], return_index=True, return_inverse=True)
@@ -98,11 +107,6 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
         which = first_of("element", scene.element_ids[second], twice.size)
         message = f"{which} between nodes that element {scene.element_ids[first]} joins already: correct the nodes, or"
         yield Problem(GEO014, f"{message} remove one", where=scene.table.numbered.where(int(second)))
-
-
-def _has_unread_joints(context: LintContext) -> bool:
-    unread = (keyword for keyword in context.keywords if catalogue.declared(keyword) is None)
-    return any(map(catalogue.may_have_no_length, unread))
 
 
 @rule(BND001)
@@ -187,3 +191,227 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
 
 def _named(context: LintContext, keyword: str) -> Iterator[tuple[Where, Any]]:
     return ((where, entry) for where, entry in entries_of_sets(context.blocks(keyword)) if is_name(entry.set_name))
+
+
+# ------------------------------------------------------------------------------------------------------- seabed laws
+
+
+@rule(SBD008)
+def overlapping_sets(context: LintContext) -> Iterator[Problem]:
+    """Elements are given seabed properties twice.
+
+    The later definition in the file overrides the earlier one as a whole. A set that refines a larger set given before
+    it is the usual way to write a deck and is not reported. Two cases are reported:
+
+    * a definition overrides an earlier one for all its elements, as SET=ALL does after the other sets. It is a warning
+      if its values differ;
+    * two sets overlap, and each has elements that the other one lacks.
+
+    For curves of *EMBEDMENT no order is documented: any overlap of two different curves is a warning. Put the larger
+    set first, or give each element one definition.
+
+    Example on sets:
+          GEN=3, 4
+        |*SEABED PROPERTIES
+        | TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        | SET=Flowline
+        | STIFFNESS=500000.0
+        - SET=ALL
+        - STIFFNESS=50000.0
+
+    Finds: 18:6
+    """
+    new = _own_grants(context, "new")
+    if len(new) > 1:
+        yield from (problem for _, problem in _properties(context.scene, new))
+    embedment = [grant for grant in _own_grants(context, "legacy") if grant.curve >= 0]
+    if len(embedment) > 1:
+        yield from _embedment(context.scene, embedment)
+
+
+def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
+    """Return the laws that the deck itself gives, without the deck that it continues."""
+    grants = [grant for grant in context.scene.laws.set_laws if grant.family == family]
+    own = len(context.scene.deck.own_sections) if grants else 0
+    return [grant for grant in grants if grant.where.section < own]
+
+
+@rule(SBD025)
+def law_without_effect(context: LintContext) -> Iterator[Problem]:
+    """A seabed definition applies to no element.
+
+    Several later definitions together override it for all elements of the set; or a later legacy surface replaces it;
+    or the set is made of subsets without any element. A change of its values has no effect on the results. Remove it,
+    or correct the sets. A single later definition that overrides an earlier one for all its elements is reported as
+    SBD008, an empty set as REF010, and a mix of legacy and new keywords as SBD016. Not reported are the stiffness of a
+    legacy surface next to curves for every element, and values that an extension keyword replaces, as Flexcom still
+    reads them.
+
+    Example on sets:
+          GEN=3, 4
+        |*SEABED PROPERTIES
+        | TYPE=ELASTIC
+        - SET=ALL
+        - STIFFNESS=50000.0
+        | SET=Riser
+        | STIFFNESS=40000.0
+        | SET=Flowline
+        | STIFFNESS=60000.0
+
+    Finds: 16:6
+    """
+    if len(context.scene.element_ids):
+        yield from _unused_properties(context)
+    yield from _unused_surfaces(context)
+
+
+def _unused_properties(context: LintContext) -> Iterator[Problem]:
+    """Yield sets of *SEABED PROPERTIES that no element follows, unless SBD008 or REF010 gives the reason."""
+    scene = context.scene
+    followed = {*present(scene.laws.covered)}
+    new = _own_grants(context, "new")
+    idle_grants = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
+    if not any(id(grant) in idle_grants for grant in new):
+        return
+    reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
+    empty = {problem.where for problem in context.problems_of(REF010)}
+    for index, grant in enumerate(new):
+        set_ = grant.set_
+        if id(grant) not in idle_grants or grant.unknown or set_.open or index in reported:
+            continue
+        place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+        if set_.elements.size:
+            message = (
+                f"this definition applies to no element, as later ones override it for all of SET={shown(set_.name)}: "
+                "remove it, or correct the sets"
+            )
+            yield Problem(SBD025, message, where=place)
+        elif set_.where not in empty:
+            message = (
+                f"this definition applies to no element, as no subset of SET={shown(set_.name)} has any: correct "
+                "the set"
+            )
+            yield Problem(SBD025, message, where=place)
+
+
+def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
+    """Yield legacy surfaces that a later one replaces, unless SBD002 reports two types."""
+    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
+    for where, surface in surfaces[:-1]:
+        message = (
+            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
+        )
+        yield Problem(SBD025, message, where=where.inside("properties"))
+
+
+class Overlap(NamedTuple):
+    """Overlap of two sets: their places in the list, and the elements (indices) that the later set overrides."""
+
+    earlier: int
+    later: int
+    elements: Indices
+
+
+def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
+    """Yield the overlaps of each set with the sets that held its elements until then.
+
+    Sets of unknown elements are compared with sets of the same name.
+    """
+    holder = np.full(count, -1, dtype=np.intp)
+    names: dict[str, int] = {}
+    for index, later in enumerate(sets):
+        before = holder[later.elements]
+        first = int(before[0]) if index and before.size else -1
+        if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
+            if first >= 0:
+                yield Overlap(first, index, later.elements)
+        else:
+            order = np.argsort(before, kind="stable")
+            parts, starts = np.unique(before[order], return_index=True)
+            for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
+                if earlier >= 0:
+                    yield Overlap(earlier, index, elements)
+        name = folded(later.name)
+        if not later.elements.size and name in names:
+            yield Overlap(names[name], index, later.elements)
+        names[name] = index
+        holder[later.elements] = index
+
+
+def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:
+    """Yield the reported overlaps, each with the place of the overridden definition in the list."""
+    for earlier, later, elements in overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+        first, second = grants[earlier].set_, grants[later].set_
+        where = grants[later].where
+        place = where._replace(path=(*where.path[:2], "set"))
+        if within(first, second, len(scene.element_ids)):
+            message = (
+                f"{_called(first, second)} is overridden by this one for all its elements: "
+                "put the larger set first, or remove one"
+            )
+            lost = not _alike(scene, grants[earlier], grants[later])
+            yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
+        elif not within(second, first, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+            message = (
+                f"this definition overrides the earlier one of SET={shown(first.name)} for "
+                f"{_counted(scene, elements)}: give each element one definition"
+            )
+            yield earlier, Problem(SBD008, message, where=place)
+
+
+def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
+    """Return True if the elements of one set are all in another one, as far as they are known."""
+    if folded(whole.name) in (folded(part.name), folded(ALL)):
+        return True
+    if part.open or whole.open:
+        return False
+    if len(whole.elements) == count:
+        return True
+    return len(part.elements) <= len(whole.elements) and bool(
+        np.isin(part.elements, whole.elements, assume_unique=True).all()
+    )
+
+
+def _called(earlier: NamedSet, later: NamedSet) -> str:
+    same = folded(earlier.name) == folded(later.name)
+    return "the earlier definition of this set" if same else f"the earlier definition of SET={shown(earlier.name)}"
+
+
+def _counted(scene: Scene, elements: Indices) -> str:
+    return first_of("element", scene.element_ids[elements.min()], elements.size)
+
+
+def _alike(scene: Scene, left: SetLaw, right: SetLaw) -> bool:
+    """Return True if two sets of *SEABED PROPERTIES give the same values, including the points of their curves."""
+    first, second = (_entry(scene, grant) for grant in (left, right))
+    same = left.kind is right.kind is LawKind.CURVE and np.array_equal(_points(scene, left), _points(scene, right))
+    names = [name for name in type(first).model_fields if name != "set_name" and not (same and name == "stiffness")]
+    return all(getattr(first, name) == getattr(second, name) for name in names)
+
+
+def _points(scene: Scene, grant: SetLaw) -> Floats:
+    """Return the points of the curve of a set; a NaN, which equals nothing, if there is no curve."""
+    return scene.laws.curves[grant.curve].points if grant.curve >= 0 else np.array([np.nan])
+
+
+def _entry(scene: Scene, grant: SetLaw) -> Record:
+    block = scene.deck.sections[grant.where.section].blocks[grant.where.block]
+    return cast("Record", getattr(block, "sets")[grant.where.path[1]])  # noqa: B009 - blocks have no common type
+
+
+def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
+    """Yield overlaps of *EMBEDMENT that matter: different curves, on elements that no newer keyword holds."""
+    curves = scene.laws.curves
+    for earlier, later, elements in overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+        first, second = curves[grants[earlier].curve], curves[grants[later].curve]
+        held = elements[scene.laws.of_element[elements] != scene.laws.covered[elements]]
+        if np.array_equal(first.points, second.points) or (elements.size and not held.size):
+            continue
+        which = _counted(scene, held) if held.size else "elements"
+        message = (
+            f"*EMBEDMENT gives another curve for {which}, of SET={shown(grants[earlier].set_.name)}: the later one is "
+            "used, which is not documented (inferred); give each element one curve"
+        )
+        yield Problem(SBD008, message, None, Severity.WARNING, second.title)

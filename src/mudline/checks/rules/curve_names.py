@@ -19,7 +19,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.rows import read_number
-from mudline.language.syntax.tree import Kind, Leaf
+from mudline.language.syntax.tree import Leaf, LeafKind
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.references import CURVES, repeated, unused
 
@@ -202,14 +202,14 @@ def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: lis
 
 
 def _hides(leaf: Leaf, source: str) -> bool:
-    return leaf.kind is Kind.COMMENT and MARK.match(source, *leaf.span) is not None
+    return leaf.kind is LeafKind.COMMENT and MARK.match(source, *leaf.span) is not None
 
 
 def _counts(leaf: Leaf, source: str, keys: frozenset[str]) -> bool:
     """Return True if a line belongs to the curve and is not a comment."""
-    if leaf.kind is Kind.UNDECIDED:
+    if leaf.kind is LeafKind.UNDECIDED:
         return first_key(source, leaf.span) in keys
-    return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
+    return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
 
 
 @rule(SBD017)

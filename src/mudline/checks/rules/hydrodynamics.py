@@ -1,23 +1,242 @@
-"""Coefficients of hydrodynamics: elements that have none, and added masses whose order is not certain."""
+"""Waves, currents and hydrodynamic coefficients, compared with the water depth and the time steps of the run."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import chain
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext, entries_of_sets
+from mudline.checks.context import Found, Joined, LintContext, entries_of_sets, joint
 from mudline.checks.rules.geometry import without_sections
 from mudline.checks.rules.model_parts import lacks
 from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_position import first_of
-from mudline.checks.rules.vertical_restraint import in_another_pipe
-from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.checks.rules.seabed_support import in_another_pipe
+from mudline.checks.rules.unusual import UNT007
+from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
-from mudline.model.scene.deck_values import number
+from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
 
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.analysis import TimeSpan
+    from mudline.language.keywords.library.currents import Current
+    from mudline.language.keywords.library.waves import RegularWaves
+
+WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
+TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)
+TIM004 = Code("TIM004", "step-too-long-for-waves", Severity.WARNING)
+CUR001 = Code("CUR001", "current-ends-below-surface", Severity.WARNING)
 GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
 GEO016 = Code("GEO016", "added-mass-order", Severity.INFO)
+
+
+STEEPEST = 0.142
+"""Height over length of the steepest regular wave in deep water (Michell 1893)."""
+STEPS = 20
+"""Number of time steps in a wave period, at least."""
+_OF_WAVE = ("amplitude", "height", "period")
+"""Fields of a wave that the time step is compared with."""
+_ROUNDED = 1e-3
+"""Share of the water depth by which a profile may miss the surface."""
+
+
+class _Wave(NamedTuple):
+    """Wave of one period: its height, and the place of the height."""
+
+    height: float
+    period: float
+    at_height: Where
+
+
+def waves(context: LintContext) -> list[_Wave]:
+    """Return the regular waves of a load case whose height and period are known."""
+    found = []
+    for where, block in context.blocks("WAVE-REGULAR", "LOAD CASE"):
+        for index, entry in enumerate(cast("RegularWaves", block).waves):
+            place = where.inside("waves", index, "wave")
+            height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
+            found.append(_Wave(height, period, place.inside("amplitude")))
+    for where, wave in by_height(context):
+        found.append(_Wave(number(wave, "height"), number(wave, "period"), where.inside("height")))
+    return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
+
+
+def by_height(context: LintContext) -> Iterator[tuple[Where, Any]]:
+    """Return the waves that have their own keyword, with a height and an equivalent Airy wave for vessels."""
+    return chain(context.blocks("WAVE-STOKES", "LOAD CASE"), context.blocks("WAVE-DEANS", "LOAD CASE"))
+
+
+@rule(WAV002)
+def breaking_wave(context: LintContext) -> Iterator[Problem]:
+    """A regular wave is steeper than a wave can be.
+
+    In deep water a wave breaks when its height is more than 0.142 of its length g T^2 / (2 pi). In shallow water it
+    breaks at a smaller height still. Height and period were exchanged, the height is given instead of the amplitude, or
+    a unit is wrong. Correct the wave.
+
+    Example on storm:
+        - 9.0, 6.0, 180.0
+        + 3.0, 9.0, 180.0
+
+    Finds: 9:2
+    """
+    gravity = _gravity(context)
+    for wave in context.once(waves):
+        length = gravity * wave.period * wave.period / (2.0 * math.pi)
+        if wave.height > STEEPEST * length:
+            message = (
+                f"a wave {wave.height:g} high with a period of {wave.period:g} is {wave.height / length:.3g} of its "
+                f"length high, and breaks at {STEEPEST}: correct height or period"
+            )
+            yield Problem(WAV002, message, where=wave.at_height)
+
+
+def _gravity(context: LintContext) -> float:
+    """Return the gravity of the last *OCEAN, else of the unit system; NaN if neither gives it."""
+    oceans = context.blocks("OCEAN")
+    given = number(oceans[-1][1], "gravity") if oceans else math.nan
+    if given > 0.0:
+        return given
+    return DEFAULT_GRAVITY.get(context.scene.units, math.nan)
+
+
+@rule(TIM003)
+def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
+    """The ramp of loads is shorter than a wave period, or longer than the run.
+
+    The ramp lets a run begin without a jolt. If it is shorter than the longest wave period, the first wave comes at
+    once, and the motions that it excites spoil the start of the results. With a ramp beyond the end of the run the
+    loads never reach their full size. Correct the ramp, the last value of the first line of *TIME. A ramp of 0 and runs
+    that continue another one are left out.
+
+    Example on storm:
+        - 0.0, 120.0, 0.05, 5.0
+        + 0.0, 120.0, 0.05, 24.0
+
+    Finds: 7:20
+    """
+    longest = max((wave.period for wave in context.once(waves)), default=0.0)
+    continues = bool(context.blocks("RESTART", "LOAD CASE"))
+    for where, span in _spans(context):
+        ramp, start, end = (number(span, name) for name in ("ramp", "start", "end"))
+        if ramp > end - start > 0.0:
+            message = f"loads grow over {ramp:g}, longer than the run lasts ({end - start:g}): shorten the ramp"
+            yield Problem(TIM003, message, where=where.inside("ramp"))
+        elif 0.0 < ramp < longest and not continues:
+            message = f"loads grow over {ramp:g}, less than the wave period {longest:g}: give them a period at least"
+            yield Problem(TIM003, message, where=where.inside("ramp"))
+
+
+@rule(TIM004)
+def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
+    """The time step is more than a twentieth of the shortest wave period.
+
+    With such steps the wave is no longer a smooth curve: forces and motions at its crest are missed. The largest of
+        variable steps counts; periods of random seas are not checked. Shorten the step. `mudline study` measures if it
+        is short enough for the seabed too.
+
+    Example on storm:
+        - 0.0, 120.0, 1.0, 24.0
+        + 0.0, 120.0, 0.05, 24.0
+
+    Finds: 7:14
+    """
+    shortest = min((wave.period for wave in context.once(waves)), default=math.inf)
+    for where, step in _steps(context):
+        if step > shortest / STEPS:
+            message = (
+                f"a time step of {step:g} is more than a twentieth of the wave period {shortest:g}: "
+                f"give {shortest / STEPS:g} or less"
+            )
+            yield Problem(TIM004, message, where=where)
+
+
+@joint(TIM003, TIM004, WAV002)
+def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
+    """Join findings to their cause: a wave or a time step that is itself unusual."""
+    rest = [one for code in (WAV002, TIM003, TIM004) for one in found.get(code.code, ())]
+    for cause in found.get(UNT007.code, ()):
+        at = cause.where
+        if at is None or not at.path:
+            continue
+        blocks = [block for section in context.deck.sections[at.section : at.section + 1] for block in section.blocks]
+        keyword = blocks[at.block].keyword if at.block < len(blocks) else ""  # of a deck with a section put in
+        wave = keyword.startswith("WAVE-") and at.path[-1] in _OF_WAVE
+        others = [
+            one
+            for one in rest
+            if one.where is not None
+            and (one.where[:2] == at[:2] or (wave and one.where.section == at.section and one.code is not WAV002))
+        ]
+        if others:
+            rest = [one for one in rest if one not in others]
+            yield Joined(cause, others)
+
+
+def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
+    """Yield the time spans of a load case."""
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        for name in ("fixed", "variable"):
+            if (span := getattr(block, name)) is not None:
+                yield where.inside(name), span
+
+
+def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
+    """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
+    for where, span in _spans(context):
+        yield where.inside("increment"), number(span, "increment")
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
+            yield where.inside("limits", index, "largest"), number(limits, "largest")
+
+
+# ------------------------------------------------------------------------------------------------------------- currents
+
+
+@rule(CUR001)
+def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
+    """A current profile ends below the surface of the sea.
+
+    Elevations count upward from X = 0 at the mudline, unless OPTION=DESCEND gives depths below the water line. A
+    profile that ends far below the surface was written from the surface down, or for another depth. Its missing points
+    are mostly where the current is strongest. Give a point at the surface, or OPTION=DESCEND.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*CURRENT
+        | TYPE=PIECEWISE LINEAR
+        | 0.0, 0.1
+        - 300.0, 0.9
+        + 420.0, 0.9
+
+    Finds: 13:2
+    """
+    oceans = context.blocks("OCEAN")
+    depth = number(oceans[-1][1], "depth") if oceans else math.nan
+    for where, block in context.blocks("CURRENT", "LOAD CASE"):
+        for index, current in enumerate(cast("Current", block).currents):
+            place = where.inside("currents", index, "profile")
+            if current.profile is not None and depth > 0.0 and len(current.profile):
+                yield from _below(current.profile, place, depth, descends=str(current.option).startswith("DESCEND"))
+
+
+def _below(profile: Table, where: Where, depth: float, *, descends: bool) -> Iterator[Problem]:
+    elevations = profile.column(0)
+    if np.isnan(elevations).any():
+        return
+    row = int(elevations.argmin() if descends else elevations.argmax())
+    missing = float(elevations[row]) if descends else depth - float(elevations[row])
+    if missing > _ROUNDED * depth:
+        advice = "" if descends else ", or OPTION=DESCEND for depths below the water line"
+        message = f"the profile ends {missing:g} below the surface of {depth:g} deep water: give a point there{advice}"
+        yield Problem(CUR001, message, where=where.inside(row))
+
+
+# --------------------------------------------------------------------------------------------------------- coefficients
 
 
 @rule(GEO008)

@@ -1,27 +1,44 @@
-"""Missing sections, and keywords of a load case that lack what a run needs, or have no effect in it."""
+"""Load cases: the kind of run, its times, vessels and waves in it, and the results that are requested from it."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
+from mudline.basics.spelling import Effort, nearest
 from mudline.checks.context import LintContext
+from mudline.checks.rules.hydrodynamics import by_height
 from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
-from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.naming import names_given
+from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.text import shown
+from mudline.language.keywords.unknown import is_unknown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
+from mudline.language.syntax.fields import read_line
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.references import used_names
+from mudline.model.scene.unread_lines import unread_lines
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import AnalysisType
+    from mudline.language.keywords.library.analysis import AnalysisType, StepLimits, TimeSpan
+    from mudline.language.keywords.library.summary import SummaryTime
+    from mudline.language.keywords.library.vessel_motions import Drift
     from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
 
-SYN019 = Code("SYN019", "no-section", Severity.ERROR)
 VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
 TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
+TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
+TIM002 = Code("TIM002", "step-limits-out-of-order", Severity.ERROR)
+WAV001 = Code("WAV001", "airy-period-without-amplitude", Severity.ERROR)
+VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
+TIM006 = Code("TIM006", "storage-given-twice", Severity.ERROR)
+TIM007 = Code("TIM007", "stored-after-the-end", Severity.WARNING)
+REF021 = Code("REF021", "misspelt-output", Severity.WARNING)
+
 
 _DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
 _FREQUENCY = "FREQUENCY"
@@ -31,28 +48,6 @@ def _analysis(context: LintContext) -> set[str]:
     """Return the kinds of run that the deck names."""
     blocks = context.blocks("ANALYSIS TYPE", "LOAD CASE")
     return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
-
-
-@rule(SYN019)
-def no_section(context: LintContext) -> Iterator[Problem]:
-    """The file has no section, so it is not a deck.
-
-    An empty file is left by an interrupted copy or a full disk. A file of comments or text alone is a title whose deck
-    is missing. Fetch the file again, or take it out of the folder of decks.
-
-    Example:
-         C Export riser, rev C
-        +$MODEL
-        +*OCEAN
-        + 500.0, 1025.0, 9.81
-
-    Finds: 1:1
-    """
-    deck = context.deck
-    if deck.sections or any(problem.weight is Severity.ERROR for problem in deck.problems):
-        return
-    has = "has no $SECTION" if deck.comments or any(map(str.strip, deck.preamble)) else "is empty"
-    yield Problem(SYN019, f"the file {has}: choose the file of a deck, or fetch it again")
 
 
 @rule(VES002)
@@ -124,3 +119,242 @@ def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     for where, _ in context.written("NON LINEAR STATIC", "LOAD CASE"):
         message = f"no effect: the run is {min(kinds).lower()}, not in the frequency domain; remove *NON LINEAR STATIC"
         yield Problem(TIM005, message, where=where)
+
+
+# ---------------------------------------------------------------------------------------------------------------- times
+
+_LAST_STORED = -1.0
+
+
+@rule(TIM001)
+def end_not_after_start(context: LintContext) -> Iterator[Problem]:
+    """The end of a run in time does not come after its start.
+
+    The run would have no time step, or go backwards: two values were exchanged, or one was typed into the wrong field.
+        Nothing else is reported about the length of such a run. Correct the start or the end. The same holds for the
+        part of a run that is summarised.
+
+    Example on storm:
+        - 120.0, 0.0, 0.05, 24.0
+        + 0.0, 120.0, 0.05, 24.0
+
+    Finds: 7:9
+    """
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        for name in ("fixed", "variable"):
+            span = getattr(cast("TimeSpan", block), name)
+            yield from _backwards(span, where.inside(name))
+    for where, block in context.blocks("TIME", "SUMMARY POSTPROCESSING"):
+        summary = cast("SummaryTime", block)
+        if summary.start != _LAST_STORED:
+            yield from _backwards(summary, where)
+
+
+def _backwards(span: object, where: Where) -> Iterator[Problem]:
+    start, end = getattr(span, "start", None), getattr(span, "end", None)
+    if isinstance(start, int | float) and isinstance(end, int | float) and end <= start:
+        message = f"the end {end!r} is not after the start {start!r}: correct one of them"
+        yield Problem(TIM001, message, where=where.inside("end"))
+
+
+@rule(TIM002)
+def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
+    """The suggested time step does not lie between the least and the largest one.
+
+    A variable step begins with the suggested length and stays between the limits: least, suggested, largest. On the
+    line the suggested step is the first field. Each of several lines applies from a later time on. Correct the order of
+    the values.
+
+    Example:
+         $LOAD CASE
+         *TIME
+          STEP=VARIABLE
+          0.0, 120.0, 24.0
+        - 0.05, 0.1, 0.2
+        + 0.1, 0.05, 0.2
+
+    Finds: 5:2
+    """
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        before = -float("inf")
+        for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
+            place = where.inside("limits", index)
+            yield from _disordered(limits, place)
+            if isinstance(limits.since, int | float):
+                if limits.since <= before:
+                    message = f"this line holds from {limits.since!r} on, the one above it from {before!r}: sort them"
+                    yield Problem(TIM002, message, where=place.inside("since"))
+                before = limits.since
+
+
+def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
+    suggested, least, largest = limits.suggested, limits.least, limits.largest
+    known = all(isinstance(value, int | float) and not is_unknown(value) for value in (suggested, least, largest))
+    if known and not cast("float", least) <= cast("float", suggested) <= cast("float", largest):
+        message = (
+            f"the suggested step {suggested!r} does not lie between the least {least!r} and the largest {largest!r}: "
+            "correct them"
+        )
+        yield Problem(TIM002, message, where=where.inside("suggested"))
+
+
+@rule(TIM006)
+def storage_given_twice(context: LintContext) -> Iterator[Problem]:
+    """A load case gives twice the times at which its results are stored.
+
+    The manual allows one `*DATABASE` in a load case. If a second one is left over from another run, the times that a
+    report needs may be missing from the results. Remove all but one.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*DATABASE
+        | TIME=SELECTED
+        | 60.0, 0.5
+        -*DATABASE
+        - TIME=END
+
+    Finds: 13:1
+    """
+    seen: set[int] = set()
+    for where, _ in context.blocks("DATABASE", "LOAD CASE"):
+        if where.section in seen:
+            message = "this load case has a *DATABASE above: remove one of them"
+            yield Problem(TIM006, message, where=where)
+        seen.add(where.section)
+
+
+@rule(TIM007)
+def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
+    """Storage of results begins when the run has already ended.
+
+    The run takes its hours and leaves no results. The first time of `*DATABASE` belongs to a longer run, or start and
+    interval were exchanged. Correct it, or the end of `*TIME`.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*DATABASE
+        | TIME=SELECTED
+        - 600.0, 0.5
+        + 60.0, 0.5
+
+    Finds: 12:2
+    """
+    ends = {
+        where.section: end
+        for where, block in context.blocks("TIME", "LOAD CASE")
+        if not math.isnan(end := number(block.fixed or block.variable, "end"))
+    }
+    for where, block in context.blocks("DATABASE", "LOAD CASE"):
+        start, end = number(block, "start"), ends.get(where.section, math.inf)
+        if start >= end > 0.0:  # TIM001 reports an end that is wrong itself
+            message = f"results are stored from {start:g} on, and the run ends at {end:g}: correct one of them"
+            yield Problem(TIM007, message, where=where.inside("start"))
+
+
+# ---------------------------------------------------------------------------------------------------- waves and vessels
+
+
+@rule(WAV001)
+def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
+    """A Stokes or Dean wave has the period of an equivalent Airy wave, but no amplitude for it.
+
+    The response of a vessel is computed with the equivalent Airy wave. Without an amplitude the vessel does not
+    respond, and the manual forbids it. Give the amplitude, or leave out both values.
+
+    Example:
+         $LOAD CASE
+         *WAVE-STOKES
+        - 6.0, 12.0, 180.0, 0.0, 12.0
+        + 6.0, 12.0, 180.0, 3.0, 12.0
+
+    Finds: 3:25
+    """
+    for where, wave in by_height(context):
+        if wave.airy_period and not wave.airy_amplitude:
+            message = "the equivalent Airy wave has a period and no amplitude: give both or neither"
+            yield Problem(WAV001, message, where=where.inside("airy_period"))
+
+
+@rule(VES001)
+def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
+    """A vessel drifts by a sinusoid and by a file.
+
+    A file of displacements has the whole slow motion of a vessel, and the manual allows one kind of drift for each
+    vessel. Either a line is left over from an earlier load case, or the name of another vessel was meant. Remove one
+    kind.
+
+    Example:
+         $MODEL
+         *VESSEL
+          VESSEL=FPSO
+          INITIAL POSITION=100.0, 0.0, 0.0
+         $LOAD CASE
+         *DRIFT
+          VESSEL=FPSO, TYPE=SINUSOIDAL
+          2, 4.0, 0.0, 120.0
+        - VESSEL=FPSO, TYPE=FILE
+        - FILE=drift.dat
+
+    Finds: 9:20
+    """
+    kinds: dict[str, str] = {}
+    for where, block in context.blocks("DRIFT", "LOAD CASE"):
+        for index, drift in enumerate(cast("Drift", block).drifts):
+            if not drift.vessel or not drift.type_:
+                continue
+            kind = kinds.setdefault(name_key(drift.vessel), drift.type_)
+            if kind != drift.type_:
+                message = f"vessel {shown(drift.vessel)} has a drift of TYPE={kind} above: give it one kind"
+                yield Problem(VES001, message, where=where.inside("drifts", index, "type"))
+
+
+# ---------------------------------------------------------------------------------------------------- requested results
+
+WORDS = (
+    *("EFFECTIVE", "TENSION", "AXIAL", "FORCE", "LOCAL", "SHEAR", "BENDING", "MOMENT", "TORQUE", "CURVATURE"),
+    *("RESULTANT", "STRESS", "STRAIN", "MISES", "REACTION", "MOTION", "DISPLACEMENT", "VELOCITY", "ACCELERATION"),
+)
+"""Words in the names of outputs, from the manual's page on the database of forces; the list is not complete."""
+_REQUESTS = "POSTPROCESSING"
+_SHORTEST = 4
+"""Number of letters from which a word is compared."""
+
+
+@rule(REF021)
+def misspelt_output(context: LintContext) -> Iterator[Problem]:
+    """The name of an output variable has a word that is nearly one of the usual words.
+
+    Results are requested by name, such as EFFECTIVE TENSION. With one wrong letter the run ends without them, and hours
+    are lost. Correct the word. Other words are not reported, as not every variable is known.
+
+    Example:
+         $SUMMARY POSTPROCESSING
+         *PARA FORCE
+          DATA1=12
+          DATA2=1
+        - DATA3=EFFECTIVE TENSON
+        + DATA3=EFFECTIVE TENSION
+
+    Finds: 5:8
+    """
+    if not any(section.name.endswith(_REQUESTS) for section in context.deck.own_sections):
+        return
+    effort = Effort()
+    own = len(context.deck.own_sections)
+    requests = [(where, name) for where, name in used_names(context.deck, Names.VARIABLE) if where.section < own]
+    for where, name in [*requests, *_of_kept_lines(context)]:
+        words = name.upper().replace("-", " ").split()
+        for word in words:
+            near = nearest(word, WORDS, effort) if word not in WORDS and len(word) >= _SHORTEST else ""
+            if near and word not in (f"{near}S", f"{near}ES"):
+                message = f"output {shown(name)}: {shown(word)} is no usual word (did you mean {near}?)"
+                yield Problem(REF021, f"{message}: correct it, else the run gives no such output", where=where)
+
+
+def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
+    """Yield the texts at the start of unread postprocessing lines that begin without a setting."""
+    for where, _, line in unread_lines(context.scene.context):
+        if context.deck.sections[where.section].name.endswith(_REQUESTS):
+            first = read_line(line, Span(0, len(line))).groups[0]
+            if not first.key and first.fields[0].text[:1].isalpha():
+                yield where.inside(*first.fields[0].span), first.fields[0].text

@@ -4,23 +4,33 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_shape import swapped
-from mudline.checks.unit_slips import DeckUnits, is_placeholder, meant_unit
+from mudline.checks.unit_slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.contents import kept_lines, names_given
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
-from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import SEA_FREQUENCY, SEA_PERIOD, WALL, WAVE_PERIOD, YOUNG
+from mudline.language.keywords.usual import (
+    BED,
+    CURVE_FORCE,
+    SEA_FREQUENCY,
+    SEA_PERIOD,
+    WALL,
+    WAVE_PERIOD,
+    YOUNG,
+    Usual,
+    exceeded,
+)
 from mudline.language.keywords.values import Names
-from mudline.model.contact.input import LawKind
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.sections import weights
@@ -55,7 +65,6 @@ _SHARE = 0.3
 _LEAST_FORCE = 100.0
 """Force in N/m that a curve is compared with if the pipe's weight is unknown; less for cables thinner than 0.1 m."""
 
-
 NOWHERE = Where()
 
 
@@ -87,16 +96,44 @@ class Numbers:
 
     def __call__(self, name: str) -> float:
         """Return a number in SI by the name of its field; NaN if it is not given."""
-        changed_value = self.changed.get(name)
-        return number(self.part, name) * self.size(name) if changed_value is None else changed_value
+        if name in self.changed:
+            return self.changed[name]
+        size = next((self.units.size(slot.about.unit) for slot in self.columns if slot.name == name), 1.0)
+        return number(self.part, name) * size
 
-    def size(self, name: str) -> float:
-        """Return the unit of a field in SI."""
-        return next((self.units.size(slot.about.unit) for slot in self.columns if slot.name == name), 1.0)
+    def outside(self, slot: FieldSpec, value: float) -> Usual | None:
+        """Return the first range that a value of a field (as in the deck) lies outside of and that applies to it."""
+        comparable = self.units.known or slot.about.unit in UNITLESS
+        asked = [each for each in slot.usuals if each.of or comparable]
+        if value == 0.0:  # is usual by itself and as a ratio
+            asked = [each for each in asked if each.of[:1] not in ("", "/")]
+        in_si = value * self.units.size(slot.about.unit)
+        for usual in exceeded(asked, [self.quantity(slot, each, in_si) for each in asked]):
+            placeholder = usual.placeholder and is_placeholder(value)
+            explained = not (placeholder or usual.explained) or self.explanation(slot, usual, value, strict=placeholder)
+            if explained and (not usual.when or CONDITIONS[usual.when](self)):
+                return None if slot.about.fault(value) else usual
+        return None
 
-    def having(self, changed: Mapping[str, float]) -> Numbers:
-        """Return the same numbers with some of them (in SI) changed."""
-        return replace(self, changed=changed)
+    def quantity(self, slot: FieldSpec, usual: Usual, value: float) -> float:
+        """Return the compared quantity of a number in SI."""
+        if usual.of.startswith("/"):
+            return over(value, self(usual.of[1:]))
+        return MEASURES[usual.of](self, slot.name, value) if usual.of else value
+
+    def explanation(self, slot: FieldSpec, usual: Usual, value: float, *, strict: bool = False) -> str:
+        """Return the likely unit of a value and the advice in words, if a unit explains it; else ""."""
+        unit = slot.about.unit
+        if not math.isnan(usual.typical):
+            name = meant_unit(usual, value, unit, self.units, partial(self.quantity, slot, usual), strict=strict)
+            return f"{value!r} looks like {name}, write it in{self.units.behind(unit)}" if name else ""
+        if not usual.explained:
+            return ""
+        quantity = self.quantity(slot, usual, value * self.units.size(unit))
+        for factor, which in (1e3, "smaller"), (1e-3, "larger"):
+            if quantity and usual.low <= quantity * factor <= usual.high:
+                return f"it looks like a unit 1000 times {which}, write both in one unit"
+        return ""
 
     @property
     def water(self) -> float:
@@ -266,64 +303,56 @@ def _between_axes(of: Numbers, _name: str, _value: float) -> float:
 # --------------------------------------------------------------------------------------------------- seabed and soil
 
 
-class _Laid(NamedTuple):
-    """Pipes that lie on each law of the seabed: their weight and diameter, NaN where they are not known."""
-
-    weight: list[float]
-    width: list[float]
-    laws: dict[Where, int]
-    curves: dict[Where, int]
-    of_curve: dict[int, list[int]]
-
-
-def _laid(context: LintContext) -> _Laid:
-    """Return the largest weight and diameter of the sections on each law, in the deck's units.
+def _laid(context: LintContext) -> dict[Where, Floats]:
+    """Return the largest weight and diameter of the pipes on each linear law and each curve, in the deck's units.
 
     The weight is the submerged one. For a pipe that floats it is that with contents: a share of the weight in air.
     """
-    laws, table, around = context.scene.laws, context.scene.section_table, context.scene.surroundings
-    weight, width = [math.nan] * len(laws.set_laws), [math.nan] * len(laws.set_laws)
-    held = np.zeros((len(laws.set_laws) + 1, len(table.sections) + 1), dtype=np.bool_)
-    if held.size <= _MOST_PAIRS:
-        held[laws.of_element, table.of_element] = True  # the last ones stand for none
-        both = [weights(section.entry, around) for section in table.sections]
-        heavy = np.array([max(submerged, _SHARE * in_air) for in_air, submerged in both])
-        wide = np.array([section.diameter for section in table.sections])
-        for law, row in enumerate(held[:-1, :-1]):
-            weight[law] = float(np.fmax.reduce(heavy[row], initial=math.nan))
-            width[law] = float(np.fmax.reduce(wide[row], initial=math.nan))
-    of_curve: dict[int, list[int]] = {}
-    for index, each in enumerate(laws.set_laws):
-        of_curve.setdefault(each.curve, []).append(index)
-    of_laws = {each.where: index for index, each in enumerate(laws.set_laws) if each.kind is LawKind.LINEAR}
-    curves = {curve.where: index for index, curve in enumerate(laws.curves)}
-    return _Laid(weight, width, of_laws, curves, of_curve)
+    scene = context.scene
+    laws, sections = scene.laws, scene.section_table.sections
+    held = np.zeros((len(laws.set_laws) + 1, len(sections) + 1), dtype=np.bool_)
+    if held.size > _MOST_PAIRS:
+        return {}
+    held[laws.of_element, scene.section_table.of_element] = True  # the last ones stand for none
+    pipes = np.full((len(sections), 2), np.nan)
+    for index, section in enumerate(sections):
+        in_air, submerged = weights(section.entry, scene.surroundings)
+        pipes[index] = max(submerged, _SHARE * in_air), section.diameter
+    largest: dict[Where, Floats] = {}
+    for law, row in zip(laws.set_laws, held[:, :-1], strict=False):
+        where = laws.curves[law.curve].where if law.curve >= 0 else law.where
+        on_law = np.fmax.reduce(pipes[row], axis=0, initial=np.nan)
+        largest[where] = np.fmax(largest.get(where, np.nan), on_law)
+    return largest
+
+
+def _pipe_on(of: Numbers, where: Where) -> tuple[float, float]:
+    """Return the largest weight and diameter of the pipes on a law or a curve in SI; NaN where they are not known."""
+    weight, width = of.context.once(_laid).get(where, (math.nan, math.nan))
+    return (float(weight) if of.weighs else math.nan) * of.units.size("F/L"), float(width) * of.units.size("L")
 
 
 def _sinking(of: Numbers, name: str, value: float) -> float:
     """Return the penetration of pipes on a linear seabed under their own weight, in diameters."""
-    laid = of.context.once(_laid)
-    law = laid.laws.get(of.where.inside(name))
-    if law is None or not of.weighs or not laid.weight[law] > 0.0:
-        return math.nan
-    return over(laid.weight[law] * of.units.size("F/L"), value * laid.width[law] * of.units.size("L"))
+    weight, width = _pipe_on(of, of.where.inside(name))
+    return over(weight, value * width) if weight > 0.0 else math.nan
+
+
+def _curves(context: LintContext) -> dict[Where, SceneCurve]:
+    return {curve.where: curve for curve in context.scene.laws.curves}
 
 
 def _times_weight(of: Numbers, _name: str, _value: float) -> float:
     """Return the largest force of a curve over the weight of the pipes that follow it."""
-    laid, curves = of.context.once(_laid), of.context.scene.laws.curves
-    index = laid.curves.get(of.where)
-    if index is None or not curves[index].whole or swapped(curves[index]):
+    curve = of.context.once(_curves).get(of.where)
+    if curve is None or not curve.whole or swapped(curve):
         return math.nan
-    largest = float(np.abs(curves[index].points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
-    laws = laid.of_curve.get(index, [])
-    weight, width = (
-        float(np.fmax.reduce([each[law] for law in laws], initial=math.nan)) for each in (laid.weight, laid.width)
-    )
-    if weight > 0.0 and of.weighs:
-        return over(largest, weight * of.units.size("F/L")) if largest > 0.0 else math.nan
-    thin = min(width * of.units.size("L") / 0.1, 1.0) if width > 0.0 else 1.0
-    return over(largest, _LEAST_FORCE * thin) if largest > 0.0 and of.units.known else math.nan
+    largest = float(np.abs(curve.points[:, 1]).max(initial=0.0)) * of.units.size("F/L")
+    weight, width = _pipe_on(of, of.where)
+    if not largest > 0.0 or not (weight > 0.0 or of.units.known):
+        return math.nan
+    thin = min(width / 0.1, 1.0) if width > 0.0 else 1.0
+    return over(largest, weight if weight > 0.0 else _LEAST_FORCE * thin)
 
 
 def _times_pipe(of: Numbers, _name: str, value: float) -> float:
@@ -414,10 +443,7 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "times the inverse radius of the pipe, at its end": _skin_strain,
     "times the weight of the soil above and the diameter": _times_soil,
 }
-WEIGHED = {
-    "diameters that the pipe sinks under its weight",
-    "times the weight of the pipe, or 100 N/m, at its largest force",
-}
+WEIGHED = {BED[1].of, CURVE_FORCE.of}
 """Measures that depend on the weight of the pipe."""
 OF_DEPTH = {"m above the water", "times the water depth"}
 """Measures that depend on the depth of the water."""

@@ -14,12 +14,11 @@ import numpy as np
 from mudline.checks.context import LintContext
 from mudline.checks.rules.geometry import without_sections
 from mudline.checks.rules.seabed_position import first_of, held_nodes
-from mudline.language.deck.model import Opaque
+from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
-from mudline.language.keywords.keeping import kept_lines
-from mudline.language.keywords.model import Block, Part
-from mudline.language.keywords.naming import idents_given, may_name
+from mudline.language.keywords.contents import idents_given, may_name
+from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
@@ -52,17 +51,16 @@ def _is_whole(context: LintContext) -> bool:
     if len(shown) < len(_PARTS) or not len(scene.element_ids) or reading.external_definers or reading.restart:
         return False
     kept: dict[str, int] = {}
-    for where, block in _blocks(context):
-        if block.keyword in reading.unread:
-            lines = 0 if type(block) is Opaque else len(kept_lines(block))
-            kept[block.keyword] = kept.get(block.keyword, 0) + lines - scene.deck.lost(where)
+    for where, section, block, lines in context.once(_with_lines):
+        if section in _PARTS and block.keyword in reading.unread:
+            read = 0 if type(block) is Opaque else len(lines)
+            kept[block.keyword] = kept.get(block.keyword, 0) + read - scene.deck.lost(where)
     return all(kept.get(keyword, -1) >= 0 for keyword in reading.unread)
 
 
-def _blocks(context: LintContext) -> Iterator[tuple[Where, Block | Opaque]]:
-    for i, section in enumerate(context.scene.deck.sections):
-        if section.name in _PARTS:
-            yield from ((Where(i, j), block) for j, block in enumerate(section.blocks))
+def _with_lines(context: LintContext) -> list[tuple[Where, str, Block | Opaque, list[str]]]:
+    """Return place, section, block and lines that are passed through of every block of the scene's deck."""
+    return [(*placed, raw_lines(placed[2])) for placed in context.scene.deck.every_block()]
 
 
 def lacks(context: LintContext, *gifts: Gift) -> bool:
@@ -72,14 +70,12 @@ def lacks(context: LintContext, *gifts: Gift) -> bool:
 
 def _unread_give(context: LintContext, *gifts: Gift) -> bool:
     """Return True if an unread line may give a model something of these kinds."""
-    return any(may_give(*unread, gift) for unread in context.once(_not_read) for gift in gifts)
-
-
-def _not_read(context: LintContext) -> list[tuple[str, str]]:
-    """Return keyword and section of the blocks that have unread lines."""
-    sections = context.scene.deck.sections
-    blocks = [(where, block) for where, block in _blocks(context) if type(block) is Opaque or kept_lines(block)]
-    return [(block.keyword, sections[where.section].name) for where, block in blocks]
+    return any(
+        may_give(block.keyword, section, gift)
+        for _, section, block, lines in context.once(_with_lines)
+        if section in _PARTS and (lines or type(block) is Opaque)
+        for gift in gifts
+    )
 
 
 @rule(GEO015)
@@ -169,7 +165,7 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     ends = scene.element_nodes
     used[ends[ends >= 0]] = True
-    used |= _named(context)
+    used |= context.once(_named_nodes)
     free = np.flatnonzero(~used & _placed(scene))
     if free.size:
         what = first_of("node", scene.node_ids[free[0]], free.size)
@@ -194,7 +190,7 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     if not lacks(context, "elements", "supports") or (scene.element_nodes < 0).any():
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
-    held = _named(context)
+    held = context.once(_named_nodes)
     free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
     if free.size and held.any():
         what = first_of("node", scene.node_ids[free[0]], free.size)
@@ -209,41 +205,26 @@ def _placed(scene: Scene) -> Mask:
     return ~(np.isnan(x) & np.isnan(y))
 
 
-def _named(context: LintContext) -> Mask:
-    """Return a mask of the nodes that anything but an element refers to, also in lines whose form is not public."""
-    named: Mask = context.once(_named_nodes)
-    return named
-
-
 def _named_nodes(context: LintContext) -> Mask:
+    """Return a mask of the nodes that anything but an element refers to, also in lines whose form is not public."""
     scene = context.scene
     numbers: set[int] = set()
-    for section in scene.deck.sections:
-        for block in section.blocks:
-            if isinstance(block, Opaque):
-                numbers.update(_whole(word for line in block.lines for word in line.replace("=", ",").split(",")))
-            elif block.facts.defines not in ("nodes", "elements"):
-                numbers.update(_of_block(block))
+    for _, _, block, lines in context.once(_with_lines):
+        if not isinstance(block, Opaque):
+            if block.facts.defines in ("nodes", "elements"):
+                continue
+            if may_name(type(block), Names.NODE):
+                numbers.update(ident for _, ident in idents_given(block, Names.NODE) if isinstance(ident, int))
+        for word in (word for line in lines for word in line.replace("=", ",").split(",")):
+            value = read_number(word.strip())
+            if value is not None and value.is_integer() and abs(value) < 2**53:
+                numbers.add(int(value))
     named = np.zeros(len(scene.node_ids), dtype=np.bool_)
     indices = scene.nodes.indices(np.array(sorted(numbers), dtype=np.int64)) if numbers else np.zeros(0, np.intp)
     named[indices[indices >= 0]] = True
     for line in held_nodes(scene):  # those of a GEN= among them
         named[line.nodes] = True
     return named
-
-
-def _of_block(block: Part) -> Iterator[int]:
-    """Yield the node numbers that a block gives, including those of unread lines."""
-    if may_name(type(block), Names.NODE):
-        yield from (ident for _, ident in idents_given(block, Names.NODE) if isinstance(ident, int))
-    yield from _whole(word for line in kept_lines(block) for word in line.replace("=", ",").split(","))
-
-
-def _whole(words: Iterator[str]) -> Iterator[int]:
-    for word in words:
-        value = read_number(word.strip())
-        if value is not None and value.is_integer() and abs(value) < 2**53:
-            yield int(value)
 
 
 # ------------------------------------------------------------------------------------------------------- cables

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache, lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import NamedTuple, cast
@@ -15,13 +15,13 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
-from mudline.checks.rules.data_files import operator_files
-from mudline.checks.rules.measures import CONDITIONS, MEASURES, OF_DEPTH, WEIGHED, Numbers, over
-from mudline.checks.unit_slips import DeckUnits, is_placeholder, lacks_point, likely_slips, meant_unit, units_of
+from mudline.checks.rules.measures import OF_DEPTH, WEIGHED, Numbers
+from mudline.checks.rules.references import operator_files
+from mudline.checks.unit_slips import DeckUnits, lacks_point, likely_slips, units_of
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.contents import in_words
 from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
-from mudline.language.keywords.ranges import in_words
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual
@@ -39,8 +39,13 @@ UNT008 = Code("UNT008", "remarkable-value", Severity.INFO)
 CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UNT006, UNT007)}
 
 
-def unusual_values(context: LintContext) -> list[Problem]:
-    """Return the problems of values outside the usual range of their field; rules call `context.once`.
+def of_code(context: LintContext, code: Code) -> list[Problem]:
+    """Return the unusual values of one code."""
+    return context.once(_by_code).get(code, [])
+
+
+def _by_code(context: LintContext) -> dict[Code, list[Problem]]:
+    """Return the problems of values outside the usual range of their field by code.
 
     Lines in which SYN015 found decimal commas are left out. If gravity, a density or a length is unusual, the weight of
     a pipe counts as unknown. If nodes lie too high for the depth of the water, that depth counts as unknown.
@@ -53,10 +58,13 @@ def unusual_values(context: LintContext) -> list[Problem]:
         shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
         if heavy or shallow:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
-    problems = [each.problem for each in judged]
     text = context.text
-    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and problems else set()
-    return [problem for problem in problems if not commas or not text or text.place(problem).line not in commas]
+    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and judged else set()
+    by_code: dict[Code, list[Problem]] = {}
+    for problem in (each.problem for each in judged):
+        if not commas or not text or text.place(problem).line not in commas:
+            by_code.setdefault(problem.code, []).append(problem)
+    return by_code
 
 
 def _of_deck(deck: Numbers) -> list[Judged]:
@@ -79,11 +87,6 @@ def _in_files(deck: Numbers) -> Iterator[Judged]:
             yield judged._replace(problem=replace(judged.problem, message=message, where=file.where))
 
 
-def of_code(context: LintContext, code: Code) -> Iterator[Problem]:
-    """Return the unusual values of one code."""
-    return (problem for problem in context.once(unusual_values) if problem.code is code)
-
-
 # ------------------------------------------------------------------------------------------------------- what is judged
 
 
@@ -99,53 +102,45 @@ class Judged(NamedTuple):
     explains: Sequence[FieldSpec]
 
 
-@cache
-def _judged(part: type[Part]) -> tuple[tuple[FieldSpec, ...], tuple[FieldSpec, ...]]:
-    """Return the fields of a part that have usual values, and those that hold tables or parts with such fields."""
-    slots = [slot for slot in record_schema(part).slots if slot.usuals or any(any(_judged(sub)) for sub in slot.parts)]
-    own = tuple(slot for slot in slots if slot.usuals and not isinstance(slot.about, Rows))
-    return own, tuple(slot for slot in slots if slot.parts)
-
-
 def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Judged]:
     """Yield unusual values in a part and in the parts inside it, merged to one finding of each code for a part."""
-    own, outer = _judged(type(part))
-    if not (own or outer):
-        return
+    own, outer = _judged(type(part), deck.units)
     suspects = [
         (slot, math.nan if isinstance(value, Part) else float(value))
-        for slot, low, high in (_ranges(type(part), deck.units) if own else ())
+        for slot, low, high in own
         if isinstance(value := getattr(part, slot.name, None), float | int | Part)
         and (isinstance(value, Part) or not low <= value <= high)
     ]
-    if not (suspects or outer):
-        return
-    of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
-    yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
-    for slot in outer:
-        value = getattr(part, slot.name, None)
+    held = [(slot, value) for slot in outer if (value := getattr(part, slot.name, None))]
+    tables = [(slot, value) for slot, value in held if isinstance(value, Table)]
+    if suspects or tables:
+        of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
+        yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
+        for slot, table in tables:
+            yield from _in_table(of, slot, table)
+    for slot, value in held:
         if isinstance(value, Part):
             yield from _inside(deck, value, part, where.inside(slot.json))
-        elif isinstance(value, Table):
-            yield from _in_table(of, slot, value)
         for index, item in enumerate(value if isinstance(value, list) else ()):
-            if isinstance(item, Part):
+            if isinstance(item, Part) and any(_judged(type(item), deck.units)):
                 yield from _inside(deck, item, part, where.inside(slot.json, index))
 
 
 @lru_cache(512)
-def _ranges(part: type[Part], units: DeckUnits) -> list[tuple[FieldSpec, float, float]]:
-    """Return the fields of a part that have usual values, each with the range (as in the deck) that needs no check.
+def _judged(part: type[Part], units: DeckUnits) -> tuple[list[tuple[FieldSpec, float, float]], list[FieldSpec]]:
+    """Return the fields of a part that have usual values, and those that hold tables or parts with such fields.
 
-    If a field compares more than the number itself, every value needs a check: the range is NaN.
+    Each field has the range (as in the deck) that needs no check. If a field compares more than the number itself,
+    every value needs a check: the range is NaN.
     """
     ranges = []
-    for slot in _judged(part)[0]:
+    for slot in (slot for slot in record_schema(part).slots if slot.usuals and not isinstance(slot.about, Rows)):
         usuals, size = slot.usuals, units.size(slot.about.unit)
         low, high = max(usual.low for usual in usuals), min(usual.high for usual in usuals)
         plain = not any(usual.of for usual in usuals)
         ranges.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
-    return ranges
+    slots = [slot for slot in record_schema(part).slots if slot.parts]
+    return ranges, [slot for slot in slots if slot.usuals or any(any(_judged(sub, units)) for sub in slot.parts)]
 
 
 def _of_row(row: Sequence[Judged]) -> Iterator[Judged]:
@@ -180,7 +175,8 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
             if judged := _compared(row, column, value, slot.json, at, index):
                 yield from judged
                 return
-    yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan)
+    if slot.usuals:
+        yield from _compared(replace(of, table=table, rows=cast("Rows", slot.about)), slot, math.nan)
 
 
 # ----------------------------------------------------------------------------------------------------------- judgement
@@ -188,52 +184,15 @@ def _in_table(of: Numbers, slot: FieldSpec, table: Table) -> Iterator[Judged]:
 
 def _compared(of: Numbers, slot: FieldSpec, value: float, *path: str | int) -> list[Judged]:
     """Return the finding about a value (as in the deck), for the first range that it lies outside of, or none."""
-    for usual in slot.usuals:
-        if _is_unusual(of, slot, usual, value) and not slot.about.fault(value):
-            where = of.where.inside(*path)
-            code = UNT008 if usual.remark else CODES[usual.code]
-            advice, explains = _advice(of, slot, usual, value, where)
-            problem = Problem(code, f"{_seen(of, slot, usual, value)}: {advice}", where=where)
-            return [Judged(usual, problem, slot, explains)]
-    return []
+    usual = of.outside(slot, value)
+    if usual is None:
+        return []
+    where = of.where.inside(*path)
+    advice, explains = _advice(of, slot, usual, value, where)
+    code = UNT008 if usual.remark else CODES[usual.code]
+    return [Judged(usual, Problem(code, f"{_seen(of, slot, usual, value)}: {advice}", where=where), slot, explains)]
 
 
-def _quantity(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> float:
-    """Return the compared quantity of a number in SI."""
-    if usual.of.startswith("/"):
-        return over(value, of(usual.of[1:]))
-    return MEASURES[usual.of](of, slot.name, value) if usual.of else value
-
-
-def _is_unusual(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
-    """Return True if a value (as in the deck) lies outside a range that applies to it."""
-    unit = slot.about.unit
-    if (value == 0.0 and usual.of[:1] in ("", "/")) or not (usual.of or of.units.known or of.units.compares(unit)):
-        return False
-    if (usual.when and not CONDITIONS[usual.when](of)) or usual.holds(
-        _quantity(of, slot, usual, value * of.units.size(unit))
-    ):
-        return False
-    placeholder = usual.placeholder and is_placeholder(value)
-    return not (placeholder or usual.explained) or bool(_explanation(of, slot, usual, value, strict=placeholder))
-
-
-def _explanation(of: Numbers, slot: FieldSpec, usual: Usual, value: float, *, strict: bool = False) -> str:
-    """Return the likely unit of a value and the advice in words, if a unit explains it; else ""."""
-    unit = slot.about.unit
-    if not math.isnan(usual.typical):
-        unit_name = meant_unit(
-            usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number), strict=strict
-        )
-        return f"{value!r} looks like {unit_name}, write it in{of.units.behind(unit)}" if unit_name else ""
-    quantity = _quantity(of, slot, usual, value * of.units.size(unit)) if usual.explained else math.nan
-    which = next(
-        (word for factor, word in _TIMES.items() if quantity and usual.low <= quantity * factor <= usual.high), ""
-    )
-    return f"it looks like a unit 1000 times {which}, write both in one unit" if which else ""
-
-
-_TIMES = {1e3: "smaller", 1e-3: "larger"}
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3},\d{3}(?:\.\d*)?(?![\d.,]*\d)")
 
 
@@ -250,7 +209,7 @@ def _seen(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> str:
     why = f" ({usual.why})" if usual.why else ""
     if not usual.of:
         return f"{subject}, expected {usual.span(of.units.size(unit))}{behind}{why}"
-    quantity = _quantity(of, slot, usual, value * of.units.size(unit))
+    quantity = of.quantity(slot, usual, value * of.units.size(unit))
     what = next((f"times {col.label}" for col in of.columns if usual.of == f"/{col.name}"), usual.of)
     return f"{subject}, {float(f'{quantity:.3g}'):g} {what}, expected {usual.span()}{why}"
 
@@ -271,23 +230,17 @@ def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Whe
         return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
         return "correct it", ()
-    if explanation := _explanation(of, slot, usual, value):
+    if explanation := of.explanation(slot, usual, value):
         return explanation, ()
     alone = usual.remark or usual.of.startswith("/") or usual.code == "UNT006" or math.isnan(value)
     if not alone and (exchanged := _exchange(of, slot, where)):
         return exchanged
-    unit = slot.about.unit
-    words = likely_slips(usual, value, unit, of.units, lambda number: _quantity(of, slot, usual, number))
-    point = _lacks_point(of, slot, usual, value)
+    unit, measured = slot.about.unit, partial(of.quantity, slot, usual)
+    words = likely_slips(usual, value, unit, of.units, measured)
+    point = slot.kind is not Kind.WHOLE and lacks_point(usual, value * of.units.size(unit), measured)
     if not words:
         return "correct it (a decimal point?)" if point else "correct it", ()
     return f"{'correct its decimal point, or ' * point}write it in{of.units.behind(unit)} ({words}?)", ()
-
-
-def _lacks_point(of: Numbers, slot: FieldSpec, usual: Usual, value: float) -> bool:
-    """Return True if a decimal point may be lost or misplaced."""
-    sized = value * of.units.size(slot.about.unit)
-    return slot.kind is not Kind.WHOLE and lacks_point(usual, sized, lambda each: _quantity(of, slot, usual, each))
 
 
 def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
@@ -296,7 +249,7 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     over, ordinate = (columns[axis] for axis in cast("Rows", slot.about).axes)
     if usual is BENT:
         return f"write {over.label} in{of.units.behind(over.about.unit)}"
-    quantity = _quantity(of, slot, usual, math.nan)
+    quantity = of.quantity(slot, usual, math.nan)
     if usual.of == "as a stiffness" and quantity > 0.0 and usual.holds(1.0 / quantity):
         first = min(over, ordinate, key=lambda column: column.order)
         return f"its columns seem to be exchanged, write {first.label} first"
@@ -327,10 +280,6 @@ def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
 
 def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float], asked: Sequence[FieldSpec]) -> bool:
     """Return True if the `asked` fields of a row would be usual, and allowed, with these values (as in the deck)."""
-    sized = {slot.name: value * of.units.size(slot.about.unit) for slot, value in zip(fields, values, strict=True)}
-    changed = of.having(sized)
-    return not any(
-        slot.about.fault(value) or any(_is_unusual(changed, slot, usual, value) for usual in slot.usuals)
-        for slot, value in zip(fields, values, strict=True)
-        if slot in asked
-    )
+    row = [*zip(fields, values, strict=True)]
+    changed = replace(of, changed={slot.name: value * of.units.size(slot.about.unit) for slot, value in row})
+    return not any(slot.about.fault(value) or changed.outside(slot, value) for slot, value in row if slot in asked)

@@ -30,7 +30,7 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:17
     """
-    return of_code(context, UNT001)
+    yield from of_code(context, UNT001)
 
 
 @rule(UNT002)
@@ -54,7 +54,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:12
     """
-    return of_code(context, UNT002)
+    yield from of_code(context, UNT002)
 
 
 @rule(UNT003)
@@ -72,7 +72,7 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    return of_code(context, UNT003)
+    yield from of_code(context, UNT003)
 
 
 @rule(UNT004)
@@ -96,7 +96,7 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:9
     """
-    return of_code(context, UNT004)
+    yield from of_code(context, UNT004)
 
 
 @rule(UNT005)
@@ -121,7 +121,7 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
 
     Finds: 12:2
     """
-    return of_code(context, UNT005)
+    yield from of_code(context, UNT005)
 
 
 @rule(UNT006)
@@ -174,7 +174,7 @@ def unusual_value(context: LintContext) -> Iterator[Problem]:
 
     Finds: 9:12
     """
-    return of_code(context, UNT007)
+    yield from of_code(context, UNT007)
 
 
 @rule(UNT008)
@@ -193,7 +193,7 @@ def remarkable_value(context: LintContext) -> Iterator[Problem]:
 
     Finds: 12:2
     """
-    return of_code(context, UNT008)
+    yield from of_code(context, UNT008)
 
 
 @joint(UNT004, UNT005, UNT006)

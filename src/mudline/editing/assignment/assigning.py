@@ -21,8 +21,8 @@ from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Diagnostic, Problem, Severity, Where
+from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
-from mudline.language.keywords.ranges import range_fault
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes

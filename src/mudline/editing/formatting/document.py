@@ -20,12 +20,12 @@ from mudline.language.keywords.model import FieldSpec, Path, Record, Row, record
 from mudline.language.keywords.parsed import Places
 from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.values import Kind as FieldKind
+from mudline.language.keywords.values import Kind
 from mudline.language.syntax.edits import TextEdit, apply_edits
 from mudline.language.syntax.fields import FieldGroup, first_key, read_line, split
 from mudline.language.syntax.rows import blank_separated, line_spans
 from mudline.language.syntax.source import CONTROLS, END_MARK, Source
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
 
 _CUT_OFF = "the file ends right after a keyword and seems to be cut off: add what is missing, or a line end"
 _COMMAS = "a number seems to have a decimal comma, which a blank after it would hide: correct it first (SYN015)"
@@ -168,9 +168,9 @@ class _DocumentLayout:
     def _stray(self, leaves: list[Leaf]) -> None:
         """Lay out lines that belong to no keyword."""
         for leaf in leaves:
-            if leaf.kind is Kind.BLANK:
+            if leaf.kind is LeafKind.BLANK:
                 self.blanks.append(leaf.span)
-            elif leaf.kind is Kind.COMMENT:
+            elif leaf.kind is LeafKind.COMMENT:
                 self._end_blanks()
                 self._put(leaf.span, comment_line(self.text, leaf.span))
             else:
@@ -179,7 +179,7 @@ class _DocumentLayout:
     def _block(self, raw: RawBlock, read: ReadBlock) -> None:
         """Lay out a block with a model."""
         for leaf in raw.leaves:
-            if leaf.kind is Kind.BLANK:
+            if leaf.kind is LeafKind.BLANK:
                 self.blanks.append(leaf.span)
             else:
                 self._end_blanks()
@@ -253,7 +253,7 @@ def _value(slot: FieldSpec, value: object, path: Path, places: Places, reading: 
         reading.put(span.start, RowKind(slot, tuple(columns)))
         for column in columns:
             _value(column, getattr(value, column.name), (*path, column.json), places, reading)
-    elif span and slot.kind is not FieldKind.NAME and value in slot.choices:
+    elif span and slot.kind is not Kind.NAME and value in slot.choices:
         if reading.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
             reading.choices[span.start] = str(value)
     elif span and slot.about.opaque is not None and isinstance(value, str):
@@ -289,17 +289,17 @@ class _BlockLayout:
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
         """Yield the lines that are complete at this leaf: rows are collected until their table ends."""
-        if leaf.kind in (Kind.RUN, Kind.TEXT):
+        if leaf.kind in (LeafKind.RUN, LeafKind.TEXT):
             for span in self._row_spans(leaf.span):
                 yield from self._row(span)
         elif leaf.span.start in self.kept:
             yield from self.flush()
-        elif leaf.kind is Kind.SETTING or (
-            leaf.kind is Kind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
+        elif leaf.kind is LeafKind.SETTING or (
+            leaf.kind is LeafKind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
         ):
             yield from self.flush()
             yield leaf.span, self._setting(leaf.span)
-        elif leaf.kind is not Kind.BLANK:
+        elif leaf.kind is not LeafKind.BLANK:
             yield leaf.span, comment_line(self.text, leaf.span)
 
     def flush(self) -> Iterator[Laid]:

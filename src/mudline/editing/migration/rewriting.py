@@ -22,7 +22,7 @@ from mudline.language.keywords.text import reads_as_name
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.rows import line_spans
-from mudline.language.syntax.tree import Kind, RawBlock
+from mudline.language.syntax.tree import LeafKind, RawBlock
 from mudline.model.scene.laws import DIRECTIONS
 from mudline.model.scene.model import Scene
 from mudline.model.scene.representatives import shows_elements
@@ -114,7 +114,7 @@ class _MigrationRewriter:
 
     def _rows(self, where: Where) -> list[Span]:
         """Return the lines of a block without comments, blank lines and trailing blanks."""
-        leaves = (leaf for leaf in self._raw(where).leaves if leaf.kind is not Kind.COMMENT)
+        leaves = (leaf for leaf in self._raw(where).leaves if leaf.kind is not LeafKind.COMMENT)
         return [trimmed(self.text, *line) for leaf in leaves for line in line_spans(self.text, leaf.span)]
 
     def _leave_out(self, where: Where, index: int) -> None:

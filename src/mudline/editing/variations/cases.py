@@ -25,7 +25,7 @@ from mudline.language.keywords.values import Equation
 from mudline.language.syntax.fields import is_one_field
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, canonical_name, parse
+from mudline.language.syntax.tree import LeafKind, canonical_name, parse
 from mudline.model.scene.deck_values import find_file, not_found
 
 if TYPE_CHECKING:
@@ -264,7 +264,7 @@ def _block_text(source: Source, keyword: str) -> str:
         raise RefusedError(f"{source.name} holds *{others[0]}, expected *{keyword} only")
     text = source.unified.replace("\r\n", "\n")
     text = text if text.endswith("\n") or not text else f"{text}\n"
-    if all(leaf.kind in (Kind.BLANK, Kind.COMMENT) for leaf in tree.preamble.leaves) and tree.preamble.blocks:
+    if all(leaf.kind in (LeafKind.BLANK, LeafKind.COMMENT) for leaf in tree.preamble.leaves) and tree.preamble.blocks:
         return text
     return f"*{keyword}\n{text}"
 

@@ -22,15 +22,15 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.naming import names_given
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.fields import first_key, read_line
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
 from mudline.model.scene.deck_values import file_name, find_file
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
@@ -179,7 +179,7 @@ def _written(deck: Deck) -> Iterator[str]:
 
 def _in_lines(text: str, block: RawBlock) -> Iterator[str]:
     for leaf in block.leaves:
-        if leaf.kind is Kind.SETTING:
+        if leaf.kind is LeafKind.SETTING:
             groups = read_line(text, leaf.span).groups
             yield from (group.fields[0].text for group in groups if group.key in _KEYS and group.fields)
 
@@ -267,9 +267,9 @@ class CaseRewriter:
         declared = catalogue.block_class(self.tree.sections[section].name, block.name)
 
         def is_data(leaf: Leaf) -> bool:
-            if leaf.kind is Kind.UNDECIDED:
+            if leaf.kind is LeafKind.UNDECIDED:
                 return declared is None or first_key(self.source.unified, leaf.span) in all_keys(declared)
-            return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
+            return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
 
         return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
 

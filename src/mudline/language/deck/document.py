@@ -21,18 +21,17 @@ from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Sect
 from mudline.language.deck.reading import Findings
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import is_read, is_refused
 from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.keeping import is_read
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.ranges import is_refused
 from mudline.language.keywords.reader import read_block
 from mudline.language.keywords.table import AS_TABLES, Listing
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
 from mudline.language.keywords.writer import block_lines
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, canonical_name, mark_of, parse
 
 FORMAT = f"{MARK}1"
 
@@ -229,13 +228,13 @@ class _DocumentReader:
         def inner(leaf: Leaf) -> list[str]:
             return text[slice(*leaf.span)].removesuffix("\n").split("\n")
 
-        data = [leaf for leaf in tree.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        data = [leaf for leaf in tree.leaves if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)]
         stray = [line for leaf in data for line in inner(leaf)]
         if data:
             self.findings.stray(len(stray), words, None, place(data[0]))
         for block in tree.blocks:
             self.findings.before_sections(block.name, None, place(block.head))
-        return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is Kind.COMMENT]
+        return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is LeafKind.COMMENT]
 
     def _section(self, item: object, index: int) -> Section:
         path: DocumentPath = ("sections", index)

@@ -69,11 +69,6 @@ def all_labels_read(deck: Deck) -> bool:
     return all(line.label for line in lines)
 
 
-def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> Problem:
-    """Return the problem of an equation in a field of whole numbers whose value is not whole."""
-    return Problem(SYN002, f"{equation} gives {value!r}: {label} needs a whole number", None, None, where)
-
-
 _PLAIN = frozenset({float, int, str, NoneType})
 _EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
@@ -207,7 +202,8 @@ class _Evaluator:
             return value
         if value.is_integer():
             return int(value)
-        self.problems.append(replace(whole_fault(equation, value, label, where), blocks=self.blocks))
+        message = f"{equation} gives {value!r}: {label} needs a whole number"
+        self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
         return nothing
 
     def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:

@@ -9,8 +9,8 @@ from typing import cast
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Severity, Where
+from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.ranges import is_refused
 from mudline.language.keywords.reader import ReadBlock
 
 

@@ -11,7 +11,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import suggest_keyword
 from mudline.language.keywords.reader import read_block
 from mudline.language.syntax.fields import first_key
-from mudline.language.syntax.tree import Kind, RawBlock
+from mudline.language.syntax.tree import LeafKind, RawBlock
 
 
 @lru_cache(256)
@@ -63,6 +63,6 @@ class RawLines(NamedTuple):
         start = self.raw.head.span.start
         places = (each.span.start for each in read.problems if each.span and each.weight is Severity.ERROR)
         faults = len({self.text.count("\n", start, place) for place in places})
-        data = [leaf for leaf in self.raw.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        data = [leaf for leaf in self.raw.leaves if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)]
         lines = sum(self.text.count("\n", *leaf.span) or 1 for leaf in data)
         return not lines or 2 * max(faults, read.lost) < lines

@@ -15,7 +15,7 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Coverage
 from mudline.language.keywords.catalogue import is_read_somewhere
-from mudline.language.keywords.keeping import is_read
+from mudline.language.keywords.contents import is_read
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import BlockReader, read_block
 from mudline.language.syntax.source import Source

@@ -25,10 +25,9 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
+from mudline.language.keywords.contents import Role, all_names_given, gives_names, kept_lines
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.keeping import kept_lines
 from mudline.language.keywords.model import Block, Part, record_schema
-from mudline.language.keywords.naming import Role, all_names_given, gives_names
 from mudline.language.keywords.values import Names, Text
 
 

@@ -24,7 +24,7 @@ from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import hint, instead
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree, parse
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.ocean import Ocean
@@ -296,7 +296,7 @@ class _DeckReader:
 
     def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
         """Report all data lines of a place in one finding; they may be a `title` if no line looks like data."""
-        data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        data = [leaf for leaf in leaves if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)]
         if data:
             first = data[0].span
             end = self.text.find("\n", *first)
@@ -314,9 +314,9 @@ class _DeckReader:
         self._stray(raw.leaves, f"of ${raw.name}", title=not known)
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
-            if leaf.kind is Kind.COMMENT:
+            if leaf.kind is LeafKind.COMMENT:
                 section.comments.append(Comment(before=0, text=line[0][1:]))
-            elif leaf.kind is not Kind.BLANK:
+            elif leaf.kind is not LeafKind.BLANK:
                 section.lines += line
         for block in raw.blocks:
             self._block(section, index, block)
@@ -403,7 +403,7 @@ def units_of(deck: Deck) -> str:
     for _, block in deck.blocks("UNITS", "ANALYSIS"):
         if units := cast("Units", block).units:
             return units.lower()
-    gravity = gravity_of(deck)
+    gravity = _of_ocean(deck, "gravity")
     system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
     if system == "metric" and suffix == ".keyx":
         density = _of_ocean(deck, "density")
@@ -413,11 +413,6 @@ def units_of(deck: Deck) -> str:
 
 _TONNES = (0.9, 1.3)
 """Densities of water and brines in t/m3."""
-
-
-def gravity_of(deck: Deck) -> float | None:
-    """Return the gravity of the last `*OCEAN` that has a value, evaluated; None if there is none."""
-    return _of_ocean(deck, "gravity")
 
 
 def _of_ocean(deck: Deck, name: str) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, cast, get_args, get_origin
@@ -91,6 +92,12 @@ class FieldInfo:
         if self.at_most is not None and value > self.at_most:
             return f"it must not be more than {self.at_most:g}"
         return ""
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Least and greatest value of the range."""
+        least = self.at_least if self.above is None else math.nextafter(self.above, math.inf)
+        return -math.inf if least is None else least, math.inf if self.at_most is None else self.at_most
 
     @property
     def limits(self) -> dict[str, float]:

@@ -312,6 +312,7 @@ class FieldSpec:
     many: bool
     order: int
     usuals: tuple[Usual, ...]
+    span: tuple[float, float]
     of_list: bool = False
 
     @property
@@ -372,31 +373,32 @@ def record_schema(part: type[Part]) -> RecordSchema:
     """Return the declared fields of a class, cached."""
     schema = RecordSchema()
     for order, (name, info) in enumerate(part.model_fields.items()):
-        meta = next((item for item in metadata_of(info) if isinstance(item, FieldInfo)), None)
+        about = next((item for item in metadata_of(info) if isinstance(item, FieldInfo)), FieldInfo(""))
         classes = [piece for piece in parts_of(info.annotation) if isinstance(piece, type)]
         records = [piece for piece in classes if issubclass(piece, Record)]
         rows = [piece for piece in classes if issubclass(piece, Row)]
-        if meta is None and not records:
+        if not (about.meaning or records):
             continue
         slot = FieldSpec(
             name=name,
             json=info.alias or name,
-            about=meta or FieldInfo(""),
+            about=about,
             kind=kind_of(info),
             choices=choices_of(info.annotation),
-            row=meta.row if isinstance(meta, Rows) else next(iter(rows), None),
+            row=about.row if isinstance(about, Rows) else next(iter(rows), None),
             record={record.rule: record for record in records},
             required=info.is_required(),
             many=is_list(info.annotation),
             order=order,
-            usuals=meta.usuals if meta else (),
+            usuals=about.usuals,
+            span=about.span,
             of_list=issubclass(part, ListRow),
         )
         schema.slots.append(slot)
-        if isinstance(meta, Rows):
+        if isinstance(about, Rows):
             schema.table = slot
-        elif isinstance(meta, Setting):
-            schema.keys.setdefault(meta.key, slot)
+        elif isinstance(about, Setting):
+            schema.keys.setdefault(about.key, slot)
         elif records:
             schema.children |= dict.fromkeys(slot.record, slot)
         else:

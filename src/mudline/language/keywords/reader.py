@@ -14,17 +14,25 @@ from mudline.basics.spelling import nearest
 from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import grammar
-from mudline.language.keywords.attaching import Between, attach, doubtful, of_other_form
 from mudline.language.keywords.builder import Builder
+from mudline.language.keywords.contents import is_choice, opened
 from mudline.language.keywords.fields import AS_TEXT
 from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.language.keywords.keeping import is_choice, opened
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
-from mudline.language.keywords.parsed import ParsedRecord, Places, construct, lose
+from mudline.language.keywords.parsed import (
+    Between,
+    ParsedRecord,
+    Places,
+    attach,
+    construct,
+    doubtful,
+    lose,
+    of_other_form,
+)
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.rows import line_spans
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
 
 
 @dataclass(slots=True)
@@ -104,7 +112,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     ends: frozenset[str] = frozenset()
     keys = all_keys(declared)
     for leaf in raw.leaves:
-        key = first_key(text, leaf.span) if leaf.kind is Kind.SETTING else ""
+        key = first_key(text, leaf.span) if leaf.kind is LeafKind.SETTING else ""
         if key and (not ends or key in ends):
             value = text[slice(*leaf.span)].partition("=")[2]
             ends = opened(declared, key, value)
@@ -211,21 +219,21 @@ class _BlockParser:
         ends: frozenset[str] = frozenset()
         for leaf in self.raw.leaves:
             kind, span = leaf
-            if ends and kind not in (Kind.COMMENT, Kind.BLANK):
+            if ends and kind not in (LeafKind.COMMENT, LeafKind.BLANK):
                 if first_key(self.text, span) not in ends:
                     self._keep(span)
                     continue
                 ends = frozenset()
             match kind:
-                case Kind.COMMENT:
+                case LeafKind.COMMENT:
                     self._comment(leaf)
-                case Kind.UNDECIDED:
+                case LeafKind.UNDECIDED:
                     ends = self._undecided(leaf, contents)
-                case Kind.SETTING:
+                case LeafKind.SETTING:
                     ends = self._setting(span, contents)
-                case Kind.RUN if not self.declared.tabular:
+                case LeafKind.RUN if not self.declared.tabular:
                     contents += [Content(ROW, line) for line in line_spans(self.text, span)]
-                case Kind.RUN | Kind.TEXT:
+                case LeafKind.RUN | LeafKind.TEXT:
                     contents.append(Content(ROW, span))
                 case _:
                     pass
@@ -292,9 +300,13 @@ class _BlockParser:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
             message = f"{where} is incomplete: missing {expected}"
-            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+            no_data = LeafKind.BLANK, LeafKind.COMMENT
+            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in no_data]
             span = trimmed(self.text, *lines[-1].span)
-            self.problems.append(Problem(code, message, span))
+            cut_off = self.last and not self.text.endswith("\n")
+            reported = any(problem.span and problem.span.end == span.end for problem in self.problems)
+            if cut_off or not reported:  # a line in place of the missing one has its finding
+                self.problems.append(Problem(code, message, span))
             return
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:

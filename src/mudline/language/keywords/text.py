@@ -76,7 +76,8 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
     if braced is None:
         raise UnreadableError(not_a_number(field.text, field.span, slot.label, slot.kind))
     message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
-    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
+    repair = Repair("unsafe", "put the label in braces", ((field.span, braced),))
+    problems.append(Problem(SYN016, message, field.span, repair=repair))
     return braced
 
 
@@ -121,11 +122,6 @@ def suggestion(word: str, known: Iterable[str], effort: Effort | None = None) ->
 def instead(near: str, span: Span) -> Repair | None:
     """Return the repair that replaces a word by the near one; None if no word is near."""
     return Repair("unsafe", f"write {near}", ((span, near),)) if near else None
-
-
-def in_braces(text: str, span: Span) -> Repair:
-    """Return the repair that turns a text into a label."""
-    return Repair("unsafe", "put the label in braces", ((span, "{" + text + "}"),))
 
 
 def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +53,11 @@ class Usual:
         return f"at least {low}" if math.isinf(self.high) else f"{low} to {high}"
 
 
+def exceeded(usuals: Sequence[Usual], quantities: Sequence[float]) -> list[Usual]:
+    """Return the ranges that do not hold the quantity compared with each."""
+    return [usual for usual, quantity in zip(usuals, quantities, strict=True) if not usual.holds(quantity)]
+
+
 COUNT = "a count"
 NUMBER = "a number that stands for a name"
 NOT_KNOWN = "what it means is not known"
@@ -69,20 +76,18 @@ DIRECTION = Usual(-360.0, 360.0, "a full turn")
 HEEL = Usual(-45.0, 45.0, "no vessel heels farther")
 VESSEL_SIZE = Usual(-500.0, 500.0, "the longest vessel, Prelude, has 488 m")
 
-WIDTH = Usual(high=60.0, why="the hull of a spar has 37 m", code="UNT006", typical=0.3, within=8.0)
+_SIZE = partial(Usual, code="UNT006")
+WIDTH = _SIZE(high=60.0, why="the hull of a spar has 37 m", typical=0.3, within=8.0)
 BORE = Usual(high=1.0, why="it is inside", of="/outer")
-PIPE_WALL = Usual(
-    high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", code="UNT006", typical=0.3, within=8.0
-)
-MASS_WIDTH = Usual(
+PIPE_WALL = _SIZE(high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", typical=0.3, within=8.0)
+MASS_WIDTH = _SIZE(
     0.18,
     3.2,
     "of the water that it displaces a chain has 27 times the mass, a float a tenth",
     of="times the diameter of as much water as its mass",
-    code="UNT006",
 )
 DENSE = Usual(low=0.28, why="lead has 0.3", of="times the diameter of as much water as its mass", remark=True)
-OTHER_WIDTH = Usual(high=25.0, why="floats are no wider", of="/do", code="UNT006")
+OTHER_WIDTH = _SIZE(high=25.0, why="floats are no wider", of="/do")
 DRAG_WIDTH = Usual(high=8.0, why="else one is in another unit", of="/db", remark=True)
 BENDING = (
     Usual(high=1.0, why="a thin tube has 1/8", of="times EA Do2"),
@@ -91,24 +96,16 @@ BENDING = (
 
 ROUND = Usual(0.01, 100.0, "most lines are round", of="/eiyy", remark=True)
 
-LEAST_BED = Usual(
-    478.0, 2.1e11, "less carries no pipe, more is stiffer than steel", code="UNT002", typical=5e4, within=30.0
-)
+_STIFFNESS = partial(Usual, high=2.1e11, code="UNT002", within=30.0)
+LEAST_BED = _STIFFNESS(478.0, why="less carries no pipe, more is stiffer than steel", typical=5e4)
 """478 N/m2 are 10 lbf/ft2."""
 BED = (
     LEAST_BED,
     Usual(1e-6, 1.0, "a pipe lies in the soil, not below it", of="diameters that the pipe sinks under its weight"),
 )
-LEAST_SIDE = Usual(
-    95.0, 2.1e11, "less holds no pipe, more is stiffer than steel", code="UNT002", typical=5e3, within=30.0
-)
+LEAST_SIDE = _STIFFNESS(95.0, why="less holds no pipe, more is stiffer than steel", typical=5e3)
 FRICTION = Usual(high=2.0, why="pipes on soil have 0.2 to 1", code="UNT003")
-MOBILISATION = Usual(
-    high=10.0,
-    why="soil yields within a few diameters",
-    of="times the diameter of the pipe",
-    code="UNT006",
-)
+MOBILISATION = _SIZE(high=10.0, why="soil yields within a few diameters", of="times the diameter of the pipe")
 CURVE_FORCE = Usual(
     low=0.1,
     why="the soil carries the pipe",
@@ -177,61 +174,28 @@ OFFSET = (
 )
 DRIFT_PERIOD = Usual(5.0, 3600.0, "drift is slower than waves")
 
-OUTER_WIDTH = Usual(
-    high=8.0, why="one of them is in another unit", of="times the drag and buoyancy diameters", code="UNT006"
-)
+OUTER_WIDTH = _SIZE(high=8.0, why="one of them is in another unit", of="times the drag and buoyancy diameters")
+_MODULUS = partial(Usual, code="UNT005", placeholder=True)
 YOUNG = (
-    Usual(low=1e5, why="rubber has 1E6, steel 2.07E11", code="UNT005", placeholder=True, typical=2.07e11, within=1e3),
-    Usual(185e9, 220e9, "steel", when="a steel wall", code="UNT005", placeholder=True, typical=2.07e11, explained=True),
+    _MODULUS(low=1e5, why="rubber has 1E6, steel 2.07E11", typical=2.07e11, within=1e3),
+    _MODULUS(185e9, 220e9, "steel", when="a steel wall", typical=2.07e11, explained=True),
 )
 SHEAR = (
-    Usual(low=1e5, why="steel has 7.96E10", code="UNT005", placeholder=True, typical=7.96e10, within=1000.0),
-    Usual(71e9, 86e9, "steel", when="a steel wall", code="UNT005", placeholder=True, typical=7.96e10, explained=True),
-    Usual(low=-0.02, why="of E and G", of="as Poisson's ratio, E / 2G - 1", code="UNT005", placeholder=True),
-    Usual(
-        high=0.52,
-        why="of a metal",
-        of="as Poisson's ratio, E / 2G - 1",
-        when="a metal",
-        code="UNT005",
-        placeholder=True,
-    ),
+    _MODULUS(low=1e5, why="steel has 7.96E10", typical=7.96e10, within=1000.0),
+    _MODULUS(71e9, 86e9, "steel", when="a steel wall", typical=7.96e10, explained=True),
+    _MODULUS(low=-0.02, why="of E and G", of="as Poisson's ratio, E / 2G - 1"),
+    _MODULUS(high=0.52, why="of a metal", of="as Poisson's ratio, E / 2G - 1", when="a metal"),
 )
+_DENSITY = partial(Usual, code="UNT004", placeholder=True)
+_WALL = partial(_DENSITY, low=10.0, why="foam to steel with its contents; steel has 7850", typical=7850.0, within=12.0)
 WALL = (
-    Usual(
-        high=40_000.0,
-        low=10.0,
-        why="foam to steel with its contents; steel has 7850",
-        when="a wall without an area of its own",
-        code="UNT004",
-        placeholder=True,
-        typical=7850.0,
-        within=12.0,
-    ),
-    Usual(
-        low=10.0,
-        why="foam to steel with its contents; steel has 7850",
-        code="UNT004",
-        placeholder=True,
-        typical=7850.0,
-        within=12.0,
-    ),
-    Usual(high=40_000.0, why="steel has 7850", code="UNT004", placeholder=True, typical=7850.0, explained=True),
-    Usual(
-        low=7e3, why="steel", when="the modulus of steel", code="UNT004", placeholder=True, typical=7850.0, within=1.1
-    ),
+    _WALL(high=40_000.0, when="a wall without an area of its own"),
+    _WALL(),
+    _DENSITY(high=40_000.0, why="steel has 7850", typical=7850.0, explained=True),
+    _DENSITY(low=7e3, why="steel", when="the modulus of steel", typical=7850.0, within=1.1),
     Usual(7.0, 8.4, "steel", of="times the density of the water", when="unknown units", code="UNT004", explained=True),
 )
-SEA_DENSITY = Usual(
-    900.0,
-    2500.0,
-    "fresh water to heavy brine",
-    code="UNT004",
-    placeholder=True,
-    typical=1025.0,
-    within=1.08,
-    also=(1.1, 1.31),
-)
+SEA_DENSITY = _DENSITY(900.0, 2500.0, "fresh water to heavy brine", typical=1025.0, within=1.08, also=(1.1, 1.31))
 LIQUID = Usual(
     low=400.0,
     why="a liquid, or a gas that is not compressed",

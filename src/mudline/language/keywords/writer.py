@@ -9,8 +9,8 @@ from typing import Any
 
 from pydantic_core import to_json
 
+from mudline.language.keywords.contents import KeptLine
 from mudline.language.keywords.fields import Comment, Setting
-from mudline.language.keywords.keeping import KeptLine
 from mudline.language.keywords.model import Block, FieldSpec, Part, Record, Rows, record_schema
 from mudline.language.keywords.table import Cell, Listing, Table
 

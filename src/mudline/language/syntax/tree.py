@@ -20,7 +20,7 @@ _REMEMBERED = 100
 """Greatest length of a line whose name is cached: few lines are longer, and most decks have the same names."""
 
 
-class Kind(Enum):
+class LeafKind(Enum):
     """Kind of a leaf, by its text alone."""
 
     SECTION = "SECTION"
@@ -36,7 +36,7 @@ class Kind(Enum):
 class Leaf(NamedTuple):
     """Line, or run of numeric or blank lines, with line ends."""
 
-    kind: Kind
+    kind: LeafKind
     span: Span
 
 
@@ -122,7 +122,7 @@ def mark_of(line: str) -> str:
 def parse(source: Source) -> SyntaxTree:
     """Return the tree of a source. Never fails: unreadable content becomes one leaf before any section."""
     if not source.readable:
-        leaf = Leaf(Kind.TEXT, Span(0, len(source.text)))
+        leaf = Leaf(LeafKind.TEXT, Span(0, len(source.text)))
         return SyntaxTree(source, RawSection(None, "", [leaf] if source.text else []), ())
     preamble = section = RawSection(None, "")
     sections: list[RawSection] = []
@@ -144,5 +144,5 @@ def parse(source: Source) -> SyntaxTree:
     return SyntaxTree(source, preamble, tuple(sections))
 
 
-_KINDS: dict[str | None, Kind] = {kind.value: kind for kind in Kind}
-_SECTION, _KEYWORD = Kind.SECTION, Kind.KEYWORD
+_KINDS: dict[str | None, LeafKind] = {kind.value: kind for kind in LeafKind}
+_SECTION, _KEYWORD = LeafKind.SECTION, LeafKind.KEYWORD

@@ -17,8 +17,8 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import kinds_of, names_given
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, record_schema
-from mudline.language.keywords.naming import kinds_of, names_given
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax.fields import read_line

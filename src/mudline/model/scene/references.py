@@ -20,9 +20,8 @@ from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
 from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.keeping import is_read
+from mudline.language.keywords.contents import idents_given, is_read, may_name, names_given
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.naming import idents_given, may_name, names_given
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Label, Names
 from mudline.language.syntax.fields import canonical_key

@@ -43,12 +43,14 @@ class NamedSet:
     elements: indices of its elements in ascending order.
     where: place of its definition.
     open: the set has, or may have, elements that the deck does not show.
+    faulty: some of its lines could not be read, which is reported.
     """
 
     name: str
     elements: Indices
     where: Where | None
     open: bool = False
+    faulty: bool = False
 
     __repr__ = short_repr
 
@@ -177,10 +179,10 @@ class _SetReader:
         definitions = self.definitions[key]
         first, place = definitions[0]
         parts: list[Indices] = []
-        unsure = False
+        faulty = any(is_partly_unknown(part) for entry, _ in definitions for part in (entry.members, *entry.members))
+        unsure = faulty
         members = 0
         for entry, where in definitions:
-            unsure |= is_partly_unknown(entry.members)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
@@ -192,7 +194,7 @@ class _SetReader:
                     elements, whole = self._range(range_, where.inside("members", index))
                 parts.append(elements)
                 unsure |= not whole
-        self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
+        self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure, faulty)
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 

@@ -17,8 +17,8 @@ from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import is_read, kept_places
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.keeping import is_read, kept_places
 from mudline.language.keywords.model import Path, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant

@@ -20,7 +20,7 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, name_key
 from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded
-from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.contents import kept_lines
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
 from mudline.model.contact.input import LawKind

@@ -17,7 +17,7 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, record_schema
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.values import Names
-from mudline.language.syntax.tree import Kind as LeafKind
+from mudline.language.syntax.tree import LeafKind
 from mudline.tools.lsp.decks import Analysis, value_text
 from mudline.tools.lsp.help import field_help, keyword_help, section_help
 from mudline.tools.lsp.sites import Spot, slot_of_key, spot

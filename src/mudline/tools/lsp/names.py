@@ -16,7 +16,7 @@ from mudline.language.expression.parsing import parse
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import first_key, read_line
-from mudline.language.syntax.tree import Kind
+from mudline.language.syntax.tree import LeafKind
 
 KINDS = {
     Names.SET: Names.SET,
@@ -119,7 +119,7 @@ def _passed_through(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
     for section, raw_section in zip(deck.sections, origin.tree.sections, strict=False):
         for block, raw in zip(section.blocks, raw_section.blocks, strict=False):
             for leaf in raw.leaves if type(block) is Opaque else ():
-                if leaf.kind is Kind.SETTING and first_key(text, leaf.span) == _SET:
+                if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
                     value = read_line(text, leaf.span).groups[0].fields[0]
                     span = _inner(origin, value.span)
                     yield Occurrence(thing(Names.SET, value.text), value.text, span, defines=False)
@@ -139,8 +139,8 @@ def equation_spans(origin: TextOrigin) -> Iterator[Span]:
 def _data(origin: TextOrigin) -> Iterator[Span]:
     """Yield the lines that may contain words: no comments, and no runs of numbers."""
     for leaf in origin.tree.leaves():
-        read = leaf.kind in (Kind.TEXT, Kind.SETTING, Kind.RUN)
-        if read or (leaf.kind is Kind.UNDECIDED and first_key(origin.source.unified, leaf.span)):
+        read = leaf.kind in (LeafKind.TEXT, LeafKind.SETTING, LeafKind.RUN)
+        if read or (leaf.kind is LeafKind.UNDECIDED and first_key(origin.source.unified, leaf.span)):
             yield leaf.span
 
 

@@ -13,7 +13,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, Part
 from mudline.language.keywords.reader import schemas_of
 from mudline.language.syntax.fields import canonical_key, read_line
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree
 from mudline.tools.lsp.decks import Analysis
 
 
@@ -83,7 +83,7 @@ def site(analysis: Analysis, offset: int) -> Site | None:
     block = _model(analysis, here)
     read = origin.read.get((here.section, here.block))
     leaf = leaf_at(here, offset)
-    if block is None or read is None or leaf is None or leaf.kind is Kind.COMMENT:
+    if block is None or read is None or leaf is None or leaf.kind is LeafKind.COMMENT:
         return None
     place = read.places.at(offset)
     if place is not None:
@@ -105,7 +105,7 @@ def _model(analysis: Analysis, here: Spot) -> Block | None:
 def _of_key(origin: TextOrigin, here: Spot, leaf: Leaf, offset: int) -> Site | None:
     """Return the setting whose KEY= is at an offset."""
     declared = here.declared
-    if declared is None or leaf.kind not in (Kind.SETTING, Kind.UNDECIDED):
+    if declared is None or leaf.kind not in (LeafKind.SETTING, LeafKind.UNDECIDED):
         return None
     for group in read_line(origin.source.unified, leaf.span, slashes=declared.slashes).groups:
         end = group.fields[0].span.start if group.fields else group.span.end

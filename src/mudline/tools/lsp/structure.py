@@ -15,10 +15,9 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Span
 from mudline.language.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.language.keywords.reader import ReadBlock
-from mudline.language.keywords.values import Kind as FieldKind
-from mudline.language.keywords.values import Names
+from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
-from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
 from mudline.tools.lsp.decks import Analysis, failed
 
 # ----------------------------------------------------------------------------------------------------------- outline
@@ -102,7 +101,7 @@ def _name(record: Part) -> str:
 def _is_name(slot: FieldSpec) -> bool:
     about = slot.about
     named = about.defines is not None or about.names is Names.SET or slot.key == "NAME"
-    return named and slot.kind is FieldKind.NAME and not slot.many
+    return named and slot.kind is Kind.NAME and not slot.many
 
 
 # ----------------------------------------------------------------------------------------------------------- folding
@@ -131,7 +130,7 @@ def _comments(origin: TextOrigin) -> Iterator[Span]:
     first: Leaf | None = None
     last: Leaf | None = None
     for leaf in (*origin.tree.leaves(), None):
-        if leaf is not None and leaf.kind is Kind.COMMENT:
+        if leaf is not None and leaf.kind is LeafKind.COMMENT:
             first, last = first or leaf, leaf
         elif first is not None and last is not None:
             yield Span(first.span.start, last.span.end)

@@ -6,8 +6,8 @@ from pydantic import Field, model_validator
 
 from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import require_one
+from mudline.language.keywords.contents import OpenBlock
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, STEP, STORED, Usual
 from mudline.language.keywords.values import Name, Names, Other, Real, Whole

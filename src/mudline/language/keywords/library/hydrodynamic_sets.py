@@ -6,8 +6,8 @@ from pydantic import Field
 
 from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import curve_points
+from mudline.language.keywords.contents import OpenBlock, OpenRecord
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import ADDED_MASS, ALONG_DRAG, ANY, DRAG, INERTIA, LIFT

@@ -7,8 +7,8 @@ from pydantic import BeforeValidator, Field
 
 from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import OLDER
+from mudline.language.keywords.contents import OpenRecord
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.keeping import OpenRecord
 from mudline.language.keywords.model import Block, ListRow, Record
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.usual import ANY, LIQUID, NOT_KNOWN, OF_A_KIND, Usual

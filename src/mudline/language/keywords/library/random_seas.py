@@ -6,8 +6,8 @@ from pydantic import model_validator
 
 from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Direction, require_one
+from mudline.language.keywords.contents import OpenBlock, OpenRecord
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import (
     ANY,

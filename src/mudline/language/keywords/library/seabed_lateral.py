@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationInfo, field_validator
 
 from mudline.language.keywords.assigning import Records
+from mudline.language.keywords.contents import OpenBlock
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.keeping import OpenBlock
 from mudline.language.keywords.model import Block, Record, Row, rows
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import (

@@ -3,8 +3,8 @@
 from typing import Annotated, Literal
 
 from mudline.language.keywords.assigning import Records
+from mudline.language.keywords.contents import OpenBlock, OpenRecord
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.keeping import OpenBlock, OpenRecord
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import (
     DIRECTION,

@@ -237,7 +237,8 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     sections = scene.section_table
     lacking = np.isnan(sections.diameter) & ~sections.faulty
-    if not np.count_nonzero(lacking):
+    holders = (scene.set_table.find(section.name) for section in sections.sections)
+    if not np.count_nonzero(lacking) or any(holder.faulty for holder in holders if holder):
         return
     for kind, _, extension, _ in scene.replaced:
         name = kind.name.lower()
