@@ -13,6 +13,7 @@ from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck.document import FORMAT, json_schema
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeStepping
+from mudline.language.keywords.library.fatigue import EnduranceCurve
 from mudline.language.keywords.library.floating_bodies import MatrixRow
 from mudline.language.keywords.library.geometric_sets import FORMATS_OF, GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
@@ -316,12 +317,31 @@ def _two_ranges(made: Values) -> st.SearchStrategy[Values]:
     return st.just(made | {"ranges": [{"start": 1, "end": 2}, {"start": 3, "end": "{a}"}]})
 
 
+@st.composite
+def _endurance_curve(draw: st.DrawFn, made: Values) -> Values:
+    """The rows of one form."""
+    slots = {slot.json: slot for slot in record_schema(EnduranceCurve).slots}
+    chosen = draw(st.sampled_from(["single", "segments", "points"]))
+    kind = "DATA PAIRS" if chosen == "points" else "LOG-LINEAR"
+    return {"curve": made["curve"], "type": kind, chosen: draw(given(slots[chosen]))}
+
+
+@st.composite
+def _buoy(draw: st.DrawFn, made: Values) -> Values:
+    """Three lines, or six."""
+    return made | {
+        "lines": [draw(st.lists(reals, min_size=3, max_size=3)) for _ in range(6 if "option" in made else 3)]
+    }
+
+
 ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "clear_element_sets": _two_ranges,
     "current_coeff": _moored_alone,
     "database": _database,
+    "endurance_curve": _endurance_curve,
     "geometric_set": _geometric_set,
     "jonswap_sea": _jonswap_sea,
+    "point_buoy_lines": _buoy,
     "ochi_hubble_sea": _sea_of(OchiHubbleSea),
     "torsethaugen_sea": _sea_of(TorsethaugenSea),
     "spectrum_by_points": _sea_of(SpectrumByPoints),
@@ -349,7 +369,7 @@ def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
         opens = index > 0 and slot is first and bool(slot.key)
         if slot in own_line or not (slot.required or opens or draw(st.booleans())):
             continue
-        if slot is found.table:
+        if slot in found.tables:
             made[slot.json] = draw(table(slot, fewest=0 if made and slot.required else 1))
         elif slot.record:
             made[slot.json] = draw(records(list(slot.record.values())))
@@ -372,7 +392,7 @@ def records(draw: st.DrawFn, kinds: list[type[Record]]) -> list[Values]:
     last: type[Record] | None = None
     for _ in range(draw(st.integers(0, 3))):
         kind = draw(st.sampled_from(kinds))
-        if kind is not last or record_schema(kind).slots[0] is not record_schema(kind).table:
+        if kind is not last or record_schema(kind).slots[0] not in record_schema(kind).tables:
             made.append(draw(record(kind, len(made))))
             last = kind
     return made

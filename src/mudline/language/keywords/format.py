@@ -84,8 +84,7 @@ def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
         lines = [slot for slot in schema.columns if slot.row]
         plain = [slot for slot in schema.columns if not slot.row and slot.about.older is not True]
         shapes += [record_schema(slot.row).layout for slot in lines if slot.row]
-        if schema.table and schema.table.row:
-            shapes.append(record_schema(schema.table.row).layout)
+        shapes += [record_schema(table.row).layout for table in schema.tables if table.row]
         if plain and not lines:
             shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
     return shapes

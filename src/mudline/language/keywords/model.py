@@ -346,14 +346,14 @@ class RecordSchema:
 
     columns: list[FieldSpec] = field(default_factory=list)
     keys: dict[str, FieldSpec] = field(default_factory=dict)
-    table: FieldSpec | None = None
+    tables: list[FieldSpec] = field(default_factory=list)
     children: dict[str, FieldSpec] = field(default_factory=dict)
     slots: list[FieldSpec] = field(default_factory=list)
 
     @cached_property
     def row_names(self) -> list[str]:
         """Names of the fields that a row can fill."""
-        return [slot.name for slot in (*self.columns, *([self.table] if self.table else []))]
+        return [slot.name for slot in (*self.columns, *self.tables)]
 
     @cached_property
     def fewest(self) -> int:
@@ -394,7 +394,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
         )
         schema.slots.append(slot)
         if isinstance(meta, Rows):
-            schema.table = slot
+            schema.tables.append(slot)
         elif isinstance(meta, Setting):
             schema.keys.setdefault(meta.key, slot)
         elif records:

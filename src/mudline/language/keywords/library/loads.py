@@ -174,7 +174,10 @@ class FluidSet(Record):
         about(
             "height of its free surface above the mudline",
             unit="L",
-            usual=Usual(high=300.0, why="no line rises higher", of="m above the water"),
+            usual=(
+                Usual(low=0.0, why="it is counted upwards from the mudline", remark=True),
+                Usual(high=300.0, why="no line rises higher", of="m above the water"),
+            ),
         ),
     ]
     density: Annotated[
@@ -192,7 +195,10 @@ class FluidSet(Record):
             "pressure above the hydrostatic one",
             unit="F/L2",
             default="0",
-            usual=Usual(-1e7, 3e8, "wells have up to 2000 bar"),
+            usual=(
+                Usual(-1e7, 3e8, "wells have up to 2000 bar"),
+                Usual(2e5, 3e8, "pipes are made for tens of bar", remark=True, also=(-1e7, 0.0)),
+            ),
         ),
     ] = None
     velocity: Annotated[
@@ -201,7 +207,11 @@ class FluidSet(Record):
             "velocity; a negative one turns the flow",
             unit="L/T",
             default="0",
-            usual=Usual(-100.0, 100.0, "faster flow erodes steel"),
+            usual=(
+                Usual(-100.0, 100.0, "faster flow erodes steel"),
+                Usual(-30.0, 30.0, "liquids flow at 5 m/s, gas at 20 (API RP 14E)", remark=True),
+                Usual(0.0, 0.0, "nothing flows", when="a fluid without density", remark=True),
+            ),
         ),
     ] = None
     fifth: Annotated[
