@@ -431,5 +431,7 @@ WEIGHED = {
     "times the weight of the pipe, or 100 N/m, at its largest force",
 }
 """Measures that depend on the weight of the pipe."""
+OF_POINTS = {"at the first point", "as the least slope"}
+"""Measures of single points of a curve."""
 OF_DEPTH = {"m above the water", "times the water depth"}
 """Measures that depend on the depth of the water."""

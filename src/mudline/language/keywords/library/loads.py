@@ -210,7 +210,7 @@ class FluidSet(Record):
             usual=(
                 Usual(-100.0, 100.0, "faster flow erodes steel"),
                 Usual(-30.0, 30.0, "liquids flow at 5 m/s, gas at 20 (API RP 14E)", remark=True),
-                Usual(0.0, 0.0, "nothing flows", when="a fluid without density", remark=True),
+                Usual(-0.001, 0.001, "nothing flows", when="a fluid without density", remark=True),
             ),
         ),
     ] = None

@@ -249,7 +249,7 @@ class HardeningModel(Record):
             "hardening curve",
             abscissa="strain",
             usual=(
-                Usual(0.0, 0.0, "there is no plastic strain before the metal yields", of="at the first point"),
+                Usual(high=0.0, why="there is no plastic strain before the metal yields", of="at the first point"),
                 Usual(low=0.0, why="metals harden", of="as the least slope"),
             ),
         ),
