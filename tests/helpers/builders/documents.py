@@ -13,7 +13,6 @@ from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck.document import FORMAT, json_schema
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeStepping
-from mudline.language.keywords.library.fatigue import EnduranceCurve
 from mudline.language.keywords.library.floating_bodies import MatrixRow
 from mudline.language.keywords.library.geometric_sets import FORMATS_OF, GeometricSet
 from mudline.language.keywords.library.preprocessor import VariedParameter
@@ -205,6 +204,7 @@ _OF_CHOICE: dict[str, tuple[str, dict[str, str]]] = {
     "flex_joint": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
     "label_line": ("thing", {"NODE": "node", "ELEMENT": "element"}),
     "matrix_type": ("type", {"CONSTANT": "matrix", "FREQUENCY": "frequencies", "CUTOFF": "matrix"}),
+    "endurance_curve": ("type", {"LOG-LINEAR": "segments", "DATA PAIRS": "points"}),
     "pip_curve": ("type", {"DATA PAIRS": "points", "POWER LAW": "law"}),
     "regular_wave": ("option", {"ONE": "wave", "MANY": "directed_band"}),
     "springs": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
@@ -232,7 +232,9 @@ def _of_one(draw: st.DrawFn, part: type[Record], made: Values) -> Values:
     if part.rule in _OF_CHOICE:
         key, fields = _OF_CHOICE[part.rule]
         choice = draw(st.sampled_from(sorted(fields)))
-        made = {name: value for name, value in made.items() if name not in ("band", *fields.values())} | {key: choice}
+        made = {name: value for name, value in made.items() if name not in ("band", "single", *fields.values())} | {
+            key: choice
+        }
         if fields[choice]:
             made[fields[choice]] = draw(given(slots[fields[choice]]))
     if part.rule in _ONE_OF:
@@ -317,28 +319,17 @@ def _two_ranges(made: Values) -> st.SearchStrategy[Values]:
     return st.just(made | {"ranges": [{"start": 1, "end": 2}, {"start": 3, "end": "{a}"}]})
 
 
-@st.composite
-def _endurance_curve(draw: st.DrawFn, made: Values) -> Values:
-    """The rows of one form."""
-    slots = {slot.json: slot for slot in record_schema(EnduranceCurve).slots}
-    chosen = draw(st.sampled_from(["single", "segments", "points"]))
-    kind = "DATA PAIRS" if chosen == "points" else "LOG-LINEAR"
-    return {"curve": made["curve"], "type": kind, chosen: draw(given(slots[chosen]))}
-
-
-@st.composite
-def _buoy(draw: st.DrawFn, made: Values) -> Values:
+def _buoy(made: Values) -> st.SearchStrategy[Values]:
     """Three lines, or six."""
-    return made | {
-        "lines": [draw(st.lists(reals, min_size=3, max_size=3)) for _ in range(6 if "option" in made else 3)]
-    }
+    count = 6 if "option" in made else 3
+    lines = st.lists(st.lists(reals, min_size=3, max_size=3), min_size=count, max_size=count)
+    return lines.map(lambda drawn: made | {"lines": drawn})
 
 
 ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "clear_element_sets": _two_ranges,
     "current_coeff": _moored_alone,
     "database": _database,
-    "endurance_curve": _endurance_curve,
     "geometric_set": _geometric_set,
     "jonswap_sea": _jonswap_sea,
     "point_buoy_lines": _buoy,

@@ -118,9 +118,12 @@ def range_text(about: FieldInfo) -> str:
     return f">= {about.at_least:g}" if about.at_least is not None else ""
 
 
+_SYMBOLS = {"gj": "GJ", "eiyy": "EIyy", "do": "Do", "di": "Di", "db": "Db", "do_end": "Doe", "first": "N1"}
+
+
 def _symbol(name: str) -> str:
-    """Return the symbol of a section's field: Do, but GJ."""
-    return name.capitalize() if name.startswith("d") else name.upper()
+    """Return the symbol of a field, or its name in words."""
+    return _SYMBOLS.get(name, name.replace("_", " "))
 
 
 def field_lines(part: type[Part], depth: int = 0) -> list[str]:

@@ -94,7 +94,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
-        thickness was subtracted from the wrong diameter. Correct Do or Di.
+        thickness was subtracted from the wrong diameter. Correct Do or Di. Both ends of a *TAPER are compared.
 
     Example on pipe:
         - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
