@@ -120,4 +120,5 @@ from mudline.language.keywords.library.vessels import Vessels as Vessels
 from mudline.language.keywords.library.floating_bodies import ViscousDrag as ViscousDrag
 from mudline.language.keywords.library.waves import WaveSpectrum as WaveSpectrum
 from mudline.language.keywords.library.waves import WaveTimeHistory as WaveTimeHistory
+from mudline.language.keywords.library.loads import Winches as Winches
 from mudline.language.keywords.library.floating_bodies import WindCoefficients as WindCoefficients

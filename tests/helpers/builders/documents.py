@@ -221,6 +221,7 @@ _ONE_OF: dict[str, tuple[str, ...]] = {
     "springs": ("element", "set"),
     "vessel_coefficients": ("file", "headings"),
     "vessel_rao": ("file", "headings", "lines"),
+    "winch_set": ("length", "file", "profile"),
 }
 """By the rule of a record: the fields of which it has one."""
 

@@ -113,6 +113,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("INTERNAL FLUID", "loads", "InternalFluid", ("LOAD CASE",), "loads", names=("SET",)),
     Entry("LOAD", "loads", "Loads", ("LOAD CASE",), "loads"),
     Entry("MOMENTS", "loads", "Moments", ("LOAD CASE",), "loads"),
+    Entry("WINCH", "loads", "Winches", ("LOAD CASE",), "loads", names=("FILE", "SET")),
     Entry("WIND COEFF", "floating_bodies", "WindCoefficients", ("LOAD CASE",), "loads", names=("BODY", "FILE")),
     Entry("CURRENT", "currents", "ShearCurrent", ("SHEAR7",), "loads"),
     Entry("WAVE-DEANS", "waves", "DeanWave", ("LOAD CASE",), "waves"),

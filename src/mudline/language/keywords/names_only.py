@@ -65,7 +65,6 @@ NAMES: dict[str, tuple[str, ...]] = {
             "TEMPERATURE",
             "WAVE-PIERSON MOSKOWITZ",
             "WAVE-PIERSON-MOSKOWITZ",
-            "WINCH",
             "WIND",
         ),
         (),
@@ -74,11 +73,11 @@ NAMES: dict[str, tuple[str, ...]] = {
 """Sections of each keyword; none if the keyword exists, but its section is not confirmed."""
 
 GIVES: dict[str, tuple[Gift, ...]] = {
-    **dict.fromkeys(("EQUIVALENT", "FLEX JOINTS", "PROPERTIES"), ("sections", "hydrodynamics")),
+    **dict.fromkeys(("FLEX JOINTS", "PROPERTIES"), ("sections", "hydrodynamics")),
     **dict.fromkeys(("DAMPER", "TENSIONER"), ("sections", "hydrodynamics", "supports")),
     **dict.fromkeys(("FLOATING BODY", "MOORED VESSEL"), ("hydrodynamics", "supports")),
-    "TOP TENSION": ("supports",),
-    **dict.fromkeys(("GUIDE", "WINCH"), ("elements", "sections", "hydrodynamics", "supports")),
+    **dict.fromkeys(("EQUIVALENT", "TOP TENSION"), ("supports",)),
+    "GUIDE": ("elements", "sections", "hydrodynamics", "supports"),
 }
 """Properties that each keyword may define, judged by its name, since its lines are unknown; other keywords none."""
 
