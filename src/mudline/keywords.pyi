@@ -23,6 +23,7 @@ from mudline.language.keywords.library.currents import Current as Current
 from mudline.language.keywords.library.floating_bodies import CurrentCoefficients as CurrentCoefficients
 from mudline.language.keywords.library.curvilinear import CurvilinearNodes as CurvilinearNodes
 from mudline.language.keywords.library.springs import DamperData as DamperData
+from mudline.language.keywords.library.damping import DampingFormulation as DampingFormulation
 from mudline.language.keywords.library.analysis import Database as Database
 from mudline.language.keywords.library.waves import DeanWave as DeanWave
 from mudline.language.keywords.library.attachments import DragChains as DragChains
@@ -33,7 +34,9 @@ from mudline.language.keywords.library.seabed_properties import ElasticSurface a
 from mudline.language.keywords.library.mesh import ElementSets as ElementSets
 from mudline.language.keywords.library.mesh import Elements as Elements
 from mudline.language.keywords.library.seabed_curves import Embedment as Embedment
+from mudline.language.keywords.library.fatigue import EnduranceCurves as EnduranceCurves
 from mudline.language.keywords.library.preprocessor import ExcelVariations as ExcelVariations
+from mudline.language.keywords.library.fatigue import FatigueData as FatigueData
 from mudline.language.keywords.library.springs import FlexJoints as FlexJoints
 from mudline.language.keywords.library.section_curves import ForceStrain as ForceStrain
 from mudline.language.keywords.library.geometric_sets import GeometricSets as GeometricSets
@@ -57,6 +60,7 @@ from mudline.language.keywords.library.vessels import Moonpools as Moonpools
 from mudline.language.keywords.library.springs import NodeSprings as NodeSprings
 from mudline.language.keywords.library.mesh import Nodes as Nodes
 from mudline.language.keywords.library.analysis import NonLinearStatic as NonLinearStatic
+from mudline.language.keywords.library.section_curves import NonlinearStiffener as NonlinearStiffener
 from mudline.language.keywords.library.ocean import Ocean as Ocean
 from mudline.language.keywords.library.random_seas import OchiHubbleSeas as OchiHubbleSeas
 from mudline.language.keywords.library.vessel_motions import Offsets as Offsets
@@ -70,6 +74,8 @@ from mudline.language.keywords.library.preprocessor import Parameters as Paramet
 from mudline.language.keywords.library.pipe_in_pipe import PipConnections as PipConnections
 from mudline.language.keywords.library.pipe_in_pipe import PipSections as PipSections
 from mudline.language.keywords.library.pipe_in_pipe import PipStiffness as PipStiffness
+from mudline.language.keywords.library.section_curves import PlasticHardening as PlasticHardening
+from mudline.language.keywords.library.attachments import PointBuoys as PointBuoys
 from mudline.language.keywords.library.postprocessing import PostSets as PostSets
 from mudline.language.keywords.library.floating_bodies import RadiationDamping as RadiationDamping
 from mudline.language.keywords.library.vessel_motions import Raos as Raos
@@ -88,6 +94,7 @@ from mudline.language.keywords.library.seabed_curves import SeabedStiffness as S
 from mudline.language.keywords.library.seabed_normal import SeabedSuction as SeabedSuction
 from mudline.language.keywords.library.seabed_lateral import SeabedTrench as SeabedTrench
 from mudline.language.keywords.library.seabed_normal import SeabedUnloading as SeabedUnloading
+from mudline.language.keywords.library.fatigue import SeastateFiles as SeastateFiles
 from mudline.language.keywords.library.currents import ShearCurrent as ShearCurrent
 from mudline.language.keywords.library.postprocessing import SourceType as SourceType
 from mudline.language.keywords.library.random_seas import SpectraByPoints as SpectraByPoints
@@ -96,6 +103,7 @@ from mudline.language.keywords.library.waves import StokesWave as StokesWave
 from mudline.language.keywords.library.postprocessing import StressProperties as StressProperties
 from mudline.language.keywords.library.section_curves import StressStrain as StressStrain
 from mudline.language.keywords.library.summary import SummaryTime as SummaryTime
+from mudline.language.keywords.library.tapered_joints import TaperedJoints as TaperedJoints
 from mudline.language.keywords.library.postprocessing import TimeDomainOptions as TimeDomainOptions
 from mudline.language.keywords.library.analysis import TimeSpan as TimeSpan
 from mudline.language.keywords.library.analysis import TimeStepping as TimeStepping
@@ -112,4 +120,5 @@ from mudline.language.keywords.library.vessels import Vessels as Vessels
 from mudline.language.keywords.library.floating_bodies import ViscousDrag as ViscousDrag
 from mudline.language.keywords.library.waves import WaveSpectrum as WaveSpectrum
 from mudline.language.keywords.library.waves import WaveTimeHistory as WaveTimeHistory
+from mudline.language.keywords.library.loads import Winches as Winches
 from mudline.language.keywords.library.floating_bodies import WindCoefficients as WindCoefficients

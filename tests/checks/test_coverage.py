@@ -73,6 +73,15 @@ def test_inner_pipes_need_no_coefficients() -> None:
     assert found(deck.format("*PIP SECTION\n OUTER=A, INNER=B\n"), "GEO008") == []
 
 
+def test_a_tapered_joint_has_no_other_section() -> None:
+    joint = "*TAPER\n SET=B\n 207.0E9, 79.6E9, 7850.0, 0.2731, 0.3239, 0.4\n"
+    alone = sections("1, 3", "4, 5").replace(f" SET=B\n{STEEL}", "")
+    assert found(alone + joint + HELD, "GEO006", "GEO007", "GEO013") == []
+    assert found(alone.replace("1, 3", "1, 4") + joint + HELD, "GEO013") == [("GEO013", 19, 6)]
+    whole = alone.replace(" SET=A\n 207", " SET=ALL\n 207")
+    assert "it is of *GEOMETRIC SETS, and which holds is open" in messages(whole + joint, "GEO013")[0]
+
+
 def test_a_joint_needs_no_section() -> None:
     deck = sections("1, 2", "3, 4") + "*FLEXJOINT\n ELEMENT=5\n TYPE=LINEAR\n 9.0E3\n" + HELD
     assert found(deck, "GEO007") == []

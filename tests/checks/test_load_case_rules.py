@@ -112,6 +112,7 @@ def test_static_steps() -> None:
 LINE = "$MODEL\n*NODE\n 1, 50.0, 0.0\n 4, 50.0, 30.0\n GEN=1, 4\n*ELEMENT\n 1, 1, 2\n GEN=1, 3\n"
 SETS = "*ELEMENT SETS\n SET=Part\n 1, 2\n"
 PARTS = LINE + SETS + STEEL.replace("SET=ALL", "SET=Part")
+JOINT = "*TAPER\n SET=Joint\n 2.07E11, 7.96E10, 7850.0, 0.2731, 0.3239, 0.4064\n"
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n 4, 1\n"
 
 
@@ -122,7 +123,8 @@ def test_elements_without_a_section() -> None:
         HELD,
         LINE + HELD,  # none has a section
         PARTS + "*HINGE\n 3\n" + HELD,
-        PARTS + "*TAPER\n 3\n" + HELD,
+        PARTS + "*DAMPER\n 3\n" + HELD,
+        PARTS.replace("*GEO", " SET=Joint\n 3\n*GEO") + JOINT + HELD,
         PARTS + "*UNHEARD OF\n 3\n" + HELD,
         PARTS.replace("1, 2\n*GEO", "1, 2, 3\n*GEO") + HELD,
         PARTS + HELD + "*RESTART\n LAST=static\n",

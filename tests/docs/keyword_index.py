@@ -41,8 +41,8 @@ These are known by name, and their lines are kept unchanged. In another section 
 | --- | --- |
 {passing}
 
-They were looked for once more on 2026-11-28, in stored copies of the manual's public pages, by the name that the page
-of each would have (`kwd_loadcase_temperature` and the like):
+They were looked for once more on 2026-11-28, in stored copies of the manual's public pages: by the name that the page
+of each would have (`kwd_loadcase_temperature` and the like), and by what it would say:
 
 | outcome | keywords |
 | --- | --- |
@@ -58,26 +58,20 @@ our reading of what the language leaves open; each page ends with a list.
 
 
 LOOKED_UP = {
-    "page found, with the form of its lines; not read yet": ("PLASTIC HARDENING", "S-N CURVE", "TAPER"),
+    "page found, with the form of its lines; not read yet": ("SLUGS",),
     "page found; its lines are requests of plots, from which nothing is computed here": (
         *("SPECTRUM", "RAO", "TIMETRACE"),  # of postprocessing, and of a load case
     ),
     "named by pages about theory, without the form of their lines": (
-        *(
-            "COATINGS",
-            "DAMPING",
-            "EQUIVALENT",
-            "FATIGUE DATA",
-            "IDENTIFY",
-            "OUTPUT FILES",
-            "PARA ANGLE TENSION",
-            "PLOT",
-        ),
-        *("SEASTATE FILES", "SLUGS", "SNAPSHOT", "STANDARD OUTPUT", "STATISTICS", "WAVE-PIERSON-MOSKOWITZ"),
+        *("COATINGS", "DAMPING", "EQUIVALENT", "FLOATING BODY", "HOT SPOT SETS", "IDENTIFY", "MOORED VESSEL"),
+        *("OUTPUT FILES", "PARA ANGLE TENSION", "PLOT", "POISSON", "REGULAR WAVE EQUIVALENT", "SNAPSHOT"),
+        *("STANDARD OUTPUT", "STATISTICS", "STIFFENER", "STRESS/STRAIN", "WAVE-PIERSON-MOSKOWITZ", "WIND"),
     ),
-    "nothing found": (*("DAMPER", "FLOATING BODY", "GUIDE", "POINT BUOY", "POISSON", "TEMPERATURE", "WINCH"),),
+    "nothing found": (
+        *("DAMPER", "FLEX JOINTS", "GUIDE", "PANEL SECTIONS,AUXILIARY", "RAO FORMAT", "TEMPERATURE", "TENSIONER"),
+    ),
     "no page of the manual, but a public reader of `.das` decks": (
-        *("DIRECTORY", "DRIFT-OFF LIMITS", "DRILLING MUD", "TIME,DISCONNECT", "TOP TENSION", "WAVE", "WIND"),
+        *("DIRECTORY", "DRIFT-OFF LIMITS", "DRILLING MUD", "TIME,DISCONNECT", "TOP TENSION", "WAVE"),
     ),
 }
 """What a search for the pages of the keywords that pass through has shown."""

@@ -97,11 +97,11 @@ def test_points_of_a_profile_in_a_file(tmp_path: Path, changed: bool) -> None:
 
 
 def test_blocks_without_a_model_compare_by_their_lines() -> None:
-    text = "*TAPER\n VESSEL=FPSO\nC a comment\n INITIAL POSITION=0, 0, 0\n"
+    text = "*DAMPER\n VESSEL=FPSO\nC a comment\n INITIAL POSITION=0, 0, 0\n"
     assert between(text, text.replace("C a comment\n", "\n").replace(" VESSEL", "  VESSEL")) == []
     assert between(text, text.replace("0, 0, 0", "0, 0, 5")) == [
-        ("*TAPER/lines", "INITIAL POSITION=0, 0, 0", None),
-        ("*TAPER/lines", None, "INITIAL POSITION=0, 0, 5"),
+        ("*DAMPER/lines", "INITIAL POSITION=0, 0, 0", None),
+        ("*DAMPER/lines", None, "INITIAL POSITION=0, 0, 5"),
     ]
     assert ("before the first section/lines", "TITLE", None) in brief(
         differences("TITLE\n" + ordered_deck(), ordered_deck())
@@ -111,7 +111,7 @@ def test_blocks_without_a_model_compare_by_their_lines() -> None:
 def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> None:
     lines = [f" {number}, {number}\n" for number in range(3000)]
     changed = ["C\n", *lines[:10], " new\n", *reversed(lines[10:2990]), *lines[2990:]]
-    found = differences(ordered_deck() + "*TAPER\n" + "".join(lines), ordered_deck() + "*TAPER\n" + "".join(changed))
+    found = differences(ordered_deck() + "*DAMPER\n" + "".join(lines), ordered_deck() + "*DAMPER\n" + "".join(changed))
     assert {one.kind for one in found} == {"added", "removed"}
     assert len(found) == 2 * 2980 + 1
 

@@ -204,6 +204,7 @@ _OF_CHOICE: dict[str, tuple[str, dict[str, str]]] = {
     "flex_joint": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
     "label_line": ("thing", {"NODE": "node", "ELEMENT": "element"}),
     "matrix_type": ("type", {"CONSTANT": "matrix", "FREQUENCY": "frequencies", "CUTOFF": "matrix"}),
+    "endurance_curve": ("type", {"LOG-LINEAR": "segments", "DATA PAIRS": "points"}),
     "pip_curve": ("type", {"DATA PAIRS": "points", "POWER LAW": "law"}),
     "regular_wave": ("option", {"ONE": "wave", "MANY": "directed_band"}),
     "springs": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
@@ -220,6 +221,7 @@ _ONE_OF: dict[str, tuple[str, ...]] = {
     "springs": ("element", "set"),
     "vessel_coefficients": ("file", "headings"),
     "vessel_rao": ("file", "headings", "lines"),
+    "winch_set": ("length", "file", "profile"),
 }
 """By the rule of a record: the fields of which it has one."""
 
@@ -231,7 +233,9 @@ def _of_one(draw: st.DrawFn, part: type[Record], made: Values) -> Values:
     if part.rule in _OF_CHOICE:
         key, fields = _OF_CHOICE[part.rule]
         choice = draw(st.sampled_from(sorted(fields)))
-        made = {name: value for name, value in made.items() if name not in ("band", *fields.values())} | {key: choice}
+        made = {name: value for name, value in made.items() if name not in ("band", "single", *fields.values())} | {
+            key: choice
+        }
         if fields[choice]:
             made[fields[choice]] = draw(given(slots[fields[choice]]))
     if part.rule in _ONE_OF:
@@ -316,12 +320,20 @@ def _two_ranges(made: Values) -> st.SearchStrategy[Values]:
     return st.just(made | {"ranges": [{"start": 1, "end": 2}, {"start": 3, "end": "{a}"}]})
 
 
+def _buoy(made: Values) -> st.SearchStrategy[Values]:
+    """Three lines, or six."""
+    count = 6 if "option" in made else 3
+    lines = st.lists(st.lists(reals, min_size=3, max_size=3), min_size=count, max_size=count)
+    return lines.map(lambda drawn: made | {"lines": drawn})
+
+
 ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "clear_element_sets": _two_ranges,
     "current_coeff": _moored_alone,
     "database": _database,
     "geometric_set": _geometric_set,
     "jonswap_sea": _jonswap_sea,
+    "point_buoy_lines": _buoy,
     "ochi_hubble_sea": _sea_of(OchiHubbleSea),
     "torsethaugen_sea": _sea_of(TorsethaugenSea),
     "spectrum_by_points": _sea_of(SpectrumByPoints),
@@ -349,7 +361,7 @@ def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
         opens = index > 0 and slot is first and bool(slot.key)
         if slot in own_line or not (slot.required or opens or draw(st.booleans())):
             continue
-        if slot is found.table:
+        if slot in found.tables:
             made[slot.json] = draw(table(slot, fewest=0 if made and slot.required else 1))
         elif slot.record:
             made[slot.json] = draw(records(list(slot.record.values())))
@@ -372,7 +384,7 @@ def records(draw: st.DrawFn, kinds: list[type[Record]]) -> list[Values]:
     last: type[Record] | None = None
     for _ in range(draw(st.integers(0, 3))):
         kind = draw(st.sampled_from(kinds))
-        if kind is not last or record_schema(kind).slots[0] is not record_schema(kind).table:
+        if kind is not last or record_schema(kind).slots[0] not in record_schema(kind).tables:
             made.append(draw(record(kind, len(made))))
             last = kind
     return made

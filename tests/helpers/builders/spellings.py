@@ -21,8 +21,9 @@ texts = st.text(PLAIN, max_size=12)
 
 
 def no_head(text: str) -> str:
-    """A text as a line that begins no section and no keyword, which characters that nobody sees would not prevent."""
-    return f"x{text}" if text.lstrip(f" \t{CONTROLS}")[:1] in ("$", "*") else text
+    """A text as a line that begins no section, no keyword (unseen characters prevent neither) and no merge conflict."""
+    begins = text.lstrip(f" \t{CONTROLS}")[:1] in ("$", "*") or text.startswith(("<<<<<<<", ">>>>>>>"))
+    return f"x{text}" if begins else text
 
 
 def _spelled(value: float, spelling: str) -> str:

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from mudline.model.scene.sections import stiffnesses
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import all_reported, reported, scene_of
 
@@ -32,6 +33,33 @@ def diameters(lines: str) -> list[float | None]:
 )
 def test_the_diameter_of_each_format(lines: str, diameter: float) -> None:
     assert diameters(lines) == [diameter] * 10
+
+
+JOINT = "*TAPER\n SET=b\n 2.0E11, 8.0E10, 7850.0, 0.2, 0.3, 0.4"
+
+
+def test_the_elements_of_a_joint_have_the_diameters_at_their_middles() -> None:
+    scene = scene_of(SETS + "*OCEAN\n 9.0, 1025.0, 9.81\n" + JOINT + "\n")
+    assert scene.diameter[3:8].tolist() == pytest.approx([0.31, 0.33, 0.35, 0.37, 0.39])
+    assert scene.mass_per_length[3] == pytest.approx(7850.0 * math.pi / 4 * (0.31**2 - 0.2**2))
+    stiffness = stiffnesses(scene.deck, scene.section_table.sections[0])
+    assert stiffness.bending == pytest.approx(2.0e11 * math.pi / 64 * (0.31**4 - 0.2**4))
+    assert stiffness.torsion == pytest.approx(8.0e10 * math.pi / 32 * (0.31**4 - 0.2**4))
+    buoyant = scene_of(SETS + "*OCEAN\n 9.0, 1025.0, 9.81\n" + JOINT + ", 0.3, 0.5, 0.6\n")
+    bore, lift = 0.21, 0.51
+    assert buoyant.submerged_weight[3] == pytest.approx(
+        9.81 * math.pi / 4 * (7850.0 * (0.31**2 - bore**2) - 1025.0 * lift**2)
+    )
+
+
+def test_a_joint_begins_where_its_set_begins_and_wins() -> None:
+    listed = SETS.replace(" GEN=4, 8", " 8, 7, 6\n 5, 4")
+    steel = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.25, 0.2, 7850.0\n"
+    found = scene_of(listed + JOINT + "\n" + steel).diameter.tolist()
+    assert found[3:8] == pytest.approx([0.39, 0.37, 0.35, 0.33, 0.31])
+    assert set(found[:3] + found[8:]) == {0.25}
+    nested = SETS + " SET=c\n SUBSET=b\n" + JOINT.replace("SET=b", "SET=c") + "\n"
+    assert scene_of(nested).diameter[3:8].tolist() == pytest.approx([0.31, 0.33, 0.35, 0.37, 0.39])
 
 
 def test_drag_diameter_counts_only_for_flexible() -> None:

@@ -206,7 +206,7 @@ def _defined_by(section: str, keyword: str) -> frozenset[Names]:
 
 def _of_whole_numbers(declared: type[Block]) -> bool:
     """Return True if every required value in the rows of a keyword is a whole number."""
-    tables = [schema.table.row for schema in schemas_of(declared) if schema.table and schema.table.row]
+    tables = [table.row for schema in schemas_of(declared) for table in schema.tables if table.row]
     columns = [slot for row in tables for slot in record_schema(row).columns if slot.required]
     return bool(columns) and all(slot.kind in (Kind.WHOLE, Kind.IDENT) for slot in columns)
 
@@ -273,7 +273,7 @@ def _key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
     """Return the setting above the points of a curve that names it, and the kind of the name; "" for other keywords."""
     for slot in record_schema(declared).slots:
         for record in map(record_schema, slot.record.values()):
-            about = record.slots[0].about if record.table and record.slots else None
+            about = record.slots[0].about if record.tables and record.slots else None
             if isinstance(about, Setting) and (kind := about.names or about.defines):
                 return about.key, kind
     return "", None

@@ -42,7 +42,8 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
 
     The later line holds for the elements that both sets have. A set that refines a larger one given before it is usual,
     and not reported; sets that overlap in part are mostly a wrong end of a range. Correct the sets. A set that is given
-    twice is reported as REF022, and seabed properties as SBD008.
+    twice is reported as REF022, and seabed properties as SBD008. The elements of a *TAPER have no line in
+    *GEOMETRIC SETS.
 
     Example on sets:
           SET=Riser
@@ -63,15 +64,22 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     count = len(scene.element_ids)
     blocks = scene.deck.blocks_with("gives")
     reported: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
-    for keyword in dict.fromkeys(block.keyword for _, block in blocks):
-        places = [(where, scene.set_table.find(entry.set_name)) for where, entry in _named(context, keyword)]
-        known = [(where, set_) for where, set_ in places if set_ is not None and set_.elements.size]
-        for earlier, later, elements in overlaps([set_ for _, set_ in known], count):
-            first, (where, second) = known[earlier][1], known[later]
-            if within(first, second, count) or within(second, first, count) or first.open or second.open:
+    for gives in dict.fromkeys(block.facts.gives for _, block in blocks):
+        giving = dict.fromkeys(block.keyword for _, block in blocks if block.facts.gives == gives)
+        places = [
+            (keyword, where, scene.set_table.find(entry.set_name))
+            for keyword in giving
+            for where, entry in _named(context, keyword)
+        ]
+        known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
+        for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
+            (before, _, first), (keyword, where, second) = known[earlier], known[later]
+            refined = before == keyword and (within(first, second, count) or within(second, first, count))
+            if refined or first.open or second.open:
                 continue
             which = first_of("element", scene.element_ids[elements.min()], elements.size)
-            words = f"{which} the values of SET={shown(first.name)}: this line holds for them"
+            holds = "this line holds for them" if before == keyword else f"it is of *{before}, and which holds is open"
+            words = f"{which} the values of SET={shown(first.name)}: {holds}"
             pair = frozenset((first.name, second.name))
             reported.setdefault(pair, (words, where.inside("set"), []))[2].append(f"*{keyword}")
     for words, where, keywords in reported.values():

@@ -14,7 +14,7 @@ from mudline.checks.rules.coordinates import UNT006
 from mudline.checks.rules.unusual import UNT004, UNT005
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded, name_key
-from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.text import shown
@@ -260,11 +260,11 @@ def _passed_through(scene: Scene) -> set[str]:
 
 def _repeated(sections: Iterable[Section]) -> list[Section]:
     """Return the sections of sets that already have a section."""
-    known: set[str] = set()
+    known: dict[str, Where] = {}
     repeated: list[Section] = []
     for section in sections:
         name = name_key(section.name)
-        if name in known:
+        if known.get(name, section.where) != section.where:  # a tapered joint has a section for each element
             repeated.append(section)
-        known.add(name)
+        known[name] = section.where
     return repeated

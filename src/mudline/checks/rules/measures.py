@@ -201,6 +201,7 @@ CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
     "a metal": _metal,
     "a wall without an area of its own": lambda of: math.isnan(of("area")),
     "unknown units": lambda of: not of.units.known,
+    "a fluid without density": lambda of: of("density") == 0.0,
     "a fluid without pressure": lambda of: not of("pressure") > 0.0,
     "a spreading exponent": lambda of: of("exponent") > 0.0,
     "waves in the time domain": _waves_in_time,
@@ -384,6 +385,15 @@ def _as_stiffness(of: Numbers, _name: str, _value: float) -> float:
     return over(force, apart) if force > 0.0 else math.nan
 
 
+def _least_slope(of: Numbers, _name: str, _value: float) -> float:
+    """Return the least slope between neighbouring points of a curve, in SI."""
+    points = _points(of)
+    if points is None:
+        return math.nan
+    rise, run = np.diff(points[np.argsort(points[:, 0], kind="stable")], axis=0).T[::-1]
+    return float(np.min(rise[run > 0.0] / run[run > 0.0], initial=math.inf))
+
+
 def _skin_strain(of: Numbers, _name: str, _value: float) -> float:
     """Return the largest curvature of a curve times the radius of the widest pipe that has it."""
     points, name = _points(of), getattr(of.part, "curve", None)
@@ -440,10 +450,14 @@ MEASURES: Mapping[str, Callable[[Numbers, str, float], float]] = {
     "times the weight of the pipe, or 100 N/m, at its largest force": _times_weight,
     "times the diameter of the pipe": _times_pipe,
     "as a stiffness": _as_stiffness,
+    "as the least slope": _least_slope,
+    "at the first point": lambda of, *_: math.nan if (points := _points(of)) is None else float(points[0, 0]),
     "times the inverse radius of the pipe, at its end": _skin_strain,
     "times the weight of the soil above and the diameter": _times_soil,
 }
 WEIGHED = {BED[1].of, CURVE_FORCE.of}
 """Measures that depend on the weight of the pipe."""
+OF_POINTS = {"at the first point", "as the least slope"}
+"""Measures of single points of a curve."""
 OF_DEPTH = {"m above the water", "times the water depth"}
 """Measures that depend on the depth of the water."""

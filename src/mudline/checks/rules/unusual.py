@@ -15,7 +15,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.coordinates import UNT006, height_over_depth
-from mudline.checks.rules.measures import OF_DEPTH, WEIGHED, Numbers
+from mudline.checks.rules.measures import OF_DEPTH, OF_POINTS, WEIGHED, Numbers
 from mudline.checks.rules.references import operator_files
 from mudline.checks.unit_slips import DeckUnits, lacks_point, likely_slips, units_of
 from mudline.language.codes.fields import SYN015
@@ -247,6 +247,8 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     """Return the advice on a whole curve: exchange its columns, or write its ordinates in another unit."""
     columns = record_schema(cast("type[Part]", slot.row)).columns
     over, ordinate = (columns[axis] for axis in cast("Rows", slot.about).axes)
+    if usual.of in OF_POINTS:
+        return "correct its points"
     if usual is BENT:
         return f"write {over.label} in{of.units.behind(over.about.unit)}"
     quantity = of.quantity(slot, usual, math.nan)

@@ -72,8 +72,9 @@ class Builder:
                 row_number += 1
             else:
                 self._settings(built, child)
-        if schema.table and schema.table.required:
-            built.tables.setdefault(schema.table.json, TableBuilder(schema.table.columns))
+        for slot in schema.tables:
+            if slot.required:
+                built.tables.setdefault(slot.json, TableBuilder(slot.columns))
         for name, table in built.tables.items():
             built.values[name] = table.finish()
         return built
@@ -230,12 +231,12 @@ class Builder:
             built.reach(start)
             return
         behind: list[FieldGroup] = []
-        if schema.table and not schema.columns:
-            slot, fields = schema.table, list[Field]()
+        if schema.tables and len(schema.row_names) == 1:
+            slot, fields = schema.tables[0], list[Field]()
         else:
             fields, behind = self._cut(built, content.span, keys=bool(schema.keys))
             slot = self._slot_of_row(built, number, len(fields), last)
-        if slot is schema.table:
+        if slot in schema.tables:
             builder = built.tables.setdefault(slot.json, TableBuilder(slot.columns))
             table, faulty = builder.add(self.text, content.span)
             count = len(table)
@@ -287,7 +288,7 @@ class Builder:
         """Return the field that a row fills, or the first of several."""
         schema = record_schema(built.part)
         if len(schema.row_names) == 1:
-            return schema.columns[0] if schema.columns else cast("FieldSpec", schema.table)
+            return [*schema.columns, *schema.tables][0]
         name = built.part.row_slot(number, count, built.known, last)
         return next(slot for slot in schema.slots if slot.name == name)
 

@@ -84,8 +84,7 @@ def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
         lines = [slot for slot in schema.columns if slot.row]
         plain = [slot for slot in schema.columns if not slot.row and slot.about.older is not True]
         shapes += [record_schema(slot.row).layout for slot in lines if slot.row]
-        if schema.table and schema.table.row:
-            shapes.append(record_schema(schema.table.row).layout)
+        shapes += [record_schema(table.row).layout for table in schema.tables if table.row]
         if plain and not lines:
             shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
     return shapes
@@ -119,9 +118,12 @@ def range_text(about: FieldInfo) -> str:
     return f">= {about.at_least:g}" if about.at_least is not None else ""
 
 
+_SYMBOLS = {"gj": "GJ", "eiyy": "EIyy", "do": "Do", "di": "Di", "db": "Db", "do_end": "Doe", "first": "N1"}
+
+
 def _symbol(name: str) -> str:
-    """Return the symbol of a section's field: Do, but GJ."""
-    return name.capitalize() if name.startswith("d") else name.upper()
+    """Return the symbol of a field, or its name in words."""
+    return _SYMBOLS.get(name, name.replace("_", " "))
 
 
 def field_lines(part: type[Part], depth: int = 0) -> list[str]:

@@ -347,14 +347,14 @@ class RecordSchema:
 
     columns: list[FieldSpec] = field(default_factory=list)
     keys: dict[str, FieldSpec] = field(default_factory=dict)
-    table: FieldSpec | None = None
+    tables: list[FieldSpec] = field(default_factory=list)
     children: dict[str, FieldSpec] = field(default_factory=dict)
     slots: list[FieldSpec] = field(default_factory=list)
 
     @cached_property
     def row_names(self) -> list[str]:
         """Names of the fields that a row can fill."""
-        return [slot.name for slot in (*self.columns, *([self.table] if self.table else []))]
+        return [slot.name for slot in (*self.columns, *self.tables)]
 
     @cached_property
     def fewest(self) -> int:
@@ -396,7 +396,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
         )
         schema.slots.append(slot)
         if isinstance(about, Rows):
-            schema.table = slot
+            schema.tables.append(slot)
         elif isinstance(about, Setting):
             schema.keys.setdefault(about.key, slot)
         elif records:

@@ -24,6 +24,7 @@ NAMES: dict[str, tuple[str, ...]] = {
             "DIRECTORY",
             "DRIFT-OFF LIMITS",
             "DRILLING MUD",
+            "SLUGS",
             "TIME,DISCONNECT",
             "TIMETRACE",
             "TOP TENSION",
@@ -44,6 +45,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         ),
         _POST,
     ),
+    "HOT SPOT SETS": ("LIFETIME FATIGUE",),
     "PARA ANGLE TENSION": ("SUMMARY POSTPROCESSING",),
     **dict.fromkeys(("IDENTIFY", "PLOT"), ("SUMMARY COLLATE",)),
     **dict.fromkeys(
@@ -52,22 +54,17 @@ NAMES: dict[str, tuple[str, ...]] = {
             "DAMPER",
             "DAMPING",
             "EQUIVALENT",
-            "FATIGUE DATA",
             "FLEX JOINTS",
             "FLOATING BODY",
             "GUIDE",
-            "PLASTIC HARDENING",
-            "POINT BUOY",
+            "MOORED VESSEL",
             "POISSON",
             "RAO FORMAT",
-            "S-N CURVE",
-            "SEASTATE FILES",
-            "SLUGS",
-            "TAPER",
+            "REGULAR WAVE EQUIVALENT",
+            "STIFFENER",
             "TEMPERATURE",
             "WAVE-PIERSON MOSKOWITZ",
             "WAVE-PIERSON-MOSKOWITZ",
-            "WINCH",
             "WIND",
         ),
         (),
@@ -76,12 +73,11 @@ NAMES: dict[str, tuple[str, ...]] = {
 """Sections of each keyword; none if the keyword exists, but its section is not confirmed."""
 
 GIVES: dict[str, tuple[Gift, ...]] = {
-    **dict.fromkeys(("EQUIVALENT", "FLEX JOINTS", "PROPERTIES"), ("sections", "hydrodynamics")),
+    **dict.fromkeys(("FLEX JOINTS", "PROPERTIES"), ("sections", "hydrodynamics")),
     **dict.fromkeys(("DAMPER", "TENSIONER"), ("sections", "hydrodynamics", "supports")),
-    **dict.fromkeys(("FLOATING BODY", "POINT BUOY"), ("hydrodynamics", "supports")),
-    "TAPER": ("sections",),
-    "TOP TENSION": ("supports",),
-    **dict.fromkeys(("GUIDE", "WINCH"), ("elements", "sections", "hydrodynamics", "supports")),
+    **dict.fromkeys(("FLOATING BODY", "MOORED VESSEL"), ("hydrodynamics", "supports")),
+    **dict.fromkeys(("EQUIVALENT", "TOP TENSION"), ("supports",)),
+    "GUIDE": ("elements", "sections", "hydrodynamics", "supports"),
 }
 """Properties that each keyword may define, judged by its name, since its lines are unknown; other keywords none."""
 

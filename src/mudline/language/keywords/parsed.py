@@ -143,7 +143,7 @@ def construct(built: ParsedRecord) -> Part:
             inner = [construct(child) for child in built.children.get(slot.json, [])]
             ready[slot.name] = Partly(inner) if built.unsure else inner
         elif slot.json not in built.values:
-            unknown = slot.required or (built.unsure and slot is not record_schema(built.part).table)
+            unknown = slot.required or (built.unsure and slot not in record_schema(built.part).tables)
             ready[slot.name] = _known(slot, UNKNOWN) if unknown else None
         elif slot.row and isinstance(value, list):
             columns = record_schema(slot.row).columns

@@ -80,6 +80,7 @@ _SIZE = partial(Usual, code="UNT006")
 WIDTH = _SIZE(high=60.0, why="the hull of a spar has 37 m", typical=0.3, within=8.0)
 BORE = Usual(high=1.0, why="it is inside", of="/outer")
 PIPE_WALL = _SIZE(high=2.0, why="with a wall above 90 mm", when="a thick steel pipe", typical=0.3, within=8.0)
+STEEL_BORE = _SIZE(low=0.1, why="a smaller bore is a wall thickness", of="/do", when="a steel pipe")
 MASS_WIDTH = _SIZE(
     0.18,
     3.2,
@@ -92,7 +93,13 @@ DRAG_WIDTH = Usual(high=8.0, why="else one is in another unit", of="/db", remark
 BENDING = (
     Usual(high=1.0, why="a thin tube has 1/8", of="times EA Do2"),
     Usual(low=1e-4, why="flexible pipes have 1/100, steel 1.3", of="/gj", remark=True),
+    Usual(low=1e-5, why="flexible pipes have 1E-3, ropes 1E-5", of="times EA Do2", remark=True, placeholder=True),
 )
+STRETCH = (
+    Usual(low=100.0, why="rubber has 1E3", of="/mass"),
+    Usual(1e4, 3e8, "chain has 4E6, steel 2.6E7, carbon 2E8", of="/mass", remark=True, placeholder=True),
+)
+"""EA over mass: the square of the speed of sound along a line."""
 
 ROUND = Usual(0.01, 100.0, "most lines are round", of="/eiyy", remark=True)
 

@@ -225,6 +225,7 @@ class Names(Enum):
     DRAG_LIFT = "a drag lift curve"
     PIP_STIFFNESS = "a stiffness of pipe-in-pipe connections"
     S_N_CURVE = "an S-N curve"
+    HARDENING = "a plastic hardening model"
     VARIABLE = "an output variable"
 
     __hash__ = object.__hash__  # that of `Enum` is slow Python, and names are looked up by kind

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 CURVES = frozenset(
     {
         *(Names.MOMENT_CURVATURE, Names.FORCE_STRAIN, Names.TORQUE_TWIST, Names.STRESS_STRAIN),
-        *(Names.DAMPER, Names.DRAG_LIFT, Names.PIP_STIFFNESS, Names.S_N_CURVE),
+        *(Names.DAMPER, Names.DRAG_LIFT, Names.PIP_STIFFNESS, Names.S_N_CURVE, Names.HARDENING),
     }
 )
 """Kinds of curves except those of a seabed."""

@@ -1,15 +1,15 @@
-"""Sections: the `*GEOMETRIC SETS` entry of each element; its external diameter, mass and submerged weight."""
+"""Sections: the entry of `*GEOMETRIC SETS` or `*TAPER` of each element; its diameter, mass and submerged weight."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
@@ -20,6 +20,8 @@ from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.language.keywords.library.mesh import ElementSets, SetGenerate, SetList
+    from mudline.language.keywords.library.tapered_joints import TaperedJoint, TaperedJoints
     from mudline.language.keywords.model import Part
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
@@ -28,14 +30,14 @@ _FORMATS = ("flexible", "rigid", "mooring", "truss")
 
 
 class Section(NamedTuple):
-    """Entry of `*GEOMETRIC SETS`.
+    """Entry of `*GEOMETRIC SETS`, or the part of a tapered joint that an element is.
 
     name: name of its set.
     diameter: external diameter, NaN if there is none, or none that can be used.
     source: "Do" or "Dd".
     where: place of the entry.
     faulty: the diameter could not be read or is out of range, which is reported.
-    entry: the entry itself.
+    entry: the entry itself; of a joint, one with the diameters at the middle of its element.
     """
 
     name: str
@@ -70,9 +72,12 @@ class SectionTable(NamedTuple):
 
 
 def read_sections(
-    context: Context, sets: Sets, elements: Numbered, external: ExternalElements | None = None
+    context: Context, sets: Sets, elements: Numbered, length: Floats, external: ExternalElements | None = None
 ) -> SectionTable:
-    """Return the sections, and that of each element: the later entry wins, a diameter from a file over all."""
+    """Return the sections, and that of each element: the later entry wins, a diameter from a file over all.
+
+    `length` (m,) are the lengths of the elements, along which joints taper. A joint wins over `*GEOMETRIC SETS`.
+    """
     sections: list[Section] = []
     holders: list[NamedSet | None] = []
     elsewhere = False
@@ -83,9 +88,19 @@ def read_sections(
             holders.append(None if name is None else sets.find(name))
             elsewhere |= name is not None and holders[-1] is None and bool(context.possible_definition("ELEMENT SETS"))
             sections.append(_section(entry, place))
+    for where, block in context.blocks("TAPER"):
+        for index, joint in enumerate(cast("TaperedJoints", block).sets):
+            name = known_name(joint.set_name)
+            holder = None if name is None else sets.find(name)
+            elsewhere |= name is not None and holder is None and bool(context.possible_definition("ELEMENT SETS"))
+            ordered = np.zeros(0, np.intp) if holder is None else _in_order(context, holder, elements)
+            parts = _parts(joint, length[ordered]) if len(ordered) else [_part(joint, 0.5)]
+            sections += [_section(part, where.inside("sets", index)) for part in parts]
+            holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
     of_element = later_wins(holders, len(elements))
     diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
-    unread = (None in holders and not elsewhere) or "GEOMETRIC SETS" in context.unread
+    lost = not context.unread.isdisjoint(("GEOMETRIC SETS", "TAPER"))
+    unread = (None in holders and not elsewhere) or lost
     faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
     if external is not None:
         diameter, faulty = diameter.copy(), faulty.copy()
@@ -93,7 +108,7 @@ def read_sections(
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]
         faulty[at[given]] = False
-    is_open = elsewhere or "GEOMETRIC SETS" in context.unread or any(holder.open for holder in holders if holder)
+    is_open = elsewhere or lost or any(holder.open for holder in holders if holder)
     return SectionTable(tuple(sections), of_element, diameter, faulty, is_open)
 
 
@@ -102,6 +117,56 @@ def _section(entry: GeometricSet, where: Where) -> Section:
     diameter = float(value) if isinstance(value, int | float) else math.nan
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
     return Section(known_name(entry.set_name) or "", diameter if diameter > 0 else math.nan, source, where, bad, entry)
+
+
+def _in_order(context: Context, holder: NamedSet, elements: Numbered) -> Indices:
+    """Return the elements of a set in the order of its lines; in that of the file if the set has subsets."""
+    parts: list[Indices] = []
+    blocks = (cast("ElementSets", block) for _, block in context.blocks("ELEMENT SETS"))
+    named = (entry for block in blocks for entry in block.sets if known_name(entry.name))
+    own = (entry for entry in named if name_key(entry.name) == name_key(holder.name))
+    for member in (member for entry in own for member in entry.members):
+        if member.rule == "set_list":
+            numbers = [each for each in cast("SetList", member).elements if isinstance(each, int)]
+            parts.append(elements.indices(np.array(numbers, dtype=np.int64)))
+        elif member.rule == "set_generate":
+            span = context.generator(cast("SetGenerate", member).generate)
+            parts += [] if span is None else [elements.between(*span)]
+    listed = np.concatenate(parts) if parts else holder.elements
+    return listed if np.array_equal(np.sort(listed), holder.elements) else holder.elements
+
+
+def _parts(joint: TaperedJoint, length: Floats) -> list[GeometricSet]:
+    """Return the entries of the elements of a joint, whose lengths are given from its start to its end.
+
+    An element has the diameters at its middle, which are the mean of those at its ends. If a length is not known, all
+    elements are taken to be equally long.
+    """
+    with np.errstate(all="ignore"):
+        ends = np.cumsum(length)
+        middles = (ends - 0.5 * length) / ends[-1]
+    if not np.isfinite(middles).all():
+        middles = (np.arange(len(length)) + 0.5) / len(length)
+    return [_part(joint, share) for share in middles.tolist()]
+
+
+def _part(joint: TaperedJoint, share: float) -> GeometricSet:
+    """Return a joint at a share of its length as an entry of the rigid format."""
+    from mudline.language.keywords.library import geometric_sets  # noqa: PLC0415 - only decks with joints need it
+
+    row = joint.section
+    start, end = number(row, "do"), number(row, "do_end")
+    bore = number(row, "di")
+    diameters = {
+        "do": (start, end),
+        "di": (bore, number(row, "di_end", bore)),
+        "dd": (number(row, "dd", start), number(row, "dd_end", end)),
+        "db": (number(row, "db", start), number(row, "db_end", end)),
+    }
+    values: dict[str, Any] = {name: number(row, name) for name in ("e", "g", "density")}
+    values |= {name: first + share * (last - first) for name, (first, last) in diameters.items()}
+    rigid = geometric_sets.RigidSection.model_construct(**values)
+    return geometric_sets.GeometricSet.model_construct(option="RIGID", set_name=joint.set_name, rigid=rigid)
 
 
 def format_of(entry: GeometricSet) -> str:

@@ -114,8 +114,8 @@ def operating_weight(scene: ResolvedDeck) -> Floats:
         return scene.submerged_weight + mass * scene.surroundings.gravity if mass.any() else scene.submerged_weight
 
 
-_WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS")
-"""Keywords whose weight or lift is left out: public pages do not describe them sufficiently."""
+_WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS", "STIFFENER")
+"""Keywords whose weight or lift is left out; the lines of most of them have no public form."""
 
 
 def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:

@@ -1,15 +1,16 @@
-"""Masses and drag chains at nodes."""
+"""Masses, buoys and drag chains at nodes."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.common import Node
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record
-from mudline.language.keywords.usual import ALONG, COUNT, LIFT, Usual
-from mudline.language.keywords.values import Ident, Names, Real, Whole
+from mudline.language.keywords.model import Block, ListRow, Record, Row, Rows
+from mudline.language.keywords.table import Table, misfit
+from mudline.language.keywords.usual import ALONG, ANY, COUNT, LIFT, Usual
+from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
 
 
 class PointMass(Record):
@@ -20,7 +21,10 @@ class PointMass(Record):
     mass: Annotated[
         Real,
         about(
-            "mass, or rotary inertia", unit="M", at_least=0, usual=Usual(high=1e7, why="heavier is a hull", remark=True)
+            "mass, or rotary inertia",
+            unit="M",
+            at_least=0,
+            usual=Usual(1.0, 1e7, "1 kg is nothing, a hull more", remark=True),
         ),
     ]
     type_: Annotated[
@@ -39,6 +43,67 @@ class Masses(Block):
 
     keyword: Literal["MASS"] = "MASS"
     masses: Records[PointMass] = Records()
+
+
+_AXES = "the three lines are those of the local axes x, y and z, or of the global ones"
+_HEAVY = Usual(100.0, 1e8, "10 litres of foam lift 100 N, the tank of a riser tower 5 MN", remark=True)
+
+
+class BuoyLine(Row):
+    """Products along an axis, or about it."""
+
+    drag: Annotated[Real, about("drag coefficient times area, of rotations area moment", inferred=_AXES, usual=ANY)]
+    inertia: Annotated[Real, about("inertia coefficient times volume, of rotations its moment", usual=ANY)]
+    added_mass: Annotated[Real, about("added mass coefficient times volume, of rotations its moment", usual=ANY)]
+
+
+class PointBuoy(Record):
+    """Buoy at a node; `option` says that the lines about its rotations follow."""
+
+    rule = "point_buoy_lines"
+    option: Annotated[Literal["6D_BUOY"] | None, setting("OPTION", "buoy with lines about its rotations")] = None
+    node: Node
+    buoyancy: Annotated[Real, about("total buoyancy", unit="F", at_least=0, usual=_HEAVY)]
+    weight: Annotated[
+        Real,
+        about(
+            "total weight in air",
+            unit="F",
+            at_least=0,
+            usual=(_HEAVY, Usual(high=1.0, why="a buoy floats", of="/buoyancy", remark=True)),
+        ),
+    ]
+    inertia_x: Annotated[Real | None, about("rotary inertia about x", unit="ML2", at_least=0, usual=ANY)] = None
+    inertia_y: Annotated[Real | None, about("rotary inertia about y", unit="ML2", at_least=0, usual=ANY)] = None
+    inertia_z: Annotated[Real | None, about("rotary inertia about z", unit="ML2", at_least=0, usual=ANY)] = None
+    axis: Annotated[Name | None, setting("AXIS", "axes of *LOCAL AXIS SYSTEM", default="global", inline=True)] = None
+    lines: Annotated[Table, Rows("three lines; with OPTION= six, those of rotations last", row=BuoyLine)]
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, values: dict[str, object], last: object) -> str:
+        """Return the field of a row: the first one gives the buoy itself."""
+        return "node" if number == 0 else "lines"
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        """Raise ValueError unless all lines are there."""
+        expected = 6 if self.option else 3
+        if len(self.lines) != expected:
+            message = f"a buoy {'with' if self.option else 'without'} OPTION=6D_BUOY has {expected} lines below its own"
+            raise misfit(f"{message}, found {len(self.lines)}", "lines")
+        return self
+
+
+class PointBuoys(Block):
+    """Buoys."""
+
+    rule = "point_buoy"
+    page = "kwd_model_pointbuoy"
+    summary = "Buoys at nodes: buoyancy, weight, and products of coefficients and sizes for the forces of the water."
+    example = "*POINT BUOY\n 12, 25000.0, 9000.0\n 2.4, 3.8, 1.3\n 1.9, 3.8, 1.3\n 1.9, 3.8, 1.3\n"
+
+    keyword: Literal["POINT BUOY"] = "POINT BUOY"
+    buoys: Records[PointBuoy] = Records()
 
 
 class Chain(Record):

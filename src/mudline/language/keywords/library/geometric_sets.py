@@ -21,6 +21,8 @@ from mudline.language.keywords.usual import (
     PIPE_WALL,
     ROUND,
     SHEAR,
+    STEEL_BORE,
+    STRETCH,
     WALL,
     WIDTH,
     YOUNG,
@@ -45,7 +47,7 @@ class FlexibleSection(Row):
     gj: Annotated[Real | None, about("torsional stiffness", unit="FL2", at_least=0, usual=MODEL)] = Field(
         None, alias="GJ"
     )
-    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0, usual=MODEL)] = Field(None, alias="EA")
+    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0, usual=STRETCH)] = Field(None, alias="EA")
     mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0, usual=MODEL)]
     inertia: Annotated[
         Real,
@@ -79,17 +81,7 @@ class RigidSection(Row):
     e: Annotated[Real | None, about("Young's modulus", unit="F/L2", at_least=0, usual=YOUNG)] = Field(None, alias="E")
     g: Annotated[Real, about("shear modulus", unit="F/L2", at_least=0, usual=SHEAR)] = Field(alias="G")
     do: Annotated[Real, about(_DO, unit="L", above=0, usual=(WIDTH, PIPE_WALL, OUTER_WIDTH))] = Field(alias="Do")
-    di: Annotated[
-        Real,
-        about(
-            "internal diameter",
-            unit="L",
-            at_least=0,
-            usual=Usual(
-                low=0.1, why="a smaller bore is a wall thickness", of="/do", when="a steel pipe", code="UNT006"
-            ),
-        ),
-    ] = Field(alias="Di")
+    di: Annotated[Real, about("internal diameter", unit="L", at_least=0, usual=STEEL_BORE)] = Field(alias="Di")
     density: Annotated[Real, about("density of the wall", unit="M/L3", at_least=0, usual=WALL)]
     area: Annotated[Real | None, about("area of the section", unit="L2", above=0, usual=MODEL)] = Field(None, alias="A")
     second_moment: Annotated[Real | None, about("second moment of area", unit="L4", above=0, usual=MODEL)] = Field(
@@ -122,7 +114,7 @@ class RigidSection(Row):
 class MooringSection(Row):
     """Property line under OPTION=MOORING."""
 
-    ea: Annotated[Real, about("axial stiffness", unit="F", at_least=0, usual=MODEL)] = Field(alias="EA")
+    ea: Annotated[Real, about("axial stiffness", unit="F", at_least=0, usual=STRETCH)] = Field(alias="EA")
     mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0, usual=MODEL)]
     do: Annotated[Real, about(_DO, unit="L", above=0, usual=(WIDTH, OUTER_WIDTH, MASS_WIDTH))] = Field(alias="Do")
     dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0, usual=(WIDTH, OTHER_WIDTH))] = Field(
@@ -136,7 +128,7 @@ class MooringSection(Row):
 class TrussSection(Row):
     """Property line under OPTION=TRUSS."""
 
-    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0, usual=MODEL)] = Field(None, alias="EA")
+    ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0, usual=STRETCH)] = Field(None, alias="EA")
     mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0, usual=MODEL)]
     do: Annotated[Real, about(_DO, unit="L", above=0, usual=(WIDTH, OUTER_WIDTH, MASS_WIDTH))] = Field(alias="Do")
     di: Annotated[Real | None, about("internal diameter", unit="L", at_least=0, usual=WIDTH)] = Field(None, alias="Di")
@@ -173,9 +165,9 @@ class GeometricSet(Record):
     )
     hysteresis_curve: Annotated[Name | None, setting("EI_HYSTERESIS", _CURVE.format("EI"), inline=True)] = None
     e_curve: Annotated[Name | None, setting("E", _CURVE.format("E"), inline=True, names=Names.STRESS_STRAIN)] = None
-    plastic_hardening: Annotated[Name | None, setting("PLASTIC HARDENING", "plastic hardening model", inline=True)] = (
-        None
-    )
+    plastic_hardening: Annotated[
+        Name | None, setting("PLASTIC HARDENING", "plastic hardening model", inline=True, names=Names.HARDENING)
+    ] = None
     flexible: Annotated[FlexibleSection | None, about("section under OPTION=FLEXIBLE")] = None
     rigid: Annotated[RigidSection | None, about("section under OPTION=RIGID")] = None
     mooring: Annotated[MooringSection | None, about("section under OPTION=MOORING")] = None

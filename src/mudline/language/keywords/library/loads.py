@@ -1,19 +1,20 @@
-"""Loads, boundary conditions and internal fluids of a load case."""
+"""Loads, boundary conditions, internal fluids and winches of a load case."""
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
 
 from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import OLDER
+from mudline.language.keywords.common import OLDER, require_one
 from mudline.language.keywords.contents import OpenRecord
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.model import Block, ListRow, Record, Row
 from mudline.language.keywords.table import LARGEST_WHOLE
-from mudline.language.keywords.usual import ANY, LIQUID, NOT_KNOWN, OF_A_KIND, Usual
+from mudline.language.keywords.usual import ANY, LIQUID, NOT_KNOWN, OF_A_KIND, OF_THE_RUN, Usual
 from mudline.language.keywords.values import (
     Count,
+    DataFile,
     Equation,
     Finite,
     Ident,
@@ -174,7 +175,10 @@ class FluidSet(Record):
         about(
             "height of its free surface above the mudline",
             unit="L",
-            usual=Usual(high=300.0, why="no line rises higher", of="m above the water"),
+            usual=(
+                Usual(low=0.0, why="it is counted upwards from the mudline", remark=True),
+                Usual(high=300.0, why="no line rises higher", of="m above the water"),
+            ),
         ),
     ]
     density: Annotated[
@@ -192,7 +196,10 @@ class FluidSet(Record):
             "pressure above the hydrostatic one",
             unit="F/L2",
             default="0",
-            usual=Usual(-1e7, 3e8, "wells have up to 2000 bar"),
+            usual=(
+                Usual(-1e7, 3e8, "wells have up to 2000 bar"),
+                Usual(2e5, 3e8, "pipes are made for tens of bar", remark=True, also=(-1e7, 0.0)),
+            ),
         ),
     ] = None
     velocity: Annotated[
@@ -201,7 +208,11 @@ class FluidSet(Record):
             "velocity; a negative one turns the flow",
             unit="L/T",
             default="0",
-            usual=Usual(-100.0, 100.0, "faster flow erodes steel"),
+            usual=(
+                Usual(-100.0, 100.0, "faster flow erodes steel"),
+                Usual(-30.0, 30.0, "liquids flow at 5 m/s, gas at 20 (API RP 14E)", remark=True),
+                Usual(-0.001, 0.001, "nothing flows", when="a fluid without density", remark=True),
+            ),
         ),
     ] = None
     fifth: Annotated[
@@ -235,3 +246,60 @@ class InternalFluid(Block):
 
     keyword: Literal["INTERNAL FLUID"] = "INTERNAL FLUID"
     sets: Records[FluidSet] = Records()
+
+
+def _later(than: str) -> Usual:
+    return Usual(low=1.0, why="the times ascend", of=f"/{than}")
+
+
+class WinchProfile(Row):
+    """Velocity, and the times between which it changes."""
+
+    velocity: Annotated[
+        Real,
+        about(
+            "largest velocity; a negative one reels in",
+            unit="L/T",
+            usual=Usual(-3.0, 3.0, "winches pay out at up to 1 m/s", remark=True),
+        ),
+    ]
+    start: Annotated[Real, about("time at which it begins", unit="T", usual=OF_THE_RUN)]
+    full: Annotated[Real, about("time from which it is full", unit="T", usual=_later("start"))]
+    slowing: Annotated[Real, about("time at which it begins to fall", unit="T", usual=_later("full"))]
+    end: Annotated[Real, about("time from which the winch rests", unit="T", usual=_later("slowing"))]
+
+
+class WinchSet(Record):
+    """Elements of one winch."""
+
+    rule = "winch_set"
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET, unique=True)] = Field(alias="set")
+    length: Annotated[
+        Real | None,
+        setting("LENGTH", "in a static run: length that is added, or taken off", unit="L", usual=OF_THE_RUN),
+    ] = None
+    file: Annotated[
+        Name | None,
+        setting("FILE", "in the time domain: file of times and lengths", names=Names.FILE, holds=DataFile.NUMBERS),
+    ] = None
+    profile: Annotated[WinchProfile | None, about("in the time domain: velocity and times")] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        """Raise ValueError unless the winch has one of the three."""
+        require_one(self, "length", "file", "profile")
+        return self
+
+
+class Winches(Block):
+    """Winches."""
+
+    rule = "winch"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_winch"
+    summary = "Winches: elements that grow longer or shorter during a run."
+    example = "*WINCH\n SET=ALL\n 0.5, 10.0, 15.0, 60.0, 65.0\n"
+
+    keyword: Literal["WINCH"] = "WINCH"
+    sets: Records[WinchSet] = Records()

@@ -1,4 +1,4 @@
-"""Curves of non-linear stiffness, to which `*GEOMETRIC SETS` refers."""
+"""Curves of non-linear and plastic materials: most are named by `*GEOMETRIC SETS`."""
 
 from typing import Annotated, Literal
 
@@ -7,7 +7,7 @@ from mudline.language.keywords.common import curve_points
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import BENT, E_CURVE, EA_CURVE, EI_CURVE, OF_ITS_CURVE, Usual
+from mudline.language.keywords.usual import ANY, BENT, E_CURVE, EA_CURVE, EI_CURVE, OF_ITS_CURVE, Usual
 from mudline.language.keywords.values import Name, Names, Real
 
 
@@ -174,3 +174,96 @@ class StressStrain(Block):
 
     keyword: Literal["STRESS/STRAIN DIRECT"] = "STRESS/STRAIN DIRECT"
     curves: Records[StressStrainCurve] = Records()
+
+
+class StiffenerCurve(Record):
+    """Curve."""
+
+    rule = "stiffener_curve"
+    curve: Annotated[Name, setting("CURVE", "name of the curve, for bend stiffeners", unique=True)]
+    points: Annotated[
+        Table,
+        curve_points(
+            StressStrainPoint,
+            "points in any order; at least two; without negative strains it is taken to be symmetric",
+            "stress-strain curve",
+            abscissa="strain",
+            ends="slope",
+            usual=E_CURVE,
+        ),
+    ]
+
+
+class NonlinearStiffener(Block):
+    """Curves of bend stiffeners."""
+
+    rule = "nonlinear_stiffener"
+    page = "kwd_model_nonlinearstiffener"
+    summary = "Curves of stress against strain of bend stiffeners, named by *STIFFENER."
+    tabular = True
+    example = "*NONLINEAR STIFFENER\n CURVE=Polyurethane\n 0.0, 0.0\n 4.0E6, 0.03\n 7.0E6, 0.1\n"
+
+    keyword: Literal["NONLINEAR STIFFENER"] = "NONLINEAR STIFFENER"
+    curves: Records[StiffenerCurve] = Records()
+
+
+class HardeningPoint(Row):
+    """Point of a model: stress first."""
+
+    stress: Annotated[
+        Real,
+        about(
+            "equivalent stress; it comes first",
+            unit="F/L2",
+            at_least=0,
+            usual=Usual(1e6, 5e9, "plastics yield at 1E7, the strongest wire at 3E9", typical=4.5e8, within=3.0),
+        ),
+    ]
+    strain: Annotated[
+        Real,
+        about(
+            "equivalent plastic strain there",
+            unit="-",
+            at_least=0,
+            usual=Usual(high=1.5, why="ductile steel breaks before; 0.2 is 20 %"),
+        ),
+    ]
+
+
+class HardeningModel(Record):
+    """Model."""
+
+    rule = "hardening_model"
+    name: Annotated[
+        Name,
+        setting("NAME", "name of the model, for PLASTIC HARDENING= of *GEOMETRIC SETS", defines=Names.HARDENING),
+    ]
+    tension: Annotated[
+        Real | None, setting("TENSION VARIATION", "threshold of the variation of tension", inline=True, usual=ANY)
+    ] = None
+    points: Annotated[
+        Table,
+        curve_points(
+            HardeningPoint,
+            "at least two; the first one is the yield point",
+            "hardening curve",
+            abscissa="strain",
+            usual=(
+                Usual(high=0.0, why="there is no plastic strain before the metal yields", of="at the first point"),
+                Usual(low=0.0, why="metals harden", of="as the least slope"),
+            ),
+        ),
+    ]
+
+
+class PlasticHardening(Block):
+    """Models of the rigid format."""
+
+    rule = "plastic_hardening"
+    page = "kwd_model_plastichardening"
+    summary = "Plastic hardening: stress against plastic strain, named by PLASTIC HARDENING= of *GEOMETRIC SETS."
+    tabular = True
+    example = "*PLASTIC HARDENING\n NAME=X65\n 448.0E6, 0.0\n 510.0E6, 0.02\n 560.0E6, 0.1\n"
+
+    keyword: Literal["PLASTIC HARDENING"] = "PLASTIC HARDENING"
+    models: Records[HardeningModel] = Records()

@@ -22,6 +22,8 @@ from mudline.model.scene.sections import format_of
 if TYPE_CHECKING:
     from mudline.language.keywords.library.curvilinear import CurvilinearNodes
     from mudline.language.keywords.library.geometric_sets import GeometricSets
+    from mudline.language.keywords.library.tapered_joints import TaperedJoints
+    from mudline.language.keywords.model import Part
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -91,7 +93,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
-        thickness was subtracted from the wrong diameter. Correct Do or Di.
+        thickness was subtracted from the wrong diameter. Correct Do or Di. Both ends of a *TAPER are compared.
 
     Example on pipe:
         - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
@@ -99,14 +101,22 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 12:27
     """
-    for where, block in scene.context.blocks("GEOMETRIC SETS"):
-        for index, entry in enumerate(cast("GeometricSets", block).sets):
-            outer, inner = (getattr(entry.section, name, None) for name in ("do", "di"))
+    walls: list[tuple[Where, Part | None, tuple[tuple[str, str, str], ...]]] = [
+        (where.inside("sets", index, format_of(entry)), entry.section, (("Di", "do", "di"),))
+        for where, block in scene.context.blocks("GEOMETRIC SETS")
+        for index, entry in enumerate(cast("GeometricSets", block).sets)
+    ]
+    for where, block in scene.context.blocks("TAPER"):
+        for index, joint in enumerate(cast("TaperedJoints", block).sets):
+            bore = ("Doe", "do_end", "di") if joint.section.di_end is None else ("Die", "do_end", "di_end")
+            walls.append((where.inside("sets", index, "section"), joint.section, (("Dis", "do", "di"), bore)))
+    for where, row, ends in walls:
+        for key, outside, inside in ends:
+            outer, inner = getattr(row, outside, None), getattr(row, inside, None)
             if isinstance(outer, int | float) and isinstance(inner, int | float) and inner >= outer > 0:
-                message = (
-                    f"internal diameter {inner!r} is not smaller than the external diameter {outer!r}: correct one"
-                )
-                yield Problem(GEO001, message, where=where.inside("sets", index, format_of(entry), "Di"))
+                words = f"internal diameter {inner!r} is not smaller than the external diameter {outer!r}"
+                yield Problem(GEO001, f"{words}: correct one", where=where.inside(key))
+                break
 
 
 @rule(GEO004, blocks=True)
