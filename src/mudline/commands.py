@@ -15,11 +15,11 @@ from mudline.api import Deck, decks_in, given_deck, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import checked_units, csv_lines
-from mudline.checks.engine import naming_causes
+from mudline.checks.engine import naming_causes, read_deck
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.deck.writing import keyword_file
-from mudline.language.diagnostics import Diagnostic
+from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verification
+    from mudline.editing.migration.refusals import Continuations
     from mudline.tools.exporting.report import ExportReport
     from mudline.tools.touchdown_study.study import Study
 
@@ -97,10 +98,23 @@ def format(deck: GivenDeck) -> Deck:  # noqa: A001 - the name of the command
         DeckError: the deck has an error.
         ValueError: formatting would lose or change something; the message names it.
     """
-    from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - each function brings what it needs
-
     given = given_deck(deck)
-    return _again(given, formatted(_content(given), given.file))
+    return _again(given, formatted_file(_content(given), given.file))
+
+
+def formatted_file(data: bytes, name: str) -> bytes:
+    """Return the content of a deck's file in canonical layout.
+
+    Raises DeckError with the causes of read errors, and FormatError, a ValueError, as `format` does.
+    """
+    from mudline.checks.verdict import unreadable_causes  # noqa: PLC0415 - each function brings what it needs
+    from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - as above
+
+    try:
+        return formatted(data, name)
+    except DeckError as error:
+        causes = unreadable_causes(read_deck(data, name)) if form_of(name) == KEYWORD else []
+        raise DeckError(causes or error.diagnostics) from error
 
 
 def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = (), unsafe: bool = False) -> Fixed:
@@ -142,28 +156,24 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
         DeckError: the deck has errors, or states something that the new family cannot express.
         ValueError: with `verify`, results differ.
     """
-    from mudline.editing.migration.migrating import legacy_blocks  # noqa: PLC0415 - as above
-    from mudline.editing.migration.refusals import continuations_beside  # noqa: PLC0415 - as above
-
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
-    current = _again(given, _content(given))
-    result = migrated(current, continuations_beside(current) if legacy_blocks(current) else ([], False), verify=verify)
+    result = migrated(_again(given, _content(given)), verify=verify)
     if result.verified and result.verified.differences:
         texts = "; ".join(f"{difference.what}: {difference.text}" for difference in result.verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
     return result if result.replaced else replace(result, content=_content(given))
 
 
-def migrated(deck: Deck, beside: tuple[list[str], bool], *, verify: bool) -> Migrated:
+def migrated(deck: Deck, *, verify: bool, among: Continuations | None = None) -> Migrated:
     """Return the migrated form of a deck as read, also if verification fails; without `content` if nothing changes.
 
-    `beside` has the names of decks that continue this deck with a seabed of their own, and True if any of them has a
-    model of its own.
+    Decks that continue it are searched in its folder, and `among` those given.
     """
     from mudline.editing.migration import migrating  # noqa: PLC0415 - as above
+    from mudline.editing.migration.refusals import continuations_beside  # noqa: PLC0415 - as above
 
-    continued_by, extended = beside
+    continued_by, extended = continuations_beside(deck, among) if migrating.legacy_blocks(deck) else ([], False)
     with naming_causes(deck):
         new = migrating.migrate(deck, continued_by, extended=extended)
     verified = migrating.verify(new) if verify and new.replaced else None

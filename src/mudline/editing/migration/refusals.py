@@ -228,13 +228,18 @@ def _state(path: str) -> tuple[int, ...]:
     return status.st_ino, status.st_mtime_ns, status.st_size
 
 
-def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
-    """Return the results of `Continuations.of` and `extend` for a deck and its folder in its present state."""
+def continuations_beside(deck: Deck, among: Continuations | None = None) -> tuple[list[str], bool]:
+    """Return the results of `Continuations.of` and `extend` for a deck and its folder in its present state.
+
+    `among` are the decks of a run, whose folders are searched once.
+    """
     if deck.folder is None or not deck.folder.is_dir():
         return [], False
-    continuations, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
-    continuations.look_in(deck.folder)
-    return continuations.of(file), continuations.extend(file)
+    file = deck.folder / Path(deck.file).name
+    found = among or _continuations_in(deck.folder)
+    if among is None:
+        found.look_in(deck.folder)
+    return found.of(file), found.extend(file)
 
 
 @lru_cache(maxsize=1)
