@@ -282,15 +282,3 @@ def test_a_late_fault_leaves_nothing(place: Place, folder: Path) -> None:
     outcome = run("evaluate", place(), "--positions", "p.npy", "-o", "out.xlsx")
     assert (outcome.code, "position" in outcome.err) == (1, True)
     assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "p.npy"]
-
-
-def test_without_xlsxwriter(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    def missing(name: str) -> None:
-        raise ImportError(name)
-
-    monkeypatch.setattr("mudline.cli.result_files.form_module", missing)
-    outcome = run("evaluate", place(), "-o", "out.xlsx")
-    assert (outcome.code, outcome.err) == (
-        1,
-        'mudline: .xlsx needs xlsxwriter: python -m pip install "mudline[excel]"\n',
-    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-import sys
 from pathlib import Path
 from xml.parsers import expat
 
@@ -217,14 +216,6 @@ def test_what_was_asked_for_is_marked(place: Place) -> None:
     texts = drawn(place, CLEAN, "--at", "2", "--at", "-0.2", "--weight", "700")
     assert "values asked for" in texts
     assert "static embedment" in texts
-
-
-def test_no_matplotlib(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    outcome = run("curves", place(), "--plot", "out.png")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == 'mudline: --plot needs matplotlib: python -m pip install "mudline[plot]"\n'
-    assert not (folder / "out.png").exists()
 
 
 def test_curves_of_every_kind_are_listed(place: Place) -> None:

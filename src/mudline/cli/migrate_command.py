@@ -76,7 +76,7 @@ class _Target(NamedTuple):
         """Print or write the result, and return the exit code."""
         in_place = self.path is not None and self.path == Path(self.file.path or "")
         if not result.replaced:
-            self._note("no legacy seabed keyword")
+            self.view.note(f"{self.file.name}: no legacy seabed keyword")
             if diff or in_place:
                 return DONE
         elif result.verified and not self._proved(result.verified):
@@ -104,7 +104,9 @@ class _Target(NamedTuple):
             return WRONG_USAGE
         if result.replaced:
             replaced = ", ".join(f"{count} *{keyword}" for keyword, count in result.replaced.items())
-            self._note(f"{replaced} -> {', '.join(path.as_posix() for path in (self.path, *beside))}")
+            self.view.note(
+                f"{self.file.name}: {replaced} -> {', '.join(path.as_posix() for path in (self.path, *beside))}"
+            )
         return DONE
 
     def _proved(self, verdict: Verification) -> bool:
@@ -116,13 +118,9 @@ class _Target(NamedTuple):
         else:
             given = verdict.representatives
             more = f", and {given} representative elements for its sets" if given else ""
-            self._note(
-                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}{more}, at "
-                f"{verdict.positions} positions: forces, stiffnesses, friction, lateral resistance, suction and seabed "
-                "are bitwise equal"
+            self.view.note(
+                f"{self.file.name}: verified: {counted(verdict.elements, 'element')} of "
+                f"{counted(verdict.kinds, 'kind')}{more}, at {verdict.positions} positions: forces, stiffnesses, friction, "
+                "lateral resistance, suction and seabed are bitwise equal"
             )
         return not verdict.differences
-
-    def _note(self, text: str) -> None:
-        if not self.view.quiet:
-            notify(f"{self.file.name}: {text}")
