@@ -198,6 +198,10 @@ def _content(deck: Deck) -> bytes:
     return keyword_file(deck.alone) if form == KEYWORD else dump(deck.alone, form).encode()
 
 
+def _units(units: str | None) -> str | None:
+    return None if units is None else checked_units(units)
+
+
 def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
     """Return the deck of a changed content, with file name, units and folder of the original deck."""
     return public(load_bytes(content, name or deck.file, units=deck.units, folder=deck.folder))
@@ -220,7 +224,7 @@ def validate(
     """
     from mudline.checks.verdict import judge_content  # noqa: PLC0415 - as above
 
-    units = None if units is None else checked_units(units)
+    units = _units(units)
     return [judge_content(each.read_bytes(), each.as_posix(), units, each.parent) for each in decks_in(path)]
 
 
@@ -236,7 +240,15 @@ def show(deck: GivenDeck) -> Overview:
     return overview(deck.alone.placed() if isinstance(deck, Deck) else load_path(given_path(deck, name="deck")))
 
 
-def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict: bool = False) -> Comparison:
+def diff(
+    before: GivenDeck,
+    after: GivenDeck,
+    *,
+    tolerance: float = 0.0,
+    strict: bool = False,
+    units: str | None = None,
+    gitignore: bool = True,
+) -> Comparison:
     """Return the differences in meaning between two decks or two folders, whatever their forms, layout and order.
 
     Args:
@@ -244,6 +256,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
         after: the second deck or folder; places and values that `before` lacks are "added".
         tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger number.
         strict: count differences of spelling in superseded keywords as `differences` too.
+        units: of the decks of folders: "metric", "imperial" or "user", in place of the units in the files.
+        gitignore: leave out files of folders that their .gitignore files hide.
 
     Raises:
         DeckError: one of two decks has errors; one of many in folders has the `status` "failed".
@@ -255,6 +269,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
 
     expect_number(tolerance, "tolerance", or_zero=True)
     expect(strict, "strict", bool, "True or False")
+    expect(gitignore, "gitignore", bool, "True or False")
+    units = _units(units)
     if tolerance > 1.0:
         raise ValueError(f"tolerance must be from 0 to 1, not {tolerance!r}")
     folders = [
@@ -265,7 +281,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
     if len(folders) == 1:
         raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
     if folders:
-        decks = list(compare_folders(folders[0], folders[1], tolerance, strict=strict))
+        words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
+        decks = list(compare_folders(folders[0], folders[1], tolerance, **words))
         if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
         differences = [each for deck in decks for each in deck.comparison.differences]

@@ -120,7 +120,7 @@ class _Target(NamedTuple):
             more = f", and {given} representative elements for its sets" if given else ""
             self.view.note(
                 f"{self.file.name}: verified: {counted(verdict.elements, 'element')} of "
-                f"{counted(verdict.kinds, 'kind')}{more}, at {verdict.positions} positions: forces, stiffnesses, friction, "
-                "lateral resistance, suction and seabed are bitwise equal"
+                f"{counted(verdict.kinds, 'kind')}{more}, at {verdict.positions} positions: forces, stiffnesses, "
+                "friction, lateral resistance, suction and seabed are bitwise equal"
             )
         return not verdict.differences
