@@ -11,10 +11,10 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-from mudline.api import Deck, decks_in, given_deck, public
+from mudline.api import Deck, decks_in, given_deck, given_rules, given_units, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import checked_units, csv_lines
+from mudline.basics.quantities import csv_lines
 from mudline.checks.engine import naming_causes, read_deck
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
@@ -132,11 +132,9 @@ def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = 
     """
     from mudline.checks.engine import Fixing, LintSettings  # noqa: PLC0415 - as above
     from mudline.checks.fixing import lint_one  # noqa: PLC0415 - as above
-    from mudline.checks.registry import select as chosen  # noqa: PLC0415 - as above
 
     expect(unsafe, "unsafe", bool, "True or False")
-    words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
-    settings = LintSettings(tuple(chosen(*words)), fixing=Fixing.UNSAFE if unsafe else Fixing.SAFE)
+    settings = LintSettings(given_rules(select, ignore), fixing=Fixing.UNSAFE if unsafe else Fixing.SAFE)
     if isinstance(deck, Deck):
         given, data = deck, _content(deck)
     else:
@@ -198,10 +196,6 @@ def _content(deck: Deck) -> bytes:
     return keyword_file(deck.alone) if form == KEYWORD else dump(deck.alone, form).encode()
 
 
-def _units(units: str | None) -> str | None:
-    return None if units is None else checked_units(units)
-
-
 def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
     """Return the deck of a changed content, with file name, units and folder of the original deck."""
     return public(load_bytes(content, name or deck.file, units=deck.units, folder=deck.folder))
@@ -224,7 +218,7 @@ def validate(
     """
     from mudline.checks.verdict import judge_content  # noqa: PLC0415 - as above
 
-    units = _units(units)
+    units = given_units(units)
     return [judge_content(each.read_bytes(), each.as_posix(), units, each.parent) for each in decks_in(path)]
 
 
@@ -270,7 +264,7 @@ def diff(
     expect_number(tolerance, "tolerance", or_zero=True)
     expect(strict, "strict", bool, "True or False")
     expect(gitignore, "gitignore", bool, "True or False")
-    units = _units(units)
+    units = given_units(units)
     if tolerance > 1.0:
         raise ValueError(f"tolerance must be from 0 to 1, not {tolerance!r}")
     folders = [

@@ -130,12 +130,7 @@ def _origin(given: str | None, datum: float | None) -> tuple[float, float, float
 
 
 def _bed(
-    deck: GivenDeck,
-    form: str,
-    output: str | None,
-    within: float | None,
-    origin: tuple[float, float, float],
-    view: View,
+    deck: GivenDeck, form: str, output: str | None, within: float | None, origin: tuple[float, float, float], view: View
 ) -> int:
     """Write the deck of a seabed and its file of points. Raises DeckError, click.ClickException."""
     if output is None or PurePath(output).suffix.lower() not in {".keyxm", ".keyx", ".das"}:

@@ -37,14 +37,7 @@ if TYPE_CHECKING:
 @options.jobs
 @takes_decks(stdin=False)
 def command(
-    *,
-    decks: GivenDecks,
-    output: str,
-    prune: bool,
-    config: str | None,
-    isolated: bool,
-    jobs: int,
-    view: View,
+    *, decks: GivenDecks, output: str, prune: bool, config: str | None, isolated: bool, jobs: int, view: View
 ) -> int:
     """Bring decks into an archive: Parquet tables, and a DuckDB file that shows them.
 
