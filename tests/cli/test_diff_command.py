@@ -76,18 +76,6 @@ def folders(place: Place) -> None:
 
 
 @pytest.mark.usefixtures("folders")
-def test_text() -> None:
-    ran = run("diff", "old", "new")
-    assert (ran.code, ran.err) == (1, "")
-    assert ran.out == (
-        "--- old/a/changed.keyxm\n+++ new/a/changed.keyxm\ncurves\n  ~ Clay/0.1: 1000.0 -> 1200.0  (line -25 +25)\n"
-        "- gone.keyxm: only in the first folder\n"
-        "+ here.keyxm: only in the second folder\n"
-        "4 decks: 1 changed, 1 added, 1 removed, 1 equal\n"
-    )
-
-
-@pytest.mark.usefixtures("folders")
 def test_json() -> None:
     ran = run("diff", "old", "new", "--output-format", "json")
     found = ran.json()
@@ -149,11 +137,6 @@ def test_a_folder_and_a_deck_are_not_compared() -> None:
     for words in (("old", "nowhere"), ("nowhere", "old")):
         ran = run("diff", *words)
         assert (ran.code, ran.err) == (2, "mudline: nowhere: no such file or directory\n")
-
-
-@pytest.mark.usefixtures("folders")
-def test_a_tolerance_holds_for_all_decks() -> None:
-    assert "1 added, 1 removed, 2 equal" in run("diff", "old", "new", "--tolerance", "0.5").out
 
 
 @pytest.mark.skipif(os.name != "posix", reason="the null device has another name")
