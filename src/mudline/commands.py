@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from types import NoneType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 from mudline.api import Deck, decks_in, given_deck, given_rules, given_units, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verification
     from mudline.editing.migration.refusals import Continuations
-    from mudline.tools.exporting.report import ExportReport
+    from mudline.tools.exporting.report import Export
     from mudline.tools.touchdown_study.study import Study
 
 GivenDeck = Deck | str | os.PathLike[str]
@@ -305,22 +305,6 @@ def diff_matrix(
     return matrix([diff(base, each, tolerance=tolerance, strict=strict).differences for each in others])
 
 
-class Export(NamedTuple):
-    """The model of a deck for another program."""
-
-    files: dict[str, str]
-    """Texts of the files by name."""
-    report: ExportReport
-    """Keywords that do not carry over."""
-    notes: tuple[str, ...] = ()
-    """Remarks on a resting shape; none at the deck's own coordinates."""
-
-    def write(self, folder: str | os.PathLike[str]) -> None:
-        """Write the files into a folder; raises OSError."""
-        for name, text in self.files.items():
-            write_atomically(given_path(folder, name="folder") / name, text.encode())
-
-
 def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "", rest_shape: bool = False) -> Export:
     """Return seabed, line and soil of a deck as the input of another program.
 
@@ -334,6 +318,7 @@ def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "
         DeckError: the deck has errors on which the model depends, or no line has a resting shape.
     """
     from mudline.tools.exporting.line_model import build  # noqa: PLC0415 - as above
+    from mudline.tools.exporting.report import Export  # noqa: PLC0415 - as above
     from mudline.tools.touchdown_study import rest_shape as resting  # noqa: PLC0415 - as above
 
     expect_word(to, "to", ("moordyn", "orcaflex"), "'moordyn' or 'orcaflex'")
@@ -438,10 +423,8 @@ def report(  # noqa: PLR0913 - as many as the command has options
     for name, value in (("title", title), ("document", document), ("revision", revision), ("date", date)):
         expect(value, name, (str, NoneType), "a str")
     head = content.PageHead(title, document, revision, date, tuple((fields or {}).items()))
-    pictured = [
-        None if file is None else given_path(file, name=name) for file, name in ((template, "template"), (logo, "logo"))
-    ]
-    look = content.Look(*pictured)
+    pictures = ((template, "template"), (logo, "logo"))
+    look = content.Look(*(None if file is None else given_path(file, name=name) for file, name in pictures))
     choice = (tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
     alone = [decks] if isinstance(decks, Deck | str | os.PathLike) else None
     listed: list[GivenDeck] = alone or several(

@@ -36,7 +36,7 @@ def test_form_to_write_may_differ_from_the_suffix(place: Place, folder: Path) ->
 def test_form_to_read_may_differ_from_the_suffix(place: Place) -> None:
     text = run("convert", place(), "--to", "json").output
     place(text, "deck.txt")
-    outcome = run("convert", "deck.txt", "--from", "json", "--to", "keyword")
+    outcome = run("convert", "deck.txt", "--from", "json", "--to", "keyword", "-o", "-")
     assert outcome.code == 0
     assert load_bytes(outcome.output, "deck.keyxm").sections == load_bytes(CLEAN.encode(), "deck.keyxm").sections
 

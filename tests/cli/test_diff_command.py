@@ -190,12 +190,15 @@ def test_two_folders(place: Place) -> None:
         place(old, f"old/{name}.keyxm")
         place(new, f"new/{name}.keyxm")
     place(CLEAN, "new/c.keyxm")
+    place(CLEAN, "old/d.keyxm")
     ran = run("diff", "old", "new", "--output-format", "markdown")
     assert ran.code == 1
     assert ran.out == (
-        "### Differences of decks\n\n`old` → `new`: **3 decks: 1 changed, 1 added, 1 cannot be compared**\n\n"
-        "```diff\n--- old/a.keyxm\n+++ new/a.keyxm\ncurves\n~ Clay/0.1: 1000.0 -> 1200.0  (line -25 +25)\n"
-        "! b.keyxm: cannot be compared\n+ c.keyxm: only in the second folder\n```\n"
+        "### Differences of decks\n\n`old` → `new`: "
+        "**4 decks: 1 changed, 1 added, 1 removed, 1 cannot be compared**\n\n```diff\n"
+        "--- old/a.keyxm\n+++ new/a.keyxm\ncurves\n~ Clay/0.1: 1000.0 -> 1200.0  (line -25 +25)\n"
+        "! b.keyxm: cannot be compared\n+ c.keyxm: only in the second folder\n"
+        "- d.keyxm: only in the first folder\n```\n"
     )
 
 
