@@ -30,6 +30,7 @@ from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
     from mudline.language.deck.evaluated import EvaluatedDeck
+    from mudline.language.rules import Rule
     from mudline.model.contact import ContactModel, ContactResult
     from mudline.model.contact.arrays import Positions
     from mudline.model.contact.plan import Backend
@@ -265,7 +266,7 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         ValueError: `path` is the text of a deck.
         TypeError: `path` is not a path.
     """
-    return public(load_path(given_path(path), units=_units(units)))
+    return public(load_path(given_path(path), units=given_units(units)))
 
 
 def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | None = None) -> Positions:
@@ -337,7 +338,7 @@ def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
     Raises:
         DeckError: the text cannot be read; `.diagnostics` has the places.
     """
-    deck = _from_text(text, KEYWORD, _units(units))
+    deck = _from_text(text, KEYWORD, given_units(units))
     deck.source = ""
     return deck
 
@@ -379,9 +380,8 @@ def lint(
         ValueError: a word names no rule, `path` is the text of a deck, or a configuration cannot be used.
         TypeError: `path` is not a path, or `select` or `ignore` are not several words.
     """
-    files, units = decks_in(path, including=True), _units(units)
-    words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
-    rules = _chosen(*words)
+    files, units = decks_in(path, including=True), given_units(units)
+    rules = given_rules(select, ignore)
     listed = (lint_bytes(file.read_bytes(), file.as_posix(), rules, units=units, folder=file.parent) for file in files)
     return [*chain.from_iterable(listed)]
 
@@ -428,5 +428,11 @@ def public(deck: model.Deck) -> Deck:
     return Deck(**vars(deck.require()))
 
 
-def _units(units: str | None) -> str | None:
+def given_rules(select: Iterable[str], ignore: Iterable[str]) -> tuple[Rule, ...]:
+    """Return the rules that are named as arguments, less those that are left out; raises ValueError."""
+    return _chosen(several(select, "select", str, "several str"), several(ignore, "ignore", str, "several str"))
+
+
+def given_units(units: str | None) -> str | None:
+    """Return a unit system passed as an argument, or None; raises ValueError."""
     return None if units is None else checked_units(units)

@@ -9,17 +9,17 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from types import NoneType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
-from mudline.api import Deck, decks_in, given_deck, public
+from mudline.api import Deck, decks_in, given_deck, given_rules, given_units, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import checked_units, csv_lines
-from mudline.checks.engine import naming_causes
+from mudline.basics.quantities import csv_lines
+from mudline.checks.engine import naming_causes, read_deck
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.deck.writing import keyword_file
-from mudline.language.diagnostics import Diagnostic
+from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verification
-    from mudline.tools.exporting.report import ExportReport
+    from mudline.editing.migration.refusals import Continuations
+    from mudline.tools.exporting.report import Export
     from mudline.tools.touchdown_study.study import Study
 
 GivenDeck = Deck | str | os.PathLike[str]
@@ -96,10 +97,23 @@ def format(deck: GivenDeck) -> Deck:  # noqa: A001 - the name of the command
         DeckError: the deck has an error.
         ValueError: formatting would lose or change something; the message names it.
     """
-    from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - each function brings what it needs
-
     given = given_deck(deck)
-    return _again(given, formatted(_content(given), given.file))
+    return _again(given, formatted_file(_content(given), given.file))
+
+
+def formatted_file(data: bytes, name: str) -> bytes:
+    """Return the content of a deck's file in canonical layout.
+
+    Raises DeckError with the causes of read errors, and FormatError, a ValueError, as `format` does.
+    """
+    from mudline.checks.verdict import unreadable_causes  # noqa: PLC0415 - each function brings what it needs
+    from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - as above
+
+    try:
+        return formatted(data, name)
+    except DeckError as error:
+        causes = unreadable_causes(read_deck(data, name)) if form_of(name) == KEYWORD else []
+        raise DeckError(causes or error.diagnostics) from error
 
 
 def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = (), unsafe: bool = False) -> Fixed:
@@ -117,11 +131,9 @@ def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = 
     """
     from mudline.checks.engine import Fixing, LintSettings  # noqa: PLC0415 - as above
     from mudline.checks.fixing import lint_one  # noqa: PLC0415 - as above
-    from mudline.checks.registry import select as chosen  # noqa: PLC0415 - as above
 
     expect(unsafe, "unsafe", bool, "True or False")
-    words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
-    settings = LintSettings(tuple(chosen(*words)), fixing=Fixing.UNSAFE if unsafe else Fixing.SAFE)
+    settings = LintSettings(given_rules(select, ignore), fixing=Fixing.UNSAFE if unsafe else Fixing.SAFE)
     if isinstance(deck, Deck):
         given, data = deck, _content(deck)
     else:
@@ -141,28 +153,24 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
         DeckError: the deck has errors, or states something that the new family cannot express.
         ValueError: with `verify`, results differ.
     """
-    from mudline.editing.migration.migrating import legacy_blocks  # noqa: PLC0415 - as above
-    from mudline.editing.migration.refusals import continuations_beside  # noqa: PLC0415 - as above
-
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
-    current = _again(given, _content(given))
-    result = migrated(current, continuations_beside(current) if legacy_blocks(current) else ([], False), verify=verify)
+    result = migrated(_again(given, _content(given)), verify=verify)
     if result.verified and result.verified.differences:
         texts = "; ".join(f"{difference.what}: {difference.text}" for difference in result.verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
     return result if result.replaced else replace(result, content=_content(given))
 
 
-def migrated(deck: Deck, beside: tuple[list[str], bool], *, verify: bool) -> Migrated:
+def migrated(deck: Deck, *, verify: bool, among: Continuations | None = None) -> Migrated:
     """Return the migrated form of a deck as read, also if verification fails; without `content` if nothing changes.
 
-    `beside` has the names of decks that continue this deck with a seabed of their own, and True if any of them has a
-    model of its own.
+    Decks that continue it are searched in its folder, and `among` those given.
     """
     from mudline.editing.migration import migrating  # noqa: PLC0415 - as above
+    from mudline.editing.migration.refusals import continuations_beside  # noqa: PLC0415 - as above
 
-    continued_by, extended = beside
+    continued_by, extended = continuations_beside(deck, among) if migrating.legacy_blocks(deck) else ([], False)
     with naming_causes(deck):
         new = migrating.migrate(deck, continued_by, extended=extended)
     verified = migrating.verify(new) if verify and new.replaced else None
@@ -209,7 +217,7 @@ def validate(
     """
     from mudline.checks.verdict import judge_content  # noqa: PLC0415 - as above
 
-    units = None if units is None else checked_units(units)
+    units = given_units(units)
     return [judge_content(each.read_bytes(), each.as_posix(), units, each.parent) for each in decks_in(path)]
 
 
@@ -225,7 +233,15 @@ def show(deck: GivenDeck) -> Overview:
     return overview(deck.alone.placed() if isinstance(deck, Deck) else load_path(given_path(deck, name="deck")))
 
 
-def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict: bool = False) -> Comparison:
+def diff(
+    before: GivenDeck,
+    after: GivenDeck,
+    *,
+    tolerance: float = 0.0,
+    strict: bool = False,
+    units: str | None = None,
+    gitignore: bool = True,
+) -> Comparison:
     """Return the differences in meaning between two decks or two folders, whatever their forms, layout and order.
 
     Args:
@@ -233,6 +249,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
         after: the second deck or folder; places and values that `before` lacks are "added".
         tolerance: difference of numbers that is ignored, from 0 to 1, relative to the larger number.
         strict: count differences of spelling in superseded keywords as `differences` too.
+        units: of the decks of folders: "metric", "imperial" or "user", in place of the units in the files.
+        gitignore: leave out files of folders that their .gitignore files hide.
 
     Raises:
         DeckError: one of two decks has errors; one of many in folders has the `status` "failed".
@@ -244,6 +262,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
 
     expect_number(tolerance, "tolerance", or_zero=True)
     expect(strict, "strict", bool, "True or False")
+    expect(gitignore, "gitignore", bool, "True or False")
+    units = given_units(units)
     if tolerance > 1.0:
         raise ValueError(f"tolerance must be from 0 to 1, not {tolerance!r}")
     folders = [
@@ -254,7 +274,8 @@ def diff(before: GivenDeck, after: GivenDeck, *, tolerance: float = 0.0, strict:
     if len(folders) == 1:
         raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
     if folders:
-        decks = list(compare_folders(folders[0], folders[1], tolerance, strict=strict))
+        words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
+        decks = list(compare_folders(folders[0], folders[1], tolerance, **words))
         if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
         differences = [each for deck in decks for each in deck.comparison.differences]
@@ -283,22 +304,6 @@ def diff_matrix(
     return matrix([diff(base, each, tolerance=tolerance, strict=strict).differences for each in others])
 
 
-class Export(NamedTuple):
-    """The model of a deck for another program."""
-
-    files: dict[str, str]
-    """Texts of the files by name."""
-    report: ExportReport
-    """Keywords that do not carry over."""
-    notes: tuple[str, ...] = ()
-    """Remarks on a resting shape; none at the deck's own coordinates."""
-
-    def write(self, folder: str | os.PathLike[str]) -> None:
-        """Write the files into a folder; raises OSError."""
-        for name, text in self.files.items():
-            write_atomically(given_path(folder, name="folder") / name, text.encode())
-
-
 def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "", rest_shape: bool = False) -> Export:
     """Return seabed, line and soil of a deck as the input of another program.
 
@@ -312,6 +317,7 @@ def export(deck: GivenDeck, *, to: Literal["moordyn", "orcaflex"], name: str = "
         DeckError: the deck has errors on which the model depends, or no line has a resting shape.
     """
     from mudline.tools.exporting.line_model import build  # noqa: PLC0415 - as above
+    from mudline.tools.exporting.report import Export  # noqa: PLC0415 - as above
     from mudline.tools.touchdown_study import rest_shape as resting  # noqa: PLC0415 - as above
 
     expect_word(to, "to", ("moordyn", "orcaflex"), "'moordyn' or 'orcaflex'")
@@ -416,10 +422,8 @@ def report(  # noqa: PLR0913 - as many as the command has options
     for name, value in (("title", title), ("document", document), ("revision", revision), ("date", date)):
         expect(value, name, (str, NoneType), "a str")
     head = content.PageHead(title, document, revision, date, tuple((fields or {}).items()))
-    pictured = [
-        None if file is None else given_path(file, name=name) for file, name in ((template, "template"), (logo, "logo"))
-    ]
-    look = content.Look(*pictured)
+    pictures = ((template, "template"), (logo, "logo"))
+    look = content.Look(*(None if file is None else given_path(file, name=name) for file, name in pictures))
     choice = (tuple(names) or content.BY_DEFAULT, head, look, rest_shape)
     alone = [decks] if isinstance(decks, Deck | str | os.PathLike) else None
     listed: list[GivenDeck] = alone or several(

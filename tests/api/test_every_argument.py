@@ -32,6 +32,7 @@ BACKBONE: dict[str, Any] = {
     "legacy": True,
     "extend": True,
 }
+DIFF: dict[str, Any] = {"tolerance": 0.1, "strict": True}
 REPORT: dict[str, Any] = {
     "decks": DECK,
     "path": "nowhere/report.html",
@@ -60,8 +61,8 @@ PUBLIC: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "export": (mudline.export, {"deck": DECK, "to": "moordyn", "name": "riser.txt", "rest_shape": False}),
     "backbone": (mudline.backbone, BACKBONE),
     "show": (mudline.show, {"deck": DECK}),
-    "diff": (mudline.diff, {"before": DECK, "after": DECK, "tolerance": 0.1, "strict": True}),
-    "diff_matrix": (mudline.diff_matrix, {"before": DECK, "decks": [DECK], "tolerance": 0.1, "strict": True}),
+    "diff": (mudline.diff, {"before": DECK, "after": DECK, **DIFF, "units": "metric", "gitignore": True}),
+    "diff_matrix": (mudline.diff_matrix, {"before": DECK, "decks": [DECK], **DIFF}),
     "report": (mudline.report, REPORT),
     "contact_warnings": (mudline.contact_warnings, {"scene": SCENE, "result": RESULT, "positions": WHERE}),
     "Deck": (mudline.Deck, DECK_FIELDS),

@@ -44,20 +44,6 @@ def test_a_deck_reads_the_points_of_the_model(model: str, legacy: bool) -> None:
     assert curve(DECK.format(bed=(OLD if legacy else NEW) + outcome.out)).tolist() == points.tolist()
 
 
-def test_the_head_says_source_soil_error_and_range() -> None:
-    lines = run("backbone", "f114", *CLAY, "--weight", "6000", "--tolerance", "0.02").out.splitlines()
-    assert lines[:8] == [
-        "*SEABED STIFFNESS",
-        "C DNV-RP-F114, undrained penetration, model 2",
-        "C Force per unit length: min(6 r^0.25, 3.4 (10 r)^0.5) s_u D + 1.5 w A_bm, r = z/D",
-        "C D 0.3, s_u 5000 + 1500 z, submerged weight of soil w 6000",
-        "C Error of interpolation: 2 % of the largest force 8226.72, bound 2 %",
-        "C Published for z/D from 0 to 0.5: beyond half the diameter its users warn of the result",
-        "C Ratios are z/D: penetration of the invert",
-        " CURVE=f114",
-    ]
-
-
 @pytest.mark.parametrize(("axis", "seabed"), [(-0.03, ""), (0.12, "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n")])
 def test_the_datum_takes_the_shift_from_axis_to_invert(folder: Path, axis: float, seabed: str) -> None:
     """The invert of a pipe of 0.3 m is 0.03 m deep: nodes D/2 lower, or the seabed D/2 higher, as the page has it."""
@@ -116,22 +102,3 @@ def test_the_first_point_is_one_that_an_analysis_can_use() -> None:
     nearer = run("backbone", "aubeny", *CLAY, "--first", "0.00001").out
     assert " 0.00001, " in nearer
     assert "below z/D" not in run("backbone", "randolph-quiggin", *CLAY).out  # it is not steep at 0
-
-
-def test_a_first_point_that_is_too_near_to_zero_is_refused() -> None:
-    soil = (
-        "--diameter",
-        "0.5",
-        "--strength",
-        "1e300",
-        "--extend",
-        "--depth",
-        "1e9",
-        "--tolerance",
-        "1e-5",
-        "--first",
-        "0",
-    )
-    outcome = run("backbone", "aubeny", *soil)
-    assert (outcome.code, outcome.out) == (2, "")
-    assert "the curve is too steep for a float64 from z/D = 0 on" in outcome.err

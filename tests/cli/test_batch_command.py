@@ -146,17 +146,6 @@ def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
 # ------------------------------------------------------------------------------------------------------- exit codes
 
 
-def test_what_no_law_of_the_seabed_holds_is_not_in_contact(place: Place) -> None:
-    bare = CLEAN.partition("*SEABED PROPERTIES")[0]
-    place(bare, "in/conductor.keyxm")
-    place(f"{bare}*RIGID SURFACE\n 0.0\n".replace(", -0.1, ", ", 0.0, "), "in/rigid.keyxm")
-    rows = {Path(row["deck"]).stem: row for row in batch("in", "--output-format", "json").json()}
-    figures = ("in_contact", "touchdown_from", "contact_length", "reaction")
-    assert [rows["conductor"][name] for name in figures] == [0, None, 0.0, None]
-    assert rows["rigid"]["in_contact"] == 1
-    assert rows["rigid"]["contact_length"] == pytest.approx(10.0)
-
-
 def test_gitignore_hides_decks(four: str, folder: Path) -> None:
     (folder / ".git").mkdir()
     (folder / ".gitignore").write_text("c.keyxm\n", encoding="utf-8")

@@ -273,24 +273,3 @@ def test_more_rows_than_a_sheet_holds(place: Place, steps: str, folder: Path, mo
     )
     assert (folder / "out.xlsx").read_bytes() == b"old"
     assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "out.xlsx", "p.npz"]
-
-
-def test_a_late_fault_leaves_nothing(place: Place, folder: Path) -> None:
-    values = np.repeat(np.array([[[-0.1, 0, 0], [-0.1, 10, 0], [0.3, 20, 0]]]), 5000, axis=0)
-    values[-1, 0, 0] = np.nan
-    np.save(folder / "p.npy", values)
-    outcome = run("evaluate", place(), "--positions", "p.npy", "-o", "out.xlsx")
-    assert (outcome.code, "position" in outcome.err) == (1, True)
-    assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "p.npy"]
-
-
-def test_without_xlsxwriter(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    def missing(name: str) -> None:
-        raise ImportError(name)
-
-    monkeypatch.setattr("mudline.cli.result_files.form_module", missing)
-    outcome = run("evaluate", place(), "-o", "out.xlsx")
-    assert (outcome.code, outcome.err) == (
-        1,
-        'mudline: .xlsx needs xlsxwriter: python -m pip install "mudline[excel]"\n',
-    )

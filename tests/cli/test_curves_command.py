@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-import sys
 from pathlib import Path
 from xml.parsers import expat
 
@@ -12,37 +11,7 @@ import pytest
 
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
-from tests.helpers.builders.decks import CLEAN, LINEAR, UNSORTED, UNUSED
-
-TEXT = """\
-curve Clay: 3 points
-               from     to         stiffness
- from     to  force  force  slope      D=0.5
-ratio  ratio  [N/m]  [N/m]  [N/m]     [N/m2]
-────────────────────────────────────────────
-    0    0.1      0   1000  10000      20000
-  0.1    0.5   1000   3000   5000      10000
-
-A force-embedment curve continues beyond its first and last point with the slope of its end segment.
-"""
-
-VALUES = """\
-Clay at
-        force  slope
-ratio   [N/m]  [N/m]  segment  extrapolated
-───────────────────────────────────────────
- 0.05     500  10000        0
-    2   10500   5000        1         above
-   -1  -10000  10000        0         below
-"""
-
-STATIC = """\
-Clay: static embedment
-       diameter  depth  stiffness
-ratio       [m]    [m]     [N/m2]  extrapolated
-───────────────────────────────────────────────
-  0.2       0.5    0.1      10000
-"""
+from tests.helpers.builders.decks import CLEAN, LINEAR, UNUSED
 
 SEABED = "force-embedment curve"
 AXES = [SEABED, "ratio [-]", "force [N/m]"]
@@ -58,86 +27,33 @@ def rows(text: str) -> list[list[str]]:
     return list(csv.reader(text.splitlines()))
 
 
-@pytest.mark.parametrize("deck", [CLEAN, UNSORTED])
-def test_text(place: Place, deck: str) -> None:
-    outcome = run("curves", place(deck))
-    assert (outcome.code, outcome.err) == (0, "")
-    assert outcome.out == TEXT
-
-
-def test_values_at_ratios(place: Place) -> None:
-    assert VALUES in run("curves", place(), "--at", "0.05", "--at", "2", "--at", "-1").out
-
-
-def test_static_embedment(place: Place) -> None:
-    assert STATIC in run("curves", place(), "--weight", "1500").out
-
-
-def test_json(place: Place) -> None:
-    outcome = run("curves", place(UNSORTED), "--at", "0.2", "--at", "0.6", "--output-format", "json")
-    found = outcome.json()
-    assert_fits(found, "curves")
-    assert found == [
-        {
-            "name": "Clay",
-            "kind": "force-embedment curve",
-            "keyword": "SEABED STIFFNESS",
-            "axes": ["ratio", "force"],
-            "units": ["-", "N/m"],
-            "ends": "slope",
-            "reach": [None, None],
-            "points": [[0.0, 0.0], [0.1, 1000.0], [0.5, 3000.0]],
-            "segments": [{"from": 0.0, "to": 0.1, "slope": 10000.0}, {"from": 0.1, "to": 0.5, "slope": 5000.0}],
-            "at": [
-                {"ratio": 0.2, "force": 1500.0, "slope": 5000.0, "segment": 1, "extrapolated": None},
-                {"ratio": 0.6, "force": 3500.0, "slope": 5000.0, "segment": 1, "extrapolated": "above"},
-            ],
-        }
-    ]
-
-
-def test_static_embedment_in_json(place: Place) -> None:
-    found = run("curves", place(), "--weight", "3500", "--output-format", "json").json()
-    assert_fits(found, "curves")
-    assert found[0]["static"] == [
-        {
-            "ratio": 0.6,
-            "force": 3500.0,
-            "slope": 5000.0,
-            "segment": 1,
-            "extrapolated": "above",
-            "stable": True,
-            "stiffness": [{"diameter": 0.5, "depth": 0.3, "stiffness": 10000.0}],
-        }
-    ]
-
-
-def test_csv_holds_the_points(place: Place) -> None:
-    assert rows(run("curves", place(UNUSED), "--output-format", "csv").out) == [
+CSV = {
+    "points": (
+        (),
         ["curve", "ratio", "force", "slope", "kind", "abscissa", "ordinate"],
-        ["Clay", "0.0", "0.0", "10000.0", *AXES],
-        ["Clay", "0.1", "1000.0", "5000.0", *AXES],
         ["Clay", "0.5", "3000.0", "", *AXES],
-        ["Sand", "0.0", "0.0", "10.0", *AXES],
-        ["Sand", "0.1", "1.0", "", *AXES],
-    ]
-
-
-def test_csv_holds_the_values_asked_for(place: Place) -> None:
-    assert rows(run("curves", place(), "--at", "0.2", "--at", "0.6", "--output-format", "csv").out) == [
+        ["Sand", "0.0", "0.0", "30000.0", *AXES],
+    ),
+    "values": (
+        ("--at", "0.6"),
         ["curve", "ratio", "force", "slope", "segment", "extrapolated", "kind", "abscissa", "ordinate"],
-        ["Clay", "0.2", "1500.0", "5000.0", "1", "", *AXES],
         ["Clay", "0.6", "3500.0", "5000.0", "1", "above", *AXES],
-    ]
-
-
-def test_csv_holds_the_static_embedment(place: Place) -> None:
-    deck = UNUSED.replace(" CURVE=Sand\n 0.0, 0.0\n 0.1, 1.0\n", " CURVE=Sand\n 0.0, 0.0\n 0.1, 3000.0\n")
-    assert rows(run("curves", place(deck), "--weight", "1500", "--output-format", "csv").out) == [
+        ["Sand", "0.6", "18000.0", "30000.0", "0", "above", *AXES],
+    ),
+    "static embedment": (
+        ("--weight", "1500"),
         ["curve", "ratio", "force", "slope", "segment", "extrapolated", "stable", "diameter", "depth", "stiffness"],
         ["Clay", "0.2", "1500.0", "5000.0", "1", "", "true", "0.5", "0.1", "10000.0"],
         ["Sand", "0.05", "1500.0", "30000.0", "0", "", "true", "", "", ""],
-    ]
+    ),
+}
+
+
+@pytest.mark.parametrize(("options", "head", "clay", "sand"), CSV.values(), ids=CSV)
+def test_csv(place: Place, options: tuple[str, ...], head: list[str], clay: list[str], sand: list[str]) -> None:
+    deck = UNUSED.replace(" CURVE=Sand\n 0.0, 0.0\n 0.1, 1.0\n", " CURVE=Sand\n 0.0, 0.0\n 0.1, 3000.0\n")
+    found = rows(run("curves", place(deck), *options, "--output-format", "csv").out)
+    assert (found[0], found.index(clay) + 1) == (head, found.index(sand))
 
 
 def test_an_embedment_where_the_curve_softens_is_unstable(place: Place) -> None:
@@ -164,19 +80,6 @@ def test_diameters_of_lines_come_from_their_sections(place: Place) -> None:
     both = run("curves", place(other)).out
     assert "D=0.168" in both
     assert "D=0.2" in both
-
-
-def test_csv_holds_one_table(place: Place) -> None:
-    outcome = run("curves", place(), "--at", "1", "--weight", "1", "--output-format", "csv")
-    assert outcome.code == 2
-    assert "CSV holds one table: give --at or --weight, not both" in outcome.err
-
-
-def test_a_weight_is_above_0(place: Place) -> None:
-    for weight in ("-5", "0"):
-        outcome = run("curves", place(), "--weight", weight)
-        assert (outcome.code, outcome.out) == (2, "")
-        assert f"--weight is {float(weight)!r}: it must be greater than 0" in outcome.err
 
 
 def test_stiffness_that_overflows_is_null(place: Place) -> None:
@@ -217,14 +120,6 @@ def test_what_was_asked_for_is_marked(place: Place) -> None:
     texts = drawn(place, CLEAN, "--at", "2", "--at", "-0.2", "--weight", "700")
     assert "values asked for" in texts
     assert "static embedment" in texts
-
-
-def test_no_matplotlib(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    outcome = run("curves", place(), "--plot", "out.png")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == 'mudline: --plot needs matplotlib: python -m pip install "mudline[plot]"\n'
-    assert not (folder / "out.png").exists()
 
 
 def test_curves_of_every_kind_are_listed(place: Place) -> None:

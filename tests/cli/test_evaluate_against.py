@@ -14,24 +14,9 @@ from mudline.model.results.against import ResultComparison
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
-from tests.helpers.builders.decks import CLEAN_WARNING, STEPS_WARNING
+from tests.helpers.builders.decks import STEPS_WARNING
 
 THEIRS = "element,force,stiffness\n1,1400.0,10000.0\n2,,0.0\n7,1,1\n"
-
-
-def test_text(place: Place) -> None:
-    outcome = run("evaluate", place(), "--against", place(THEIRS, "other.csv"))
-    assert outcome.code == 0
-    assert outcome.err == f"mudline: 1 element of other.csv not in the deck: 7\n{CLEAN_WARNING}"
-    assert outcome.out.endswith(
-        "Compared with other.csv\n"
-        "                        largest       at   largest       at         rms\n"
-        "column     compared  difference  element  relative  element  difference\n"
-        "───────────────────────────────────────────────────────────────────────\n"
-        "force             1         100        1   0.06667        1         100\n"
-        "stiffness         2           0        1         0        1           0\n"
-        "\n"
-    )
 
 
 def test_json_and_csv(place: Place, folder: Path) -> None:

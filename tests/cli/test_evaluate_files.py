@@ -45,38 +45,6 @@ def test_steps(place: Place, steps: str) -> None:
     assert [element["force"] for element in second["elements"]] == [1000.0, 1000.0]
 
 
-def test_text_of_steps(place: Place, steps: str) -> None:
-    outcome = run("evaluate", place(), "--positions", steps)
-    assert outcome.out == (
-        "Contact of deck.keyxm (metric units), 2 steps\n"
-        "                                 largest     total\n"
-        "time       in    first     last    depth  reaction\n"
-        " [s]  contact  element  element      [m]       [N]\n"
-        "──────────────────────────────────────────────────\n"
-        "   0        1        1        1      0.1     15000\n"
-        " 2.5        2        1        2     0.05     20008\n"
-        "\n"
-        "Over all steps\n"
-        "                                  time\n"
-        "largest              value  unit   [s]  element\n"
-        "───────────────────────────────────────────────\n"
-        "total reaction       20008  N      2.5\n"
-        "force of an element   1500  N/m      0        1\n"
-        "elements in contact      2         2.5\n"
-        "depth                  0.1  m        0        1\n"
-        "\n"
-        "Lines over all steps\n"
-        "                                 time           time\n"
-        "figure             unit   least   [s]  largest   [s]\n"
-        "────────────────────────────────────────────────────\n"
-        "touchdown point    m     12.502     0   12.502     0\n"
-        "length in contact  m     12.502     0   20.008   2.5\n"
-        "largest force      N/m     1000   2.5     1500     0\n"
-        "total reaction     N      15000     0    20008   2.5\n"
-        "\n"
-    )
-
-
 def test_text_of_many_steps(place: Place, folder: Path) -> None:
     rest = np.repeat(np.array([[[9.0, 0, 0], [9.0, 10, 0], [9.0, 20, 0]]]), 50, axis=0)
     np.save(folder / "steps.npy", rest)
@@ -145,17 +113,6 @@ def test_positions_of_one_node_leave_nothing_to_evaluate(place: Place, folder: P
     (folder / "p.csv").write_text("node,x,y,z\n2,-0.1,0,0\n", encoding="utf-8")
     outcome = run("evaluate", place(), "--positions", "p.csv")
     assert (outcome.code, outcome.out.splitlines()[5:7]) == (0, ["", "No elements in contact"])
-
-
-def test_elements_from_a_file() -> None:
-    options = ("--positions", SAMPLES / "lines-positions.csv", "--output-format", "json")
-    outcome = run("evaluate", *LINES, *options)
-    found = outcome.json()
-    assert outcome.code == 0
-    assert_fits(found, "evaluate")
-    assert len(found["elements"]) == 80
-    assert found["elements"][0]["set"] == "Static Section"
-    assert found["elements"][0]["diameter"] == 0.168
 
 
 def test_elements_from_a_file_without_lengths(folder: Path) -> None:
@@ -245,39 +202,6 @@ def test_columns_that_are_misspelt(place: Place, columns: str, message: str) -> 
     outcome = evaluated(place(), LONG, columns)
     assert (outcome.code, outcome.out) == (2, "")
     assert f"mudline: {message}" in outcome.err
-
-
-@pytest.mark.parametrize(
-    ("text", "columns", "message"),
-    [
-        (
-            LONG,
-            MAPPED.replace("node number", "Node"),
-            "p.csv:1:1: error: DAT001 the header lacks 'Node' for node: it has 'Time [s]', 'Node Number', 'Position, X",
-        ),
-        (OWN, "node=node,x=y", "p.csv:1:1: error: DAT001 the column 'y' is taken for x and for y"),
-        (OWN.replace("time", "z"), "node=node", "p.csv:1:1: error: DAT001 the header has 'z' twice"),
-        (
-            LONG.replace("Position Z", "z").replace("-0.2,10.0", "-0;2,10.0"),
-            MAPPED.replace("Position Z", "z"),
-            "p.csv:3:7: error: DAT001 x: '-0;2' is not a number",
-        ),
-        ("", "node=n", "p.csv:1:1: error: DAT001 the header lacks 'n' for node: it has nothing"),
-    ],
-)
-def test_headings_that_the_file_lacks(place: Place, text: str, columns: str, message: str) -> None:
-    outcome = evaluated(place(), text, columns)
-    assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err.startswith(message)
-
-
-def test_columns_are_for_positions_from_csv(place: Place) -> None:
-    outcome = run("evaluate", place(), "--columns", "node=n")
-    assert outcome.code == 2
-    assert "--columns is for positions from a CSV: give --positions too" in outcome.err
-    outcome = run("evaluate", place(), "--columns", "node=n", "--positions", "p.npz")
-    assert outcome.code == 2
-    assert "--columns is for CSV: the arrays of p.npz have names already" in outcome.err
 
 
 def test_headings_are_read_with_commas_and_equals_signs() -> None:

@@ -46,22 +46,6 @@ def test_odd_scenes(place: Place, folder: Path, deck: str) -> None:
     assert (folder / "p.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_large_model(place: Place, folder: Path) -> None:
-    numbers = "*NODE\n 1, -0.1, 0.0\n 20001, 0.1, 9000.0\n GEN=1, 20001\n*ELEMENT\n 1, 1, 2\n GEN=1, 20000\n"
-    rest = CLEAN.partition("*ELEMENT SETS\n SET=Pipe\n 1, 2\n")[2].replace("Pipe", "ALL")
-    assert run("evaluate", place(f"$MODEL\n{numbers}{rest}"), "--plot", "p.svg", "-q").code == 0
-    assert (folder / "p.svg").stat().st_size < 2_000_000
-
-
-@pytest.mark.parametrize("name", ["p.jpg", "p", "p.gif"])
-def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
-    outcome = run("evaluate", place(), "--plot", name)
-    assert (outcome.code, f"{name}: unknown file format: give a name ending in .png, .svg or .pdf" in outcome.err) == (
-        2,
-        True,
-    )
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import csv
-import os
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from mudline.model.contact import ContactModel
-from mudline.model.scene.positions import StepFile
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.helpers.builders.decks import CLEAN
@@ -89,16 +84,6 @@ def test_velocities_of_the_file_are_used(place: Place) -> None:
     assert states[1][2:4] == ["suction", "suction"]
 
 
-def test_velocities_of_an_archive(place: Place, folder: Path) -> None:
-    places = np.array([[-0.1, 0, 0], [-0.1, 10, 0], [0.3, 20, 0]])[np.newaxis] + np.zeros((3, 1, 1))
-    places[1:, :2, 0] = 0.02
-    rising = np.zeros_like(places)
-    rising[1, :, 0] = 0.5
-    np.savez(folder / "p.npz", positions=places, velocities=rising)
-    found = run("evaluate", place(UPLIFT), "--positions", "p.npz", "--output-format", "json").json()
-    assert [step["elements"][0]["state"] for step in found["steps"]] == ["compression", "suction", "hold"]
-
-
 def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     places = at_zero(3)
     np.save(folder / "p.npy", places)
@@ -128,23 +113,6 @@ def test_times_of_an_archive_rise_for_laws_with_history(
     else:
         assert (outcome.code, outcome.out) == (1, "")
         assert outcome.err.endswith(f"ascending times: {times[2]} follows {times[1]}\n")
-
-
-def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    np.save(folder / "p.npy", at_zero(20000))
-    first = ContactModel.stream
-
-    def shortened(self: ContactModel, positions: StepFile, **others: Any) -> Iterator[Any]:  # noqa: ANN401 - passed on
-        parts = first(self, positions, **others)
-        yield next(parts)
-        os.truncate("p.npy", 1000)
-        yield from parts
-
-    monkeypatch.setattr(ContactModel, "stream", shortened)
-    outcome = run("evaluate", place(), "--positions", "p.npy", "-o", "out.csv")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert "p.npy:1:1: error: DAT001 the file has become shorter while it was read" in outcome.err
-    assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "p.npy"]
 
 
 def test_time_step(place: Place, folder: Path) -> None:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
-from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.parameters import Parameters
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 from tests.helpers.builders.decks import CLEAN
@@ -30,46 +27,6 @@ FILES = ["Far/at 100.keyxm", "Far/at 50.keyxm", "Near/at 100.keyxm", "Near/at 50
 
 def files(folder: Path) -> list[str]:
     return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-
-
-def test_a_dry_run_shows_a_table_and_writes_nothing(place: Place, folder: Path) -> None:
-    outcome = run("expand", place(STUDY), "--dry-run")
-    assert (outcome.code, outcome.err) == (0, "")
-    assert outcome.out.splitlines() == [
-        "Decks",
-        "file               case  values",
-        "─────────────────────────────────────────────",
-        "Near/at 50.keyxm   all   Depth=50, Side=Near",
-        "Far/at 50.keyxm    all   Depth=50, Side=Far",
-        "Near/at 100.keyxm  all   Depth=100, Side=Near",
-        "Far/at 100.keyxm   all   Depth=100, Side=Far",
-        "",
-        "4 decks",
-    ]
-    assert files(folder) == ["deck.keyxm"]
-
-
-def test_decks_and_their_list_are_written(place: Place, folder: Path) -> None:
-    outcome = run("expand", place(STUDY), "-o", "out/study")
-    assert (outcome.code, outcome.out) == (0, "")
-    assert outcome.err == "mudline: deck.keyxm: 4 decks -> out/study\n"
-    out = folder / "out/study"
-    assert files(out) == FILES
-    listed = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
-    assert_fits(listed, "expand")
-    assert listed["source"] == "deck.keyxm"
-    assert listed["decks"][3] == {
-        "file": "Far/at 100.keyxm",
-        "description": "all",
-        "variations": ["Depths", "Sides"],
-        "parameters": {"Depth": "100", "Side": "Far"},
-    }
-    for entry in listed["decks"]:
-        data = (out / entry["file"]).read_bytes()
-        assert data.endswith(CLEAN.encode())
-        values = Parameters(load_bytes(data, entry["file"])).values
-        assert values == {"depth": float(entry["parameters"]["Depth"]), "side": entry["parameters"]["Side"]}
-    assert run("lint", "out/study").code == 0
 
 
 def test_the_list_is_printed_as_it_is_written(place: Place, folder: Path) -> None:
@@ -134,18 +91,6 @@ def test_a_folder_where_a_file_is_wanted(place: Place, folder: Path) -> None:
     assert files(folder) == ["deck.keyxm"]
 
 
-def test_names_that_leave_the_folder_are_refused(place: Place, folder: Path) -> None:
-    name = place(STUDY.replace("VALUE=Near, Far", "VALUE=Near, ../Far"))
-    outcome = run("expand", name, "-o", "out")
-    assert outcome.code == 1
-    lines = outcome.err.splitlines()
-    assert len(lines) == 2
-    for depth, line in zip((100, 50), lines, strict=True):
-        assert line.startswith(f"deck.keyxm:11:2: error: EXP001 the deck with Depth={depth}, Side=../Far: its name")
-        assert line.endswith(f"'../Far/at {depth}.keyxm' leads out of the output folder with ..")
-    assert files(folder) == ["deck.keyxm"]
-
-
 def test_standard_input_and_notes() -> None:
     text = STUDY.replace(
         "*VARIATION", "*EXCEL VARIATIONS\n FILENAME=a\n EXCEL=book.xlsx, RANGE=A1:B2\n*VARIATION"
@@ -157,9 +102,3 @@ def test_standard_input_and_notes() -> None:
     named = run("expand", "-", "--dry-run", "--stdin-filename", "a/b.keyxi", "--output-format", "json", stdin=text)
     assert named.json()["source"] == "b.keyxi"
     assert named.json()["decks"][0]["file"] == "Near/at 50.keyxi"
-
-
-def test_decks_of_standard_input_without_a_name_are_counted() -> None:
-    text = STUDY.replace(", SUBDIRECTORY=%Side%, FILENAME=at %Depth%", "").encode()
-    outcome = run("expand", "-", "--dry-run", "--output-format", "json", stdin=text)
-    assert [deck["file"] for deck in outcome.json()["decks"]] == [f"deck {number}.keyx" for number in range(1, 5)]

@@ -78,16 +78,6 @@ def test_a_file_that_does_not_change_is_not_written(place: Place, monkeypatch: p
     assert written.call_count == 0
 
 
-def test_check(place: Place) -> None:
-    place(PRETTY, "b.keyxm")
-    outcome = run("format", "--check", place(UGLY), "b.keyxm")
-    assert (outcome.code, outcome.out) == (1, "would reformat: deck.keyxm\n")
-    assert outcome.err == "1 file would be reformatted, 1 file would be left unchanged\n"
-    assert content("deck.keyxm") == UGLY
-    outcome = run("format", "--check", "b.keyxm")
-    assert (outcome.code, outcome.out, outcome.err) == (0, "", "1 file would be left unchanged\n")
-
-
 def test_diff(place: Place) -> None:
     outcome = run("format", "--diff", place(UGLY))
     assert (outcome.code, outcome.out, outcome.err) == (1, DIFF, "1 file would be reformatted\n")

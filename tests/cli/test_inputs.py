@@ -104,12 +104,6 @@ def test_name_of_standard_input_gives_the_units() -> None:
     assert (named["units"], named["file"]) == ("imperial", "x.keyxi")
 
 
-def test_gravity_tells_the_units_of_standard_input() -> None:
-    deck = CLEAN.replace("9.81", "32.17").encode()
-    assert run("show", "-", "--output-format", "json", stdin=deck).json()["units"] == "imperial"
-    assert run("show", "-", "--units", "user", "--output-format", "json", stdin=deck).json()["units"] == "user"
-
-
 @pytest.mark.parametrize("command", ["lint", "show"])
 def test_standard_input_that_is_closed(command: str) -> None:
     words = f"import sys; sys.stdin = None; from mudline.__main__ import main; sys.exit(main(['{command}', '-']))"

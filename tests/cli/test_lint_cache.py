@@ -49,15 +49,6 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
     return names
 
 
-def test_second_run_lints_nothing_and_says_the_same(place: Place, linted: Linted) -> None:
-    words = ("lint", place(), place(BAD_NUMBER, "bad.keyxm"), place(UNSORTED, "c.keyxm"), "--output-format", "json")
-    first = run(*words)
-    assert len(linted) == 3
-    assert {row["code"] for row in first.json()} == {"SYN002", "CRV002"}
-    assert run(*words) == first
-    assert len(linted) == 3
-
-
 @pytest.mark.parametrize(
     "words", [["--ignore", "SYN"], ["--units", "imperial"], ["--dialect", "flexcom"], ["--no-cache"], ["--fix"]]
 )
@@ -118,17 +109,6 @@ def test_a_deck_is_linted_again_when_a_file_that_it_names_has_changed_or_gone(
 # -------------------------------------------------------------------------------------------- decks without findings
 
 
-def test_a_deck_is_linted_again_when_its_profile_has_changed(folder: Path, place: Place, linted: Linted) -> None:
-    (folder / "bed.txt").write_text("-1000.0, 0.0\n1000.0, 0.0\n", encoding="utf-8")
-    deck = CLEAN + "*SEABED PROFILE\n TYPE=PROFILE\n FILE=bed.txt\n"
-    first = run("lint", place(deck), "--output-format", "concise")
-    assert run("lint", "deck.keyxm", "--output-format", "concise") == first
-    assert len(linted) == 1
-    (folder / "bed.txt").write_text("-1000.0, O.0\n1000.0, 0.0\n", encoding="utf-8")
-    assert run("lint", "deck.keyxm", "--output-format", "concise") != first
-    assert len(linted) == 2
-
-
 LIBRARIES = """
 import sys
 from mudline.__main__ import main
@@ -146,14 +126,6 @@ def twice(folder: Path, *words: str) -> list[str]:
     return [
         subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout for _ in range(2)
     ]
-
-
-def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Path, place: Place) -> None:
-    place("[tool.mudline]\nignore = ['STB']\n", "pyproject.toml")
-    place(name="static.keyxm")
-    first, second = twice(folder, place(), place(RESTART, "wave.keyxm"))
-    assert first == "No findings in 2 files.\nAll 9 keywords read.\n0 ['lark', 'numpy', 'pydantic']\n"
-    assert second == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
 
 
 # ----------------------------------------------------------------------------------------------- remembered findings
@@ -206,13 +178,6 @@ def test_findings_of_large_decks_are_not_all_held(
     monkeypatch.setattr("mudline.cli.known_findings.MOST_HELD", 10)
     assert run(*words) == first
     assert len(linted) == 3
-
-
-@pytest.mark.parametrize("form", ["json", "concise", "sarif", "junit", "gitlab", "github", "jsonl"])
-def test_every_form_is_the_same_from_the_cache(place: Place, linted: Linted, form: str) -> None:
-    words = ("lint", place(), place(name="b.keyxm"), "-v", "--output-format", form)
-    assert run(*words) == run(*words)
-    assert len(linted) == 2
 
 
 def test_standard_input_asks_nothing(folder: Path, linted: Linted) -> None:

@@ -135,21 +135,6 @@ def test_several_outputs_at_once(place: Place) -> None:
     assert "Found 1 error" in run("lint", "deck.keyxm", "--output-format", "jsonl=found.jsonl").out
 
 
-@pytest.mark.parametrize(
-    ("forms", "reason"),
-    [
-        (["xml"], "'xml' is not one of text, "),
-        (["json="], "write a file name"),
-        (["text=a.txt"], "write concise=FILE"),
-        (["json", "concise"], "takes one form"),
-    ],
-)
-def test_outputs_that_make_no_sense(place: Place, forms: list[str], reason: str) -> None:
-    outcome = run("lint", place(), *[word for form in forms for word in ("--output-format", form)])
-    assert outcome.code == 2
-    assert reason in outcome.err
-
-
 def test_statistics_and_quiet_beside_a_fixed_deck() -> None:
     outcome = run("lint", "-", "--fix", "--statistics", "-q", stdin=BAD_NUMBER.encode())
     assert (outcome.out, outcome.err) == (BAD_NUMBER, "     1  SYN002  bad-number\n")

@@ -99,13 +99,3 @@ def test_change_is_seen_while_waiting(folder: Path, place: Place) -> None:
     lint_command.wait_for_change(files, before)
     assert lint_command.state(files) != before
     assert (folder / "deck.keyxm").exists()
-
-
-@pytest.mark.parametrize(
-    "words",
-    [["--fix"], ["--diff"], ["--baseline", "b.json", "--write-baseline"], ["--output-format", "json"], ["-"]],
-)
-def test_what_cannot_be_watched(place: Place, words: list[str]) -> None:
-    outcome = run("lint", place(), "--watch", *words)
-    assert (outcome.code, outcome.out) == (2, "")
-    assert "--watch" in outcome.err

@@ -68,13 +68,6 @@ def test_a_profile_is_written_beside_the_new_deck(place: Place) -> None:
     assert Path("deck-profile.txt").read_text(encoding="utf-8") == "C other\n0, 0\n"
 
 
-def test_verify(place: Place) -> None:
-    outcome = run("migrate", "--verify", place(SAMPLE))
-    assert outcome.code == 0
-    assert "deck.keyxm: verified: 12 elements of " in outcome.err
-    assert "are bitwise equal\n" in outcome.err
-
-
 def test_a_deck_that_would_change_its_meaning_is_left_as_it_is(place: Place) -> None:
     name = place(SAMPLE)
     verdict = Verification(
@@ -112,14 +105,6 @@ def test_a_deck_that_another_one_continues_with_its_own_seabed_is_kept(given: li
     assert outcome.code == 1
     assert f"{child} continues this deck and has seabed keywords of its own" in outcome.err
     assert Path("base.keyxm").read_text(encoding="utf-8") == SAMPLE
-
-
-def test_a_deck_that_another_one_only_continues_is_migrated(place: Place) -> None:
-    place(SAMPLE, "base.keyxm")
-    place("$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
-    place(b"RESTART\xff\x00{", "noise.das")
-    assert run("migrate", "--verify", "base.keyxm").code == 0
-    assert Path("base.keyxm").read_text(encoding="utf-8") == MIGRATED
 
 
 def test_elements_of_a_deck_that_continues_one_keep_its_stiffness(place: Place) -> None:

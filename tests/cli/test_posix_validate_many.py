@@ -89,15 +89,6 @@ def test_total_counts_all(decks: str) -> None:
     }
 
 
-@pytest.mark.parametrize("number", [0, 1, 2])
-def test_json_in_pieces_is_json(place: Place, folder: Path, number: int) -> None:
-    names = [place(CLEAN, f"deck-{index}.keyxm") for index in range(number)]
-    (folder / "folder").mkdir()
-    found = run("validate", "folder", *names, "--output-format", "json").json()
-    assert_fits(found, "validate")
-    assert [row["file"] for row in found["decks"]] == names
-
-
 def test_decks_are_told_when_they_are_judged(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was told of the first deck is there when the second one is read, and nothing holds its findings."""
     names = [place(ILLEGAL, "a.keyxm"), place(ILLEGAL, "b.keyxm")]

@@ -40,13 +40,6 @@ def test_one_rule_is_explained(word: str) -> None:
     assert "    $MODEL" in lines
 
 
-def test_prefix_lists_its_rules() -> None:
-    lines = run("rules", "CRV").out.splitlines()
-    assert [line.split()[0] for line in lines[3:-1] if line[0] != " "] == [
-        code for code in CODES if code.startswith("CRV")
-    ]
-
-
 def test_json() -> None:
     found = run("rules", "--output-format", "json").json()
     assert_fits(found, "rules")

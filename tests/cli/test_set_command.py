@@ -49,15 +49,6 @@ def test_a_condition_selects_decks() -> None:
 
 
 @pytest.mark.usefixtures("decks")
-def test_check_writes_nothing() -> None:
-    ran = run("set", "OCEAN.depth=150.50", "in", "--check")
-    assert (ran.code, ran.out) == (1, "would change: in/a.keyxm:3: 100.0 -> 150.50\n")
-    assert ran.err == "3 decks: 1 would be changed, 1 the same already, 1 without it\n"
-    assert text("in/a.keyxm") == CLEAN
-    assert run("set", "OCEAN.depth=150.5", "in/b.keyxm", "--check").code == 0
-
-
-@pytest.mark.usefixtures("decks")
 @pytest.mark.parametrize(("bad", "why"), [(EQUATION, "is given by an equation"), (CLEAN * 2, "is ambiguous")])
 def test_one_refused_deck_keeps_all_from_being_written(place: Place, bad: str, why: str) -> None:
     place(bad, "in/z.keyxm")
@@ -120,24 +111,6 @@ def test_standard_input_is_printed() -> None:
     assert (ran.code, ran.out) == (0, CLEAN.replace(" 100.0,", " 5,"))
     ran = run("set", "TIME.step=5", "-", "--where", "OCEAN.depth < 1", stdin=CLEAN.encode())
     assert (ran.code, ran.out) == (0, CLEAN)
-
-
-@pytest.mark.usefixtures("decks")
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("OCEAN.depth", "in"),
-        ("OCEAN.dept=1", "in"),
-        ("OCEAN.depth=1", "in", "--where", "OCEAN.depth"),
-        ("OCEAN.depth=1", "in", "--where", "OCEAN.dept>1"),
-        ("OCEAN.depth=1",),
-        ("OCEAN.depth=1", "missing"),
-    ],
-)
-def test_wrong_usage(words: tuple[str, ...]) -> None:
-    ran = run("set", *words)
-    assert (ran.code, ran.out) == (2, "")
-    assert text("in/a.keyxm") == CLEAN
 
 
 @pytest.mark.usefixtures("decks")

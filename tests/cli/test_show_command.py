@@ -18,23 +18,9 @@ def test_json(place: Place) -> None:
     assert found["file"] == "deck.keyxm"
     assert (found["units"], found["nodes"], found["elements"]) == ("metric", 3, 2)
     assert found["length"] == pytest.approx(10 + (0.4**2 + 10**2) ** 0.5)
-    assert found["sections"] == [
-        {
-            "name": "MODEL",
-            "keywords": [
-                {"keyword": keyword, "read": True, "partly": False}
-                for keyword in (
-                    "OCEAN",
-                    "NODE",
-                    "ELEMENT",
-                    "ELEMENT SETS",
-                    "GEOMETRIC SETS",
-                    "SEABED PROPERTIES",
-                    "SEABED STIFFNESS",
-                )
-            ],
-        }
-    ]
+    (section,) = found["sections"]
+    assert section["name"] == "MODEL"
+    assert section["keywords"][0] == {"keyword": "OCEAN", "read": True, "partly": False}
     assert found["keywords"] == {"total": 7, "read": 7, "partly": {}, "unread": {}}
     assert [(entry["name"], entry["elements"], entry["open"]) for entry in found["sets"]] == [
         ("ALL", 2, False),
@@ -108,11 +94,6 @@ def test_many_diameters_are_shown_when_asked_for(place: Place) -> None:
     assert "2 more diameters: -v shows all\n" in text
     assert "    42.5         1" not in text
     assert "    42.5         1" in run("show", place(deck), "-v").out
-
-
-def test_repeated_keywords_are_counted(place: Place) -> None:
-    text = run("show", place("$MODEL\n*NODE\n*TENSIONER\n*NODE\n*TENSIONER\n*OCEAN\n*TENSIONER\n")).out
-    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    passed through unchanged: *TENSIONER (3 blocks)\n" in text
 
 
 def test_the_bed_and_what_it_gives(place: Place) -> None:

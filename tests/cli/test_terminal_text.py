@@ -15,10 +15,9 @@ from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, process, run
-from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNUSED
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
-COMMANDS = [("lint",), ("validate",), ("show",), ("curves",), ("evaluate",)]
 
 
 def plain(text: str) -> str:
@@ -64,34 +63,6 @@ def test_machine_formats_have_no_colours(place: Place, form: str) -> None:
 
 
 # ------------------------------------------------------------------------------------------------ text that looks alive
-
-
-HOSTILE = {
-    "colour": "\x1b[31m",
-    "title": "\x1b]0;gone\x07",
-    "clear": "\x1b[2J\x1b[H",
-    "c1": "\x9b31m",
-    "bell": "\x07",
-    "backspace": "\x08\x08\x08",
-    "return": "\x7f",
-    "override": "\u202e",
-    "nul": "\x00",
-}
-
-
-@pytest.mark.covered
-@pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
-@pytest.mark.parametrize("terminal", [True, False])
-@pytest.mark.parametrize("command", [*COMMANDS, ("lint", "--output-format", "concise")], ids=str)
-def test_nothing_in_a_deck_acts_on_the_terminal(
-    place: Place, command: tuple[str, ...], text: str, *, terminal: bool
-) -> None:
-    deck = UNUSED.replace("Sand", f"S{text}and").replace("Clay", f"Cl{text}ay").replace("Pipe", f"P{text}ipe")
-    deck += f"*FOO{text}BAR\n$X{text}Y\n"
-    name = place(deck, "deck.keyxm")
-    outcome = run(*command, name, "--color", "never", terminal=terminal)
-    for stream in (outcome.out, outcome.err):
-        assert all(char.isprintable() or char == "\n" for char in stream)
 
 
 @pytest.mark.parametrize("text", ["\x1b[31m", "\x9b31m", "\u202e"])

@@ -7,27 +7,12 @@ import csv
 import pytest
 
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.cli.runner import assert_fits, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL, UNUSED
 
 COLUMNS = ["file", "ok", "verdict", "errors", "warnings", "unread", "sections", "curves", "elements"]
-READ = {"total": 7, "read": 7, "partly": {}, "unread": {}}
 PARTLY = CLEAN + "$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n 1, Semi\n*GUIDE\n x\n*GUIDE\n y\n"
 AS_FAR = "7 of 10 keywords, 1 in part; not read: *GUIDE (2)"
-
-
-def test_deck_without_errors(place: Place) -> None:
-    outcome = run("validate", place())
-    assert (outcome.code, outcome.err) == (0, "")
-    assert outcome.out.splitlines() == [
-        "Decks",
-        "           warn-   sec-  keywords           ele-",
-        "verdict     ings  tions      read  curves  ments  file",
-        "────────────────────────────────────────────────────────────",
-        "no errors      0      1         7       1      2  deck.keyxm",
-        "",
-        "no errors found in 1 deck",
-    ]
 
 
 def test_errors_come_before_the_table(place: Place) -> None:
@@ -38,28 +23,6 @@ def test_errors_come_before_the_table(place: Place) -> None:
     assert lines[0].startswith("bad.keyxm:20:6: error REF001")
     assert lines[-1] == "1 of 2 decks has errors: 1 error"
     assert [line.split()[0] for line in lines[-4:-2]] == ["no", "1"]
-
-
-def test_json(place: Place) -> None:
-    names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, "bad.keyxm")]
-    outcome = run("validate", *names, "--output-format", "json")
-    found = outcome.json()
-    assert_fits(found, "validate")
-    assert_fits(found["decks"][1]["findings"], "lint")
-    assert outcome.code == 1
-    assert found["total"] == {
-        "decks": 2,
-        "ok": 1,
-        "errors": 1,
-        "warnings": 0,
-        "unreadable": 0,
-        "keywords": {"total": 14, "read": 14, "partly": {}, "unread": {}},
-    }
-    good, bad = found["decks"]
-    row = ["good.keyxm", True, "no errors", 0, 0, 0, 1, 1, 2]
-    assert good == dict(zip(COLUMNS, row, strict=True)) | {"keywords": READ, "findings": []}
-    assert [each["code"] for each in bad["findings"]] == ["REF001"]
-    assert (bad["ok"], bad["errors"], bad["verdict"]) == (False, 1, "1 error")
 
 
 def test_csv(place: Place) -> None:
@@ -119,15 +82,6 @@ def test_nothing_to_validate_prints_no_table() -> None:
     assert run("validate", "nowhere").out == ""
 
 
-def test_samples() -> None:
-    outcome = run("validate", SAMPLES, "--output-format", "json")
-    assert outcome.code == 1
-    ok = {row["file"].rpartition("/")[2]: row["ok"] for row in outcome.json()["decks"]}
-    assert [ok.pop(f"{name}.keyxm") for name in ("broken", "scr-vessel-bad")] == [False, False]
-    assert all(ok.values())
-    assert len(ok) >= 6
-
-
 def test_a_deck_of_misspelt_keywords_alone_has_errors(place: Place) -> None:
     """Each name of a spreadsheet's export, with separators behind the names, is an error; nothing is read."""
     exported = "".join(f"{line};;\n" if line[0] in "$*" else f"{line}\n" for line in CLEAN.splitlines())
@@ -137,14 +91,6 @@ def test_a_deck_of_misspelt_keywords_alone_has_errors(place: Place) -> None:
     assert (deck["ok"], deck["keywords"]["read"], deck["warnings"]) == (False, 0, 0)
     assert [each["code"] for each in deck["findings"]] == ["SYN010", *["SYN009"] * deck["keywords"]["total"]]
     assert {each["severity"] for each in deck["findings"]} == {"error"}
-
-
-def test_keywords_without_a_near_name_are_no_errors(place: Place) -> None:
-    outcome = run("validate", place("$MODEL\n*GUIDE\n x\n"), "--output-format", "json")
-    assert (outcome.code, outcome.json()["decks"][0]["verdict"]) == (
-        0,
-        "no errors found (0 of 1 keyword read)",
-    )
 
 
 def test_an_unread_keyword_is_named_with_its_section_where_its_name_is_read_elsewhere(place: Place) -> None:

@@ -35,7 +35,7 @@ from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
-from mudline.cli.result_files import has_library, is_installed
+from mudline.cli.result_files import is_installed, require_library
 from mudline.cli.streams import counted, emit, emit_json, encoded, make_folder, notify, reason
 from mudline.cli.view import Progress, View
 from mudline.model.results.cases import CaseSummary, worst_first, write_parquet
@@ -103,8 +103,7 @@ def command(
     if summary_only and inputs.positions is None:
         raise click.UsageError("--summary-only is for time steps: give series with --positions")
     form = form or ("parquet" if is_installed("parquet") else "npz")
-    if not has_library(form):
-        return FOUND
+    require_library(form)
     check_positions(inputs.positions)
     selected = decks.collect()
     if not selected.files:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from importlib.util import find_spec
 from pathlib import Path, PurePath
 
 import click
@@ -11,7 +10,7 @@ import numpy as np
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, require_text, takes_deck
-from mudline.cli.streams import emit, notify, notify_missing, write_text
+from mudline.cli.streams import emit, notify, require, write_text
 from mudline.cli.view import View
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.faulty_blocks import with_raw_lines
@@ -77,9 +76,7 @@ def command(
     form = target or _form_of_output(output)
     table = _table_form(deck, source)
     given = _tables(deck, table) if table else deck.load(source)
-    read = _with_faults(given, view) if keep_faults and given else given and given.require()
-    if read is None:
-        return FOUND
+    read = _with_faults(given, view) if keep_faults else given.require()
     if form != "keyword":
         _require_values(read)
     if anonymous:
@@ -93,18 +90,17 @@ def command(
         return DONE
     path = Path(output)
     write_text(path, [text])
-    if not view.quiet:
-        notify(f"{deck.path if anonymous else read.file} -> {path.as_posix()}")
+    view.note(f"{deck.path if anonymous else read.file} -> {path.as_posix()}")
     return DONE
 
 
 def _with_faults(deck: Deck, view: View) -> Deck:
     """The deck with its faulty blocks as lines; says which they are. Raises DeckError."""
     made, places = with_raw_lines(require_text(deck))
-    for where in places if not view.quiet else ():
+    for where in places:
         line = deck.place(Problem(SYN001, "", where=where)).line
         keyword = deck.sections[where.section].blocks[where.block].keyword
-        notify(f"{deck.file}:{line}: *{keyword} is carried as its lines: it has errors")
+        view.note(f"{deck.file}:{line}: *{keyword} is carried as its lines: it has errors")
     return made
 
 
@@ -113,13 +109,12 @@ def _anonymous(deck: Deck, view: View) -> Deck:
     from mudline.editing.anonymizing import TOLERANCE, anonymous  # noqa: PLC0415 - few decks are given away
 
     made = anonymous(deck)
-    if not view.quiet:
-        notify(f"both decks evaluated: forces are the same to {TOLERANCE:g} of the largest")
-        if made.left_out:
-            notify(f"left out: {', '.join(f'*{keyword}' for keyword in made.left_out)}")
-        if any(made.shift):
-            notify("for you alone: {:g} was taken from Y and {:g} from Z".format(*made.shift))
-        notify("diameters, soil, elevations and numbers of nodes and elements stay: read the deck before you send it")
+    view.note(f"both decks evaluated: forces are the same to {TOLERANCE:g} of the largest")
+    if made.left_out:
+        view.note(f"left out: {', '.join(f'*{keyword}' for keyword in made.left_out)}")
+    if any(made.shift):
+        view.note("for you alone: {:g} was taken from Y and {:g} from Z".format(*made.shift))
+    view.note("diameters, soil, elevations and numbers of nodes and elements stay: read the deck before you send it")
     return made.deck
 
 
@@ -135,22 +130,14 @@ def _origin(given: str | None, datum: float | None) -> tuple[float, float, float
 
 
 def _bed(
-    deck: GivenDeck,
-    form: str,
-    output: str | None,
-    within: float | None,
-    origin: tuple[float, float, float],
-    view: View,
+    deck: GivenDeck, form: str, output: str | None, within: float | None, origin: tuple[float, float, float], view: View
 ) -> int:
     """Write the deck of a seabed and its file of points. Raises DeckError, click.ClickException."""
     if output is None or PurePath(output).suffix.lower() not in {".keyxm", ".keyx", ".das"}:
         raise click.UsageError("a seabed in metres becomes two files: give -o OUT.keyxm")
     if within is None or not 0.0 < within < math.inf:
         raise click.UsageError("a seabed is thinned: give its largest error, as in --within 0.05")
-    for library in ("scipy", *["rasterio"] * (form == "geotiff")):
-        if find_spec(library) is None:
-            notify_missing(f"a seabed ({form})", library, "bathymetry")
-            return FOUND
+    require(f"a seabed ({form})", "bathymetry", "scipy", *["rasterio"] * (form == "geotiff"))
     from mudline.cli.evaluate_inputs import read_file  # noqa: PLC0415 - only a seabed needs it
     from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
     from mudline.tools.exporting.bathymetry import bed_deck  # noqa: PLC0415 - as above
@@ -168,9 +155,8 @@ def _bed(
     write_text(Path(output), [bed.deck])
     if bed.above:
         notify(f"{bed.above} of {bed.given} points are above the sea: are they depths, not elevations?")
-    if not view.quiet:
-        notify(f"{bed.kept} of {bed.given} points, largest difference {bed.error:.3g} m")
-        notify(f"{deck.path} -> {output}, {path.as_posix()}")
+    view.note(f"{bed.kept} of {bed.given} points, largest difference {bed.error:.3g} m")
+    view.note(f"{deck.path} -> {output}, {path.as_posix()}")
     if bed.error > within:
         notify(f"--within {within:g} m is not held: write the points with more digits, or nearer to X = 0")
         return FOUND
@@ -185,11 +171,10 @@ def _table_form(deck: GivenDeck, source: str | None) -> str:
     return _TABLES.get(suffix, "") if source is None else source if source in _TABLES.values() else ""
 
 
-def _tables(deck: GivenDeck, form: str) -> Deck | None:
-    """The deck of tables; None without the library that they need, which is reported. Raises DeckError."""
-    if form == "xlsx" and find_spec("openpyxl") is None:
-        notify_missing(".xlsx", "openpyxl", "excel")
-        return None
+def _tables(deck: GivenDeck, form: str) -> Deck:
+    """The deck of tables; ends the command without the library that they need. Raises DeckError."""
+    if form == "xlsx":
+        require(".xlsx", "excel", "openpyxl")
     from mudline.model.scene.keyword_tables import read_tables  # noqa: PLC0415 - only tables need it
     from mudline.model.scene.workbook import csv_sheet, workbook_sheets  # noqa: PLC0415 - as above
 

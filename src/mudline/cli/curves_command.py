@@ -52,13 +52,7 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(
-    *,
-    deck: GivenDeck,
-    ratios: tuple[float, ...],
-    weight: float | None,
-    plot: Plot,
-    output_format: str,
-    view: View,
+    *, deck: GivenDeck, ratios: tuple[float, ...], weight: float | None, plot: Plot, output_format: str, view: View
 ) -> int:
     """Show each curve of a deck as evaluated: sorted, with the slope of every segment, and stiffnesses for the seabed.
 

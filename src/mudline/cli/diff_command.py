@@ -8,7 +8,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from itertools import accumulate, groupby
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,6 @@ from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
 from mudline.cli.streams import emit, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.commands import diff, diff_matrix
-from mudline.editing.comparison.folders import compare_folders
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 from mudline.editing.comparison.superseded import ComparedDeck, Comparison, DeckStatus
@@ -108,9 +107,12 @@ def command(
                 raise click.ClickException(f"{path}: no such file or directory")
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
-        both = _Folders(before, after, tolerance)
-        compared = both.compared(strict=strict, units=units, gitignore=not every_file)
-        return _print_folders(both, compared, output_format, view)
+        try:
+            words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": not every_file}
+            decks_of_both = diff(before, after, tolerance=tolerance, **words).decks
+        except FileNotFoundError:
+            raise click.ClickException(f"{before}, {after}: no deck in these folders") from None
+        return _print_folders((before, after), tolerance, decks_of_both, output_format, view)
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
     summary = summary_of(comparison)
@@ -174,45 +176,25 @@ def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[
     return first, second
 
 
-# --------------------------------------------------------------------------------------------------------- two folders
-
-
-@dataclass(slots=True)
-class _Folders:
-    """Two folders to be compared; `counts` and `code` are complete when all decks have been yielded."""
-
-    before: str
-    after: str
-    tolerance: float
-    code: int = DONE
-    counts: Counter[DeckStatus] = field(default_factory=Counter)
-
-    def compared(self, *, strict: bool, units: str | None, gitignore: bool) -> Iterator[ComparedDeck]:
-        """Yield each deck, and count it."""
-        words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
-        for pair in compare_folders(self.before, self.after, self.tolerance, **words):
-            notify_diagnostics(pair.errors)
-            if pair.unread is not None:
-                notify(pair.why)
-            self.counts[pair.status] += 1
-            self.code = max(
-                self.code, WRONG_USAGE if pair.unread else DONE if pair.status is DeckStatus.EQUAL else FOUND
-            )
-            yield pair
-        if not self.counts:
-            notify(f"{self.before}, {self.after}: no deck in these folders")
-            self.code = WRONG_USAGE
-
-
-def _print_folders(folders: _Folders, compared: Iterator[ComparedDeck], output_format: str, view: View) -> int:
+def _print_folders(
+    folders: tuple[str, str], tolerance: float, decks: Sequence[ComparedDeck], output_format: str, view: View
+) -> int:
+    """Print the differences of the decks of two folders, and return the exit code."""
+    for deck in decks:
+        notify_diagnostics(deck.errors)
+        if deck.unread is not None:
+            notify(deck.why)
+    counts = Counter(deck.status for deck in decks)
+    *lines, summary = folder_lines(decks, counts, view)
     if output_format == "json":
-        emit(_folders_json(folders, compared))
+        emit(_folders_json(folders, tolerance, decks, counts))
     elif output_format == "markdown":
-        *lines, summary = folder_lines(compared, folders.counts, view)
-        emit(markdown(folders.before, folders.after, str(summary), lines, view))
+        emit(markdown(*folders, str(summary), lines, view))
     else:
-        view.lines([line] for line in folder_lines(compared, folders.counts, view))
-    return folders.code
+        view.lines([line] for line in ([*lines, summary] if not view.quiet else lines))
+    if any(deck.unread for deck in decks):
+        return WRONG_USAGE
+    return DONE if counts[DeckStatus.EQUAL] == len(decks) else FOUND
 
 
 # ------------------------------------------------------------------------------------------------------------ JSON
@@ -228,8 +210,10 @@ def _json_lines(head: Mapping[str, object], name: str, rows: Iterable[Mapping[st
     yield "\n ]" if comma else "]"
 
 
-def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterator[str]:
-    head = {"format": FOLDER_FORMAT, "before": folders.before, "after": folders.after, "tolerance": folders.tolerance}
+def _folders_json(
+    folders: tuple[str, str], tolerance: float, decks: Sequence[ComparedDeck], counts: Mapping[DeckStatus, int]
+) -> Iterator[str]:
+    head = {"format": FOLDER_FORMAT, "before": folders[0], "after": folders[1], "tolerance": tolerance}
     rows = (
         {
             "deck": deck.name,
@@ -238,11 +222,11 @@ def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterat
             "spelling_differences": len(deck.comparison.spelling),
             "differences": [asdict(each) for each in deck.comparison.differences],
         }
-        for deck in compared
+        for deck in decks
     )
     yield from _json_lines(head, "decks", rows)
-    counts = {status.value: folders.counts[status] for status in DeckStatus}
-    end = {"equivalent": folders.counts.total() == folders.counts[DeckStatus.EQUAL], "summary": counts}
+    summary = {status.value: counts[status] for status in DeckStatus}
+    end = {"equivalent": counts[DeckStatus.EQUAL] == len(decks), "summary": summary}
     yield "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"
 
 
@@ -271,9 +255,9 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int], view: View) -> Iterator[Part]:
-    """Yield the differences of the decks of two folders, then the counts of decks, which `counts` then has in full."""
-    for deck in compared:
+def folder_lines(decks: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int], view: View) -> Iterator[Part]:
+    """Yield the differences of the decks of two folders, then the counts of decks."""
+    for deck in decks:
         if deck.status is DeckStatus.CHANGED:
             yield from difference_lines(deck.before, deck.after, deck.comparison, view)
         elif deck.status is DeckStatus.EQUAL:
@@ -282,10 +266,9 @@ def folder_lines(compared: Iterable[ComparedDeck], counts: Mapping[DeckStatus, i
         else:
             mark, style, words = _OF_DECKS[deck.status]
             yield visible(f"{mark} {deck.name}: {words}"), style
-    if not view.quiet:
-        names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
-        parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
-        yield f"{counted(sum(counts.values()), 'deck')}: {', '.join(parts)}" if parts else "no deck was compared"
+    names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
+    parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
+    yield f"{counted(sum(counts.values()), 'deck')}: {', '.join(parts)}"
 
 
 def summary_of(comparison: Comparison) -> str:

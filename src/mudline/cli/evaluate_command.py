@@ -20,7 +20,7 @@ from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
-from mudline.cli.result_files import beside, has_library, result_files, write_tables
+from mudline.cli.result_files import beside, require_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
 from mudline.model.results.against import ResultComparison, read_reference
@@ -110,8 +110,8 @@ def command(
     if plot_elements and plot.path is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
-    if form and not has_library(form):
-        return FOUND
+    if form:
+        require_library(form)
     deck = GivenDeck(decks[0], stdin_name, units).load()
     if plan_only:
         _show_plan(inputs.prepared(deck), output_format, view)

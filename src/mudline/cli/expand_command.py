@@ -75,5 +75,4 @@ def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
             notify(path.as_posix())
     make_folder(folder)
     write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
-    if not view.quiet:
-        notify(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")
+    view.note(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")

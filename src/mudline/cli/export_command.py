@@ -55,8 +55,7 @@ def command(
         notify(note)
     for name, text in files.items():
         write_text(path.with_name(name), [text])
-    if not view.quiet:
-        notify(f"{read.file} -> {', '.join(path.with_name(name).as_posix() for name in files)}")
+    view.note(f"{read.file} -> {', '.join(path.with_name(name).as_posix() for name in files)}")
     if output_format == "json":
         entries = [asdict(entry) for entry in report.entries]
         places = [path.with_name(name).as_posix() for name in files]

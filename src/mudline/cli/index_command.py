@@ -6,7 +6,6 @@ import os
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
-from importlib.util import find_spec
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
@@ -17,11 +16,11 @@ from mudline.checks.configuration import CallerSettings
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
 from mudline.checks.settings import Settings
-from mudline.cli import DONE, WRONG_USAGE, options
+from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
-from mudline.cli.streams import counted, notify, notify_missing, reason
+from mudline.cli.streams import counted, notify, reason, require
 from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
@@ -38,14 +37,7 @@ if TYPE_CHECKING:
 @options.jobs
 @takes_decks(stdin=False)
 def command(
-    *,
-    decks: GivenDecks,
-    output: str,
-    prune: bool,
-    config: str | None,
-    isolated: bool,
-    jobs: int,
-    view: View,
+    *, decks: GivenDecks, output: str, prune: bool, config: str | None, isolated: bool, jobs: int, view: View
 ) -> int:
     """Bring decks into an archive: Parquet tables, and a DuckDB file that shows them.
 
@@ -53,9 +45,7 @@ def command(
     begin as decks do). Decks that have not changed are not read again. Decks that no longer exist are dropped. Needs
     the extra mudline[archive].
     """
-    if missing := [name for name in ("duckdb", "pyarrow") if find_spec(name) is None]:
-        notify_missing("mudline index", " and ".join(missing), "archive")
-        return WRONG_USAGE
+    require("mudline index", "archive", "duckdb", "pyarrow")
     if "-" in decks.paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
     settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
@@ -78,11 +68,10 @@ def command(
         raise click.ClickException(str(error)) from error
     except OSError as error:
         raise click.ClickException(f"{output}: cannot be written: {reason(error)}") from error
-    if not view.quiet:
-        counts = archive.counts
-        words = ", ".join(f"{counts[name]} {name}" for name in ("new", "changed", "unchanged", "gone") if counts[name])
-        total = counted(counts.total() - counts["gone"], "deck")
-        notify(f"{total}{': ' if words else ''}{words} -> {folder.as_posix()}")
+    counts = archive.counts
+    words = ", ".join(f"{counts[name]} {name}" for name in ("new", "changed", "unchanged", "gone") if counts[name])
+    total = counted(counts.total() - counts["gone"], "deck")
+    view.note(f"{total}{': ' if words else ''}{words} -> {folder.as_posix()}")
     return max(inputs.code, DONE)
 
 

@@ -6,7 +6,7 @@ import errno
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
 from pathlib import Path
@@ -106,13 +106,6 @@ class Inputs:
     files: list[Input] = field(default_factory=list)
     code: int = 0
     undone: dict[Input, str] = field(default_factory=dict)
-
-    def contents(self) -> Iterator[tuple[Input, bytes]]:
-        """Yield each readable file with its content; unreadable files are reported and set the exit code."""
-        for file in self.files:
-            data = self.content(file)
-            if data is not None:
-                yield file, data
 
     def content(self, file: Input) -> bytes | None:
         """Return the content of a file, or None for an unreadable file, which is reported and sets the exit code."""

@@ -181,8 +181,7 @@ def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoRetu
             once()
         except (ConfigurationError, click.ClickException) as error:
             notify(error.format_message() if isinstance(error, click.ClickException) else str(error))
-        if not view.quiet:
-            notify(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
+        view.note(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
         wait_for_change(paths, before)
 
 

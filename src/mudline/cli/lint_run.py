@@ -109,8 +109,7 @@ def lint_files(
     name = Path(baseline).as_posix()
     if recording:
         write_text(Path(baseline), [recorded.text()])
-        if not report.view.quiet:
-            notify(f"{name}: {counted(recorded.known.total(), 'finding')} recorded")
+        report.view.note(f"{name}: {counted(recorded.known.total(), 'finding')} recorded")
     elif report.view.verbose and (gone := recorded.gone()):
         notify(f"{name}: {counted(gone, 'recorded finding')} no longer there: write it again")
     return report.failing or differs

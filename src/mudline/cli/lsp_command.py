@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import sys
-from importlib.util import find_spec
 
 from mudline.cli import WRONG_USAGE, options
-from mudline.cli.streams import notify, notify_missing
+from mudline.cli.streams import notify, require
 
 
 @options.command("lsp")
@@ -16,9 +15,7 @@ def command() -> int:
 
     An editor starts this command and exchanges messages on standard input and output; docs/editors.md shows the setup.
     """
-    if find_spec("pygls") is None:
-        notify_missing("lsp", "pygls", "lsp")
-        return WRONG_USAGE
+    require("lsp", "lsp", "pygls")
     if sys.stdin is None:
         notify("standard input is closed: lsp is started by an editor, which talks to it there")
         return WRONG_USAGE

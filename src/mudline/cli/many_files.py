@@ -1,6 +1,7 @@
 """One function applied to many files, in the order given, with a progress bar.
 
-Files that cannot be read, or for which the program fails, are reported, and the others are still processed.
+Files that cannot be read, or for which the program fails, are reported, and the others are still processed. So are
+decks that a command refuses to rewrite.
 """
 
 from __future__ import annotations
@@ -10,8 +11,9 @@ from contextlib import closing
 from typing import TypeVar, TypeVarTuple
 
 from mudline.cli.inputs import Input, Inputs
-from mudline.cli.streams import notify
+from mudline.cli.streams import notify, notify_diagnostics
 from mudline.cli.view import Progress
+from mudline.language.diagnostics import DeckError
 from mudline.tools.running.executors import Crash, many
 
 _Item = TypeVar("_Item")
@@ -58,3 +60,36 @@ def many_files(
             else:
                 yield from ((item, result) for item in items_found)
             progress.advance()
+
+
+def each_deck(
+    inputs: Inputs, work: Callable[[Input, bytes], _Made], progress: Progress, *refusals: type[Exception]
+) -> Iterator[tuple[Input, bytes, _Made | None]]:
+    """Yield each deck with its content and the result of `work`, made here, one after the other.
+
+    The result is None for a deck that `work` refuses by a DeckError, or by another of `refusals`; it is reported.
+    """
+
+    def prepared(file: Input) -> tuple[tuple[Input, bytes], tuple[Input, bytes]]:
+        given = file, file.read()
+        return given, given
+
+    refusing: tuple[type[Exception], ...] = (DeckError, *refusals)
+
+    def tried(file: Input, data: bytes) -> _Made | Exception:
+        try:
+            return work(file, data)
+        except refusing as error:
+            return error
+
+    with closing(many_files(inputs, prepared, tried, progress, jobs=1)) as results:
+        for (file, data), made in results:
+            if not isinstance(made, Exception):
+                yield file, data, made
+                continue
+            progress.hide()
+            if not isinstance(made, DeckError):
+                line = getattr(made, "line", None)
+                notify(f"{file.name}{f':{line}' if line else ''}: {made}")
+            notify_diagnostics(getattr(made, "diagnostics", ()))
+            yield file, data, None

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import click
 
 from mudline.basics.files import PLOT_FORMS, suffix_of
-from mudline.cli import FOUND
 from mudline.cli.options import OUTPUT_FILE, OWN, Command, form_of_file, option
-from mudline.cli.streams import notify, notify_missing, writing
+from mudline.cli.streams import require, writing
 from mudline.cli.view import View
 
 
@@ -44,8 +42,8 @@ class Plot:
             figure = draw(plots)
             with writing(self.path) as stream:
                 plots.save(figure, suffix_of(self.path), stream)
-            if view is not None and not view.quiet:
-                notify(f"plot -> {self.path.as_posix()}")
+            if view is not None:
+                view.note(f"plot -> {self.path.as_posix()}")
 
 
 def _plot(_context: click.Context, _option: click.Parameter, path: str | None) -> Plot:
@@ -53,9 +51,7 @@ def _plot(_context: click.Context, _option: click.Parameter, path: str | None) -
     if path is None:
         return Plot(None)
     form_of_file(path, PLOT_FORMS)
-    if find_spec("matplotlib") is None:
-        notify_missing("--plot", "matplotlib", "plot")
-        raise click.exceptions.Exit(FOUND)
+    require("--plot", "plot", "matplotlib")
     return Plot(Path(path))
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from contextlib import closing
-from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -13,11 +12,11 @@ from mudline.basics.overwriting import reading
 from mudline.basics.short_repr import counted
 from mudline.checks.configuration import CallerSettings
 from mudline.checks.engine import LintSettings
-from mudline.cli import DONE, FOUND, WRONG_USAGE, options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
-from mudline.cli.streams import emit_json, notify, notify_missing, write_text
+from mudline.cli.streams import emit_json, require, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
@@ -81,9 +80,8 @@ def command(
     html = output_format == "html"
     if html and output is None:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
-    if html and (missing := next((name for name in ("jinja2", "matplotlib") if find_spec(name) is None), None)):
-        notify_missing("report", missing, "report")
-        return WRONG_USAGE
+    if html:
+        require("report", "report", "jinja2", "matplotlib")
     settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
     inputs = decks.collect(is_in_any_form)
     for path in filter(None, (template, logo)) if html else ():
@@ -109,9 +107,9 @@ def command(
         raise click.ClickException(str(error)) from error
     if not html:
         emit_json({"reports": contents}, output)
-    elif pages.rows and pages.index is not None and not view.quiet:
+    elif pages.rows and pages.index is not None:
         faulty = f", {pages.faulty} of {counted(len(pages.rows), 'deck')} with errors" if pages.faulty else ""
-        notify(f"report -> {pages.index.as_posix()}{faulty}")
+        view.note(f"report -> {pages.index.as_posix()}{faulty}")
     return max(inputs.code, FOUND if pages.faulty else DONE)
 
 

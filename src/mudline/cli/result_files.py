@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from mudline.basics.files import suffix_of
-from mudline.cli.streams import notify_missing, writing
+from mudline.cli.streams import require, writing
 from mudline.cli.view import View, tracked
 from mudline.model.contact.columns import ElementResults
 from mudline.model.results.evaluation import Evaluation
@@ -38,12 +38,10 @@ def is_installed(form: str) -> bool:
     return True
 
 
-def has_library(form: str) -> bool:
-    """Return True if the library for a form of files is installed, or none is needed; a missing library is reported."""
-    if not FORMS[form].library or is_installed(form):
-        return True
-    notify_missing(f".{form}", FORMS[form].library, FORMS[form].extra)
-    return False
+def require_library(form: str) -> None:
+    """End the command if the library for a form of files is missing."""
+    if FORMS[form].library:
+        require(f".{form}", FORMS[form].extra, FORMS[form].library)
 
 
 @contextmanager

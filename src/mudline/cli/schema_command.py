@@ -61,32 +61,27 @@ def configuration_schema() -> dict[str, Any]:
     }
 
 
+_PATH = {"type": "string", "pattern": "\\S"}
+_CODE = {"$ref": "#/definitions/rule"}
+_CODES = {"type": "array", "items": _CODE}
+
+
 def _values(key: str) -> dict[str, Any]:
-    if key == NO_OUTSIDE:
-        return {"type": "boolean"}
-    if key == EXTEND:
-        return _path()
-    if key == ENCODING:
-        return {"type": "string", "minLength": 1}
     if key in WORDS:
         return {"enum": list(WORDS[key])}
     if key in LISTS:
-        return _list(_code() if key in OF_CODES else _path())
-    values = {"enum": list(SEVERITIES)} if key == "severity" else _list(_code())
-    names = {"propertyNames": _code()} if key == "severity" else {}
-    return {"type": "object", **names, "additionalProperties": values}
-
-
-def _path() -> dict[str, Any]:
-    return {"type": "string", "pattern": "\\S"}
-
-
-def _list(item: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "array", "items": item}
-
-
-def _code() -> dict[str, Any]:
-    return {"$ref": "#/definitions/rule"}
+        return _CODES if key in OF_CODES else {"type": "array", "items": _PATH}
+    values: dict[str, dict[str, Any]] = {
+        NO_OUTSIDE: {"type": "boolean"},
+        EXTEND: _PATH,
+        ENCODING: {"type": "string", "minLength": 1},
+        "severity": {
+            "type": "object",
+            "propertyNames": _CODE,
+            "additionalProperties": {"enum": list(SEVERITIES)},
+        },
+    }
+    return values.get(key, {"type": "object", "additionalProperties": _CODES})
 
 
 def _rule() -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import click
 
@@ -16,14 +16,15 @@ from mudline.checks.rules.unusual import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, require_text, takes_decks
+from mudline.cli.many_files import each_deck
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
-from mudline.cli.view import View
+from mudline.cli.view import Progress, View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
 from mudline.editing.assignment.fields import ConditionError, DeckCondition, FieldTarget, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment, parse_condition
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes
-from mudline.language.diagnostics import DeckError, Diagnostic, Severity
+from mudline.language.diagnostics import Diagnostic, Severity
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.source import Source
 
@@ -44,14 +45,7 @@ _UNWRITTEN = "not written"
 @options.diff
 @takes_decks()
 def command(
-    *,
-    assignment: str,
-    decks: GivenDecks,
-    condition: str | None,
-    force: bool,
-    check: bool,
-    diff: bool,
-    view: View,
+    *, assignment: str, decks: GivenDecks, condition: str | None, force: bool, check: bool, diff: bool, view: View
 ) -> int:
     """Change one value in many decks, in place; comments, columns and all other values stay as written.
 
@@ -66,76 +60,53 @@ def command(
         where = None if condition is None else DeckCondition.of(parse_condition(condition))
     except PathError as error:
         raise click.UsageError(str(error)) from error
-    run = _SetRun(change, target, where, decks.units, force, view, decks.collect())
-    run.plan(check=check, diff=diff)
+    inputs = decks.collect()
+    run = _SetRun(change, target, where, decks.units, force, Progress(len(inputs.files), view))
+    counts, printed = Counter[str](), list[bytes]()
+    planned = list[tuple[Input, int, Sequence[TextEdit]]]()  # with a hash of the content that the edits are for
+    for file, data, made in each_deck(inputs, run.change, run.progress, AssignmentError, ConditionError):
+        outcome = _REFUSED if made is None else made if isinstance(made, str) else _CHANGED if made.edits else _SAME
+        counts[outcome] += 1
+        done = made if isinstance(made, Assigned) and made.edits else None
+        if file.path is None and not (check or diff):
+            printed.append(_edited(file, data, done.edits if done else ()))
+        if done is None:
+            continue
+        run.progress.hide()
+        words = f"{file.name}:{done.line}: {done.before} -> {done.after}"
+        if view.verbose:
+            notify(words)
+        if check:
+            emit([f"would change: {words}\n"])
+        if diff:
+            print_changes(data, _edited(file, data, done.edits), file.name, view)
+        if file.path is not None:
+            planned.append((file, hash(data), done.edits))
     if not (check or diff):
-        run.write()
+        _write(inputs, planned, printed, counts)
     changed = "would be changed" if check or diff else "changed"
-    words = {_CHANGED: changed} | {outcome: outcome for outcome in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
-    texts = [f"{run.counts[outcome]} {word}" for outcome, word in words.items() if run.counts[outcome]]
+    words_of = {_CHANGED: changed} | {outcome: outcome for outcome in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
+    texts = [f"{counts[outcome]} {word}" for outcome, word in words_of.items() if counts[outcome]]
     if texts and not view.quiet:
-        click.echo(f"{counted(run.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
-    nowhere = run.counts[_WITHOUT] and not any(run.counts[name] for name in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
+        click.echo(f"{counted(counts.total(), 'deck')}: {', '.join(texts)}", err=True)
+    nowhere = counts[_WITHOUT] and not any(counts[name] for name in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
     if nowhere:
         notify(f"no deck has {change.path}")
-    would_change = run.counts[_CHANGED] and (check or diff)
-    return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or would_change else DONE)
+    would_change = counts[_CHANGED] and (check or diff)
+    return max(inputs.code, FOUND if counts[_REFUSED] or nowhere or would_change else DONE)
 
 
-@dataclass(slots=True)
-class _SetRun:
-    """A run: first all decks are checked; the files are written if none was refused."""
+class _SetRun(NamedTuple):
+    """The change of a run, and the decks for which it is made."""
 
     assignment: Assignment
     target: FieldTarget
     condition: DeckCondition | None
     units: str | None
     force: bool
-    view: View
-    inputs: Inputs
-    planned: list[tuple[Input, int, tuple[TextEdit, ...]]] = field(default_factory=list)
-    """Files to change, with a hash of their content and the edits."""
-    printed: list[bytes] = field(default_factory=list)
-    counts: Counter[str] = field(default_factory=Counter)
+    progress: Progress
 
-    def plan(self, *, check: bool, diff: bool) -> None:
-        """Determine the change of each deck, and print it if asked for."""
-        for file, data in self.inputs.contents():
-            outcome, change = self._outcome(file, data)
-            self.counts[outcome] += 1
-            if file.path is None and not (check or diff):
-                self.printed.append(_edited(file, data, change.edits if change else ()))
-            if change is None:
-                continue
-            if check:
-                emit([f"would change: {file.name}:{change.line}: {change.before} -> {change.after}\n"])
-            if diff:
-                print_changes(data, _edited(file, data, change.edits), file.name, self.view)
-            if file.path is not None:
-                self.planned.append((file, hash(data), change.edits))
-
-    def _outcome(self, file: Input, data: bytes) -> tuple[str, Assigned | None]:
-        try:
-            change = self._assigned(file, data)
-            if isinstance(change, Assigned) and change.edits:
-                self._judge(file, data, change)
-        except (AssignmentError, ConditionError) as error:
-            line = getattr(error, "line", None)
-            notify(f"{file.name}{f':{line}' if line else ''}: {error}")
-            notify_diagnostics(getattr(error, "diagnostics", ()))
-            return _REFUSED, None
-        except DeckError as error:
-            notify_diagnostics(error.diagnostics)
-            return _REFUSED, None
-        if isinstance(change, str):
-            return change, None
-        if not change.edits:
-            return _SAME, None
-        if self.view.verbose:
-            notify(f"{file.name}:{change.line}: {change.before} -> {change.after}")
-        return _CHANGED, change
-
-    def _assigned(self, file: Input, data: bytes) -> Assigned | str:
+    def change(self, file: Input, data: bytes) -> Assigned | str:
         """Return the changed deck, or the outcome of a deck without a change. Raises errors for refused decks."""
         if form_of(file.name) != KEYWORD:
             raise AssignmentError("only decks in keyword text are changed: convert it first")
@@ -143,7 +114,11 @@ class _SetRun:
         if self.condition is not None and not self.condition.holds(deck):
             return _UNMET
         change = assigned(deck, self.assignment, self.target, self.units)
-        return _WITHOUT if change is None else change
+        if change is None:
+            return _WITHOUT
+        if change.edits:
+            self._judge(file, data, change)
+        return change
 
     def _judge(self, file: Input, data: bytes, change: Assigned) -> None:
         """Show warnings that a deck has only with its new value; raises AssignmentError for an unusual value."""
@@ -156,7 +131,8 @@ class _SetRun:
         if unusual and not self.force:
             what = f"{self.target.path} would be unusual in the units of the deck"
             raise AssignmentError(f"{what}: correct the value, or give --force", change.line, unusual)
-        if not self.view.quiet:
+        if not self.progress.view.quiet:
+            self.progress.hide()
             remarks = [finding for finding in new if finding.code == UNT008.code and finding.line == change.line]
             warnings = [finding for finding in new if finding.severity is not Severity.INFO]
             notify_diagnostics(warnings + remarks, refused=False)
@@ -164,26 +140,32 @@ class _SetRun:
     def _findings(self, file: Input, data: bytes) -> list[Diagnostic]:
         return covered_findings(data, file.name, rules(), units=self.units, folder=file.folder)[0]
 
-    def write(self) -> None:
-        """Write the files, each in one step, unless a deck was refused or a file cannot be written."""
-        locked = [file for file, _, _ in self.planned if not os.access(file.path or "", os.W_OK)]
-        for file in locked:
-            self.inputs.fail(f"{file.name}: cannot be written: permission denied")
-        if self.counts[_REFUSED] or locked or self.inputs.code:
-            if self.counts[_CHANGED]:
-                self.counts[_UNWRITTEN] = self.counts.pop(_CHANGED)
-                notify(f"nothing was written: {counted(self.counts[_UNWRITTEN], 'deck')} would have changed")
-            return
-        for content in self.printed:
-            emit_deck(content)
-        for file, held, edits in self.planned:
-            data = self.inputs.content(file)  # read again: the contents of many would fill the memory
-            if data is not None and hash(data) != held:
-                self.inputs.fail(f"{file.name}: {CHANGED}")
-            elif data is not None and self.inputs.replaced(file, data, _edited(file, data, edits)):
-                continue
-            self.counts.subtract([_CHANGED])
-            self.counts[_UNWRITTEN] += 1
+
+def _write(
+    inputs: Inputs,
+    planned: Sequence[tuple[Input, int, Sequence[TextEdit]]],
+    printed: Sequence[bytes],
+    counts: Counter[str],
+) -> None:
+    """Write the files, each in one step, unless a deck was refused or a file cannot be written."""
+    locked = [file for file, _, _ in planned if not os.access(file.path or "", os.W_OK)]
+    for file in locked:
+        inputs.fail(f"{file.name}: cannot be written: permission denied")
+    if counts[_REFUSED] or locked or inputs.code:
+        if counts[_CHANGED]:
+            counts[_UNWRITTEN] = counts.pop(_CHANGED)
+            notify(f"nothing was written: {counted(counts[_UNWRITTEN], 'deck')} would have changed")
+        return
+    for content in printed:
+        emit_deck(content)
+    for file, held, edits in planned:
+        data = inputs.content(file)  # read again: the contents of many would fill the memory
+        if data is not None and hash(data) != held:
+            inputs.fail(f"{file.name}: {CHANGED}")
+        elif data is not None and inputs.replaced(file, data, _edited(file, data, edits)):
+            continue
+        counts.subtract([_CHANGED])
+        counts[_UNWRITTEN] += 1
 
 
 def _edited(file: Input, data: bytes, edits: Sequence[TextEdit]) -> bytes:

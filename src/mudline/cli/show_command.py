@@ -16,9 +16,9 @@ from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, shown, unit_names
 from mudline.basics.short_repr import counted
-from mudline.cli import DONE, FOUND, WRONG_USAGE, options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
-from mudline.cli.result_files import has_library, write_tables
+from mudline.cli.result_files import require_library, write_tables
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
 from mudline.commands import show
@@ -47,8 +47,8 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     exit code is then 1.
     """
     form = _form(output, output_format)
-    if form == "xlsx" and not has_library("xlsx"):
-        return WRONG_USAGE
+    if form == "xlsx":
+        require_library(form)
     summary, elements, errors = show(require_text(deck.load()))
     units = summary["units"]
     if output is not None:

@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import BinaryIO
 
@@ -103,9 +104,10 @@ def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = Tru
         notify(f"{len(diagnostics) - SHOWN_ROWS} more {what}: mudline lint shows all")
 
 
-def notify_missing(what: str, library: str, extra: str) -> None:
-    """Print the name of a missing library, and the extra that installs it."""
-    notify(f"{what} needs {library}: {install_hint(extra)}")
+def require(what: str, extra: str, *libraries: str) -> None:
+    """End the command with the name of an extra that installs libraries, if one of these is missing."""
+    if missing := [library for library in libraries if find_spec(library) is None]:
+        raise click.ClickException(f"{what} needs {' and '.join(missing)}: {install_hint(extra)}")
 
 
 def reason(error: OSError) -> str:

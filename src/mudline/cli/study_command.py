@@ -62,8 +62,7 @@ def command(
         _plot(result, plot, view)
     if output:
         emit_json(result.json(), output)
-        if not view.quiet:
-            notify(f"study -> {Path(output).as_posix()}")
+        view.note(f"study -> {Path(output).as_posix()}")
     if output_format == "json":
         emit_json(result.json())
     elif output_format == "csv":

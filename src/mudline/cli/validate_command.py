@@ -52,15 +52,7 @@ _FAIL_ON = ("error", "warning", "unread")
 @options.no_outside
 @options.jobs
 @takes_decks()
-def command(
-    *,
-    decks: GivenDecks,
-    output_format: str,
-    fail_on: str,
-    no_outside: bool,
-    jobs: int,
-    view: View,
-) -> int:
+def command(*, decks: GivenDecks, output_format: str, fail_on: str, no_outside: bool, jobs: int, view: View) -> int:
     """Validate decks: print the errors of each, then a table with a row for each deck.
 
     A file without any section has an error. Warnings are those of lint, and those about a pipe without a seabed below
@@ -89,16 +81,7 @@ def command(
 
 @dataclass(slots=True)
 class ValidationTotal:
-    """Counts of a run; files that could not be read are not among the decks.
-
-    Attributes:
-        decks: number of decks.
-        ok: number of decks without errors.
-        errors: number of errors.
-        warnings: number of warnings.
-        unreadable: number of files that could not be read.
-        keywords: how many keywords were read.
-    """
+    """Counts of a run; files that could not be read are not among the decks."""
 
     decks: int = 0
     ok: int = 0

@@ -9,6 +9,8 @@ from contextlib import AbstractContextManager
 from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from mudline.cli.streams import notify
+
 if TYPE_CHECKING:
     from mudline.cli.printing import Bar, Line, Printer
 
@@ -45,6 +47,11 @@ class View(NamedTuple):
     def width(self) -> int | None:
         """Columns of the terminal; None without a terminal."""
         return self.printer().width if sys.stdout.isatty() else None
+
+    def note(self, message: str) -> None:
+        """Print a note to standard error, unless only the result is wanted."""
+        if not self.quiet:
+            notify(message)
 
     def bar(self, total: int) -> Bar:
         """Return a bar of `total` steps."""

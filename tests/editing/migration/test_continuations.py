@@ -93,6 +93,16 @@ def test_decks_that_are_written_changed_and_removed_in_a_session_are_seen(tmp_pa
     assert continuations_beside(deck) == ([], False)
 
 
+def test_a_chain_whose_middle_deck_changes_in_a_session_is_followed_again(tmp_path: Path) -> None:
+    deck, last = deck_of(BASE, "base.keyxm", folder=tmp_path), tmp_path / "last.keyxm"
+    (tmp_path / "base.keyxm").write_text(BASE)
+    last.write_text(f"$MODEL\n{CURVE}{GOES_ON.replace('base', 'middle')}")
+    assert continuations_beside(deck) == ([], False)
+    for name, found in (("base", [last.as_posix()]), ("other", []), ("base", [last.as_posix()])):
+        (tmp_path / "middle.keyxm").write_text(GOES_ON.replace("base", name))
+        assert continuations_beside(deck) == (found, bool(found)), name
+
+
 def test_keywords_that_may_be_meant_as_legacy_ones() -> None:
     others = "*OCEAAN\n 1\n*WIND TURBINE ROTOR\n 1\n$LOAD CASE\n*EMBEDMNT\n 0, 0\n"
     deck = deck_of(f"$MODEL\n*OCEAN\n 1, 2, 3\n*EMBEDMNT\n 0, 0\n{others}")

@@ -21,3 +21,8 @@ def test_other_decks_are_not_taken_for_one() -> None:
     assert "DeepLines" not in "".join(faults(f"$MODEL\n{DEEPLINES}"))
     assert "DeepLines" not in "".join(faults(DEEPLINES.replace("0.3 0.5", "0.3, 0.5")))
     assert "DeepLines" not in "".join(faults("*NODE\n 1 2 3\n"))
+
+
+def test_the_mark_of_a_common_ancestor_is_a_merge_conflict() -> None:
+    (told,) = faults("$MODEL\n*OCEAN\n 500, 1025, 9.81\n||||||| base\n 400, 1025, 9.81\n")
+    assert told.startswith("4:1 SYN018 a merge conflict is not solved")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from mudline.basics.files import recording_looks
 from mudline.basics.limits import LARGEST_NEIGHBOUR
 from mudline.language.codes import MIG001
 from mudline.language.deck.forms import SUFFIXES
@@ -172,7 +175,8 @@ class Continuations:
 
     def __init__(self, files: Iterable[Path] = ()) -> None:
         self._looked: set[Path] = set()
-        self._states: dict[Path, tuple[int, ...]] = {}
+        self._states: dict[Path, dict[str, tuple[int, ...]]] = {}
+        """States of each deck and of the files on which the decks that it continues depend."""
         self._found: dict[Path, tuple[list[Path], bool]] = {}
         """Decks continued by each deck, and True if that deck has seabed keywords of its own."""
         for file in files:
@@ -201,30 +205,41 @@ class Continuations:
             self._visit(file)
 
     def _visit(self, file: Path) -> None:
-        try:
-            status = file.stat()
-            state = status.st_ino, status.st_mtime_ns, status.st_size
-            if self._states.get(file) == state:
-                return
-            self._states[file] = state
-            self._found.pop(file, None)
-            if status.st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
-                return
-            deck = load_path(file)
-        except (OSError, DeckError):
-            return  # an unreadable deck continues nothing; if it is to be migrated, that is an error there
-        if keywords := deck.keywords():
-            seabed = bool(keywords & _NEWER) or any(map(is_superseded, keywords))
-            self._found[file] = [base.resolve() for base in decks_before(deck)], seabed
+        states = self._states.get(file)
+        if states and all(_state(path) == before for path, before in states.items()):
+            return
+        states = {str(file): _state(str(file))}
+        self._found.pop(file, None)
+        with recording_looks() as looks, suppress(OSError, DeckError):  # an unreadable deck continues nothing
+            if file.stat().st_size <= LARGEST_NEIGHBOUR and b"RESTART" in file.read_bytes().upper():
+                deck = load_path(file)
+                if keywords := deck.keywords():
+                    seabed = bool(keywords & _NEWER) or any(map(is_superseded, keywords))
+                    self._found[file] = [base.resolve() for base in decks_before(deck)], seabed
+        self._states[file] = states | {path: _state(path) for path in looks}
 
 
-def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
-    """Return the results of `Continuations.of` and `extend` for a deck and its folder in its present state."""
+def _state(path: str) -> tuple[int, ...]:
+    """Return what changes with a file; nothing for a file that is not there."""
+    try:
+        status = os.stat(path)  # noqa: PTH116 - asked for many files
+    except (OSError, ValueError):
+        return ()
+    return status.st_ino, status.st_mtime_ns, status.st_size
+
+
+def continuations_beside(deck: Deck, among: Continuations | None = None) -> tuple[list[str], bool]:
+    """Return the results of `Continuations.of` and `extend` for a deck and its folder in its present state.
+
+    `among` are the decks of a run, whose folders are searched once.
+    """
     if deck.folder is None or not deck.folder.is_dir():
         return [], False
-    continuations, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
-    continuations.look_in(deck.folder)
-    return continuations.of(file), continuations.extend(file)
+    file = deck.folder / Path(deck.file).name
+    found = among or _continuations_in(deck.folder)
+    if among is None:
+        found.look_in(deck.folder)
+    return found.of(file), found.extend(file)
 
 
 @lru_cache(maxsize=1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
-from typing import Any, NamedTuple, cast, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,6 +98,13 @@ class Table:
         if self._lengths is None:
             self._lengths = np.full(len(self.values), self.values.shape[1], dtype=np.intp)
         return self._lengths
+
+    if TYPE_CHECKING:  # a field is assigned from rows, as `read_table` takes them, and some from None
+
+        def __get__(self, part: object, kind: type | None = None) -> Table: ...
+        def __set__(
+            self, part: object, rows: Table | Sequence[Sequence[Cell]] | NDArray[np.generic] | str | None
+        ) -> None: ...
 
     def __len__(self) -> int:
         return len(self.values)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import NamedTuple
 
+from mudline.basics.arguments import given_path
+from mudline.basics.files import write_atomically
 from mudline.language.codes import RUN001
 from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords import catalogue
@@ -197,3 +201,19 @@ class TargetNames:
         if name != written:
             self.report.add(where, Outcome.RENAMED, name, "a name that the target takes", f"name {short_name(written)}")
         return name
+
+
+class Export(NamedTuple):
+    """The model of a deck for another program."""
+
+    files: dict[str, str]
+    """Texts of the files by name."""
+    report: ExportReport
+    """Keywords that do not carry over."""
+    notes: tuple[str, ...] = ()
+    """Remarks on a resting shape; none at the deck's own coordinates."""
+
+    def write(self, folder: str | os.PathLike[str]) -> None:
+        """Write the files into a folder; raises OSError."""
+        for name, text in self.files.items():
+            write_atomically(given_path(folder, name="folder") / name, text.encode())
