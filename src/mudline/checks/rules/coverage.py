@@ -10,7 +10,7 @@ import numpy as np
 from mudline.checks.context import LintContext, entries_of_sets
 from mudline.checks.rules.geometry import without_sections
 from mudline.checks.rules.seabed_overlaps import overlaps, within
-from mudline.checks.rules.seabed_position import first_of, held_nodes
+from mudline.checks.rules.seabed_position import first_of
 from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.naming import is_name
@@ -18,6 +18,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
+from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import KEYWORD
 from mudline.model.scene.unread_lines import is_of_vessels, unread_lines

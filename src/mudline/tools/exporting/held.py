@@ -1,19 +1,13 @@
-"""Nodes that a deck holds, in which degrees of freedom, and the report on the ends of its lines."""
+"""Ends of the lines of a deck, and the report on them and on the nodes that the deck holds."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from dataclasses import dataclass
 
 from mudline.basics.quantities import shown
-from mudline.model.scene.boundary import TRANSLATIONS, conditions
+from mudline.model.scene.boundary import TRANSLATIONS, held_nodes
 from mudline.model.scene.model import Scene
 from mudline.tools.exporting.report import ExportReport, Outcome
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.loads import Boundary
-
-_NO_FREEDOMS: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,41 +24,25 @@ class End:
         return not self.held & TRANSLATIONS
 
 
-@dataclass(frozen=True, slots=True)
-class HeldNodes:
-    """Degrees of freedom in which `*BOUNDARY` holds nodes, by their indices, and the nodes that a vessel moves."""
-
-    freedoms: dict[int, frozenset[int]] = field(default_factory=dict)
-    moved: set[int] = field(default_factory=set)
-
-    def of(self, node: int) -> frozenset[int]:
-        """Return the held degrees of freedom of a node."""
-        return self.freedoms.get(node, _NO_FREEDOMS)
-
-
-def read_held(scene: Scene, report: ExportReport) -> HeldNodes:
-    """Return the nodes held by `*BOUNDARY`; displacements and other types of motion are added to the report."""
-    held = HeldNodes()
+def report_held(scene: Scene, report: ExportReport) -> None:
+    """Report displacements of held nodes, and types of motion other than those of vessels."""
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
-        for each in cast("Boundary", block).types:
+        for each in block.types:
             if each.type_ not in ("CONSTANT", "VESSEL"):
                 effect = "its nodes are held and not moved"
                 report.add(where, Outcome.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
-            for nodes, freedoms, value in conditions(scene, each):
-                for node in nodes.tolist():
-                    held.freedoms[node] = held.of(node) | freedoms
-                held.moved.update(nodes.tolist() if each.type_ == "VESSEL" else ())
-                if value:
-                    effect = f"node {int(scene.node_ids[nodes[0]])} stays where its coordinates are"
-                    report.add(where, Outcome.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
-    return held
+    for line in held_nodes(scene):
+        value = line.how[0]
+        if isinstance(value, float | int) and value and line.nodes.size:
+            effect = f"node {int(scene.node_ids[line.nodes[0]])} stays where its coordinates are"
+            report.add(line.where._replace(path=()), Outcome.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
 
 
-def report_inside(scene: Scene, report: ExportReport, held: HeldNodes, ends: set[int]) -> None:
+def report_inside(scene: Scene, report: ExportReport, held: dict[int, frozenset[int]], ends: set[int]) -> None:
     """Report nodes inside lines that are held in some of their degrees of freedom."""
     inside: dict[str, list[int]] = {}
-    for node in sorted(set(held.freedoms) - ends):
-        inside.setdefault(", ".join(map(str, sorted(held.of(node)))), []).append(int(scene.node_ids[node]))
+    for node in sorted(set(held) - ends):
+        inside.setdefault(", ".join(map(str, sorted(held[node]))), []).append(int(scene.node_ids[node]))
     where = [at for at, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for freedoms, nodes in inside.items():
         effect = f"inside of a line: free here (nodes: {len(nodes)}, the first {nodes[0]})"

@@ -20,14 +20,14 @@ from mudline.language.diagnostics import Problem, Where
 from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
 from mudline.model.contact.touchdown import line_summaries
-from mudline.model.scene.boundary import TRANSLATIONS
+from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
-from mudline.tools.exporting.held import End, read_held, report_inside
+from mudline.tools.exporting.held import End, report_held, report_inside
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
@@ -326,7 +326,8 @@ def _report_water(model: LineModel, target: str) -> None:
 def _lines(
     scene: Scene, report: ExportReport, units: SiFactors, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
-    held = read_held(scene, report)
+    held, vessels = held_freedoms(scene, [scene.deck])
+    report_held(scene, report)
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     ends: dict[int, End] = {}
@@ -335,7 +336,7 @@ def _lines(
 
     def end_of(node: int) -> int:
         if node not in ends:
-            end = End(node, held.of(node), node in held.moved)
+            end = End(node, held.get(node, NO_FREEDOMS), node in vessels)
             if end.joins and degree[node] < 2:
                 what = f"node {int(scene.node_ids[node])} ends a line, and nothing in *BOUNDARY holds it along an axis"
                 raise scene.refusal(f"{what}: a free end cannot be exported; hold the node", scene.nodes.where(node))
@@ -346,7 +347,7 @@ def _lines(
         if nodes[0] == nodes[-1]:
             message = "the line of this node is closed, and has no end to be held by: it cannot be exported"
             raise scene.refusal(message, scene.nodes.where(int(nodes[0])))
-        inner = [at for at, node in enumerate(nodes.tolist()) if held.of(node) >= TRANSLATIONS]
+        inner = [at for at, node in enumerate(nodes.tolist()) if held.get(node, NO_FREEDOMS) >= TRANSLATIONS]
         cuts = sorted({0, *inner, len(nodes) - 1})
         for first, last in pairwise(cuts):
             part, through = elements[first:last], nodes[first : last + 1]
