@@ -200,12 +200,7 @@ def _around_touchdown(result: ContactResult, carried: Mask) -> Mask:
 def _require_elements(scene: Scene) -> None:
     if not len(scene.element_ids):
         makers = unread_makers(scene.set_table.context.external_definers, "ELEMENT")
-        blocks = (
-            (i, j, block.keyword)
-            for i, section in enumerate(scene.deck.sections)
-            for j, block in enumerate(section.blocks)
-        )
-        where = next((Where(i, j) for i, j, keyword in blocks if keyword in makers), None)
+        where = next((at for at, _, block in scene.deck.every_block() if block.keyword in makers), None)
         names = " or ".join(f"*{maker}" for maker in makers)
         why = f": those of {names} are not in it, as its lines have no public format" if makers else ""
         raise scene.refusal(f"the deck has no elements to export{why}; give nodes and elements", where)
@@ -281,7 +276,7 @@ def _plain(coefficient: float) -> float:
     return float(f"{coefficient:.12g}")
 
 
-def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
+def report_sections(model: LineModel, names: list[str], *, torsion: bool) -> None:
     """Report each cross-section: its name in the target, curves by their slope at 0, torsion."""
     for section, name in zip(model.sections, names, strict=True):
         entry = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
@@ -290,8 +285,8 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
         effect += f", mass with {shown(section.contents, 4)} kg/m of contents" if section.contents else ""
-        model.report.add(section.where, status, f"{target} {name}", effect)
-    _report_water(model, target)
+        model.report.add(section.where, status, f"line type {name}", effect)
+    _report_water(model)
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
         model.report.add(twisted[0].where, Outcome.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
@@ -300,24 +295,22 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
             model.report.add(where, Outcome.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 
 
-def _report_water(model: LineModel, target: str) -> None:
+def _report_water(model: LineModel) -> None:
     """Report coefficients and contents."""
     deck = model.scene.deck
     for where, block in deck.blocks("HYDRODYNAMIC SETS"):
-        entries = cast("HydrodynamicSets", block).sets
-        plain = all(each.constant is not None and each.constant.drag_lift is None for each in entries)
-        effects = (
-            [] if plain and cast("HydrodynamicSets", block).option is None else ["no drag lift, no types but CONSTANT"]
-        )
+        given = cast("HydrodynamicSets", block)
+        plain = all(each.constant is not None and each.constant.drag_lift is None for each in given.sets)
+        effects = [] if plain and given.option is None else ["no drag lift, no types but CONSTANT"]
         if any(section.axial_drag for section in model.sections):
             effects += ["drag along as it is written, on an area that the manual does not show"]
         if any(section.assumed for section in model.sections):
             effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
         status = Outcome.APPROXIMATED if effects else Outcome.CARRIED
-        model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
+        model.report.add(where, status, "Cd, Ca of each line type", "; ".join(effects))
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
         effect = "its mass at rest; pressure and flow are not written"
-        model.report.add(where, Outcome.APPROXIMATED, f"mass of each {target}", effect)
+        model.report.add(where, Outcome.APPROXIMATED, "mass of each line type", effect)
 
 
 # ---------------------------------------------------------------------------------------------------------- lines
@@ -354,10 +347,9 @@ def _lines(
             begin, end = end_of(int(through[0])), end_of(int(through[-1]))
             keys = np.column_stack([section_of[part], soil_of[part]])
             starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
+            lengths = scene.length[part] * units.length
             stretches = [
-                LineStretch(
-                    int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length
-                )
+                LineStretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], lengths[a:b])
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))

@@ -78,10 +78,8 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     _report(model, names, soil)
     text = ["%YAML 1.1", *(f"# {line}" for line in model.report.comments(TITLE)), "---"]
     text += ["General:", "  UnitsSystem: SI", "Environment:", *_rows(environment, "  ")]
-    for title, objects in (
-        ("LineTypes", [_line_type(model, key, each) for key, each in names.items()]),
-        ("Lines", lines),
-    ):
+    types = [_line_type(model, key, each) for key, each in names.items()]
+    for title, objects in (("LineTypes", types), ("Lines", lines)):
         text.append(f"{title}:")
         for items in objects:
             first, *others = _rows(items, "    ")
@@ -238,7 +236,7 @@ def _profile(model: LineModel, half: float) -> Items:
 def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report = model.report
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
-    report_sections(model, "line type", names=listed, torsion=True)
+    report_sections(model, listed, torsion=True)
     report_ends(report, model.ends, "Fixed", "Fixed", clamps=True)
     if soil.kind is LawKind.SOIL:
         _report_soil(model, soil)
@@ -249,10 +247,9 @@ def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report_friction(report, model.soils, "friction of line types", [(each.axial, each.lateral) for each in model.soils])
     if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
         springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
-        report.add(
-            soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
-        )
-    report_resistance(report, "none")
+        effect = f"the stiffer of {springs}"
+        report.add(soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", effect, "spring")
+    report_resistance(report)
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):
             effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
