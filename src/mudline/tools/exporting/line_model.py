@@ -15,19 +15,17 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.basics.quantities import shown
-from mudline.language.codes import RUN001
-from mudline.language.diagnostics import Problem, Where
+from mudline.language.diagnostics import Where
 from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
 from mudline.model.contact.touchdown import line_summaries
-from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
+from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms, held_nodes
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
-from mudline.tools.exporting.held import End, report_held, report_inside
+from mudline.model.scene.weights import Pipe, pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
@@ -42,6 +40,20 @@ _AROUND = 5
 _DRAG, _ADDED = 1.2, 1.0
 """Coefficients used if the deck has none."""
 _UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """End of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
+
+    node: int
+    held: frozenset[int]
+    vessel: bool
+
+    @property
+    def joins(self) -> bool:
+        """True if lines join there and nothing else holds the node."""
+        return not self.held & TRANSLATIONS
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,10 +149,6 @@ class LineModel:
         level = self.mudline(x, y)
         known = level[~np.isnan(level)]
         return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
-
-    def line_of(self, where: Where) -> int:
-        """Return the line of a place in its file."""
-        return self.scene.deck.place(Problem(RUN001, "", where=where)).line
 
     def line_nodes(self) -> Indices:
         """Return the nodes of all lines, each once."""
@@ -320,7 +328,6 @@ def _lines(
     scene: Scene, report: ExportReport, units: SiFactors, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
     held, vessels = held_freedoms(scene, [scene.deck])
-    report_held(scene, report)
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     ends: dict[int, End] = {}
@@ -353,5 +360,48 @@ def _lines(
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
-    report_inside(scene, report, held, set(ends))
+    _report_held(scene, report, held, set(ends))
     return list(ends.values()), lines
+
+
+# ----------------------------------------------------------------------------------------------------------------- ends
+
+
+def _report_held(scene: Scene, report: ExportReport, held: dict[int, frozenset[int]], ends: set[int]) -> None:
+    """Report displacements, types of motion but those of vessels, and nodes inside lines that are held in part."""
+    where = Where()
+    for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
+        for each in block.types:
+            if each.type_ not in ("CONSTANT", "VESSEL"):
+                effect = "its nodes are held and not moved"
+                report.add(where, Outcome.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
+    for line in held_nodes(scene):
+        value = line.how[0]
+        if isinstance(value, float | int) and value and line.nodes.size:
+            effect = f"node {int(scene.node_ids[line.nodes[0]])} stays where its coordinates are"
+            report.add(line.where._replace(path=()), Outcome.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
+    inside: dict[str, list[int]] = {}
+    for node in sorted(set(held) - ends):
+        inside.setdefault(", ".join(map(str, sorted(held[node]))), []).append(int(scene.node_ids[node]))
+    for freedoms, nodes in inside.items():
+        effect = f"inside of a line: free here (nodes: {len(nodes)}, the first {nodes[0]})"
+        report.add(where, Outcome.LEFT_OUT, "none", effect, f"DOF {freedoms}")
+
+
+def report_ends(report: ExportReport, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
+    """Report the ends: held although partly free, on vessels, fixed against rotation."""
+    scene = report.scene
+    places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
+    for where in places:
+        report.add(where, Outcome.CARRIED, f"{fixed}, {vessel} ends")
+    for end in ends:
+        node = f"node {int(scene.node_ids[end.node])}"
+        if end.vessel:
+            status = Outcome.CARRIED if vessel != fixed else Outcome.APPROXIMATED
+            report.add(places[-1], status, vessel, f"{node} stays where it is until it is moved", f"vessel at {node}")
+        if not end.joins and (missing := sorted(TRANSLATIONS - end.held)):
+            effect = f"free in DOF {', '.join(map(str, missing))} in the deck: held at its coordinates"
+            report.add(places[-1], Outcome.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
+        if not clamps and (turned := sorted(end.held - TRANSLATIONS)):
+            effect = f"no moment at {node}: the line turns freely there"
+            report.add(places[-1], Outcome.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")

@@ -14,8 +14,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.seabed import SeabedKind
-from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_sections
+from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames
 from mudline.tools.exporting.soil import (
     ExportSoil,

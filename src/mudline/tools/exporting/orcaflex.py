@@ -15,8 +15,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.seabed import SeabedKind
-from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, LineStretch, report_sections
+from mudline.tools.exporting.line_model import LineModel, LineStretch, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames, one_line, short_name
 from mudline.tools.exporting.soil import (
     ExportSoil,
@@ -124,7 +123,7 @@ def _line_type(model: LineModel, key: Key, name: str) -> Items:
     section = model.sections[key[0]]
     return {
         "Name": name,
-        "#": f"*GEOMETRIC SETS {short_name(section.name)}, line {model.line_of(section.where)}",
+        "#": f"*GEOMETRIC SETS {short_name(section.name)}, line {model.scene.line_of(section.where)}",
         "Category": "General",
         "OD": section.buoyancy,
         "ID": section.inner,
@@ -145,7 +144,7 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
     nodes = [model.ends[index].node for index in (line.begin, line.end)]
     ids = [int(model.scene.node_ids[node]) for node in nodes]
-    where = [model.line_of(model.scene.nodes.where(node)) for node in nodes]
+    where = [model.scene.line_of(model.scene.nodes.where(node)) for node in nodes]
     held = [model.ends[index].held for index in (line.begin, line.end)]
     sections = [[names[_key(model, each)], float(each.lengths.sum()), float(each.lengths.min())] for each in parts]
     return {
@@ -173,7 +172,7 @@ def _end(model: LineModel, index: int, piece: LineStretch) -> list[object]:
 def _environment(model: LineModel, soil: ExportSoil) -> Items:
     shape = model.scene.seabed
     half = 0.5 * soil.diameter
-    law = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
+    law = soil.says() if soil.where is None else f"{soil.says()}, line {model.scene.line_of(soil.where)}"
     items: Items = {
         "#": f"seabed: {law}",
         "Density": model.density / 1e3,

@@ -18,8 +18,8 @@ from mudline.model.contact.laws.soil import initial, lift
 from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
+from mudline.model.scene.weights import pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
 _RIGID_SHARE = 1e-3
