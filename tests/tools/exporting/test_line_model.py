@@ -237,7 +237,7 @@ def test_every_block_of_every_sample_is_in_the_report(name: str, target: ModuleT
     said = {(entry.keyword.split()[0], entry.line) for entry in model.report.entries}
     for i, section in enumerate(model.scene.deck.sections):
         for j, block in enumerate(section.blocks):
-            line = model.line_of(Where(i, j))
+            line = model.scene.line_of(Where(i, j))
             assert any(at >= line and keyword == f"*{block.keyword}".split()[0] for keyword, at in said), block.keyword
     assert all(entry.effect for entry in model.report.lost)
     assert not model.report.is_exact

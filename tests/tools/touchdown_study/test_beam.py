@@ -9,7 +9,7 @@ import pytest
 
 from mudline.model.contact import ContactInput
 from mudline.model.contact.input import LawAssignment
-from mudline.model.scene.time_stepping import Scheme, generalised_alpha, hilber_hughes
+from mudline.model.scene.load_case import Scheme, generalised_alpha, hilber_hughes
 from mudline.tools.touchdown_study.beam import Beam, at_rest, march
 from mudline.tools.touchdown_study.soil import ElasticSoil, SteppedSoil
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.model.scene.pipe import pipe_of
-from mudline.model.scene.time_stepping import hilber_hughes
+from mudline.model.scene.load_case import hilber_hughes
+from mudline.model.scene.weights import pipe_of
 from mudline.tools.touchdown_study.study import study
 from mudline.tools.touchdown_study.zone import Zone, touchdown_zone
 from tests.helpers.samples import SAMPLES

@@ -9,7 +9,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext, entries_of_sets
 from mudline.checks.rules.geometry import without_sections
-from mudline.checks.rules.seabed_position import first_of, held_nodes
+from mudline.checks.rules.seabed_position import first_of
 from mudline.language.codes.contact import SBD025
 from mudline.language.codes.references import REF010
 from mudline.language.deck.parameters import folded
@@ -22,6 +22,7 @@ from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.laws import SetLaw, present
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices

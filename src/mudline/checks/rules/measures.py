@@ -15,7 +15,7 @@ from mudline.checks.rules.curve_shape import swapped
 from mudline.checks.unit_slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.contents import kept_lines, names_given
+from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import (
@@ -30,6 +30,7 @@ from mudline.language.keywords.usual import (
     exceeded,
 )
 from mudline.language.keywords.values import Names
+from mudline.model.scene.boundary import held_freedoms
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats
@@ -58,8 +59,6 @@ _SHORT = 3.2
 """Length in m: mobilisation lengths up to the usual characteristic length of 10 ft are not slips of units."""
 _MOST_PAIRS = 10_000_000
 """Number of laws times sections beyond which weights are not computed."""
-_DIGITS = 16
-"""Number of digits of a node number, at most."""
 _SHARE = 0.3
 """Ratio of submerged weight to weight in air of a line with contents, at least."""
 _LEAST_FORCE = 100.0
@@ -256,29 +255,15 @@ def _steepness(of: Numbers, height: float) -> float:
 
 def _from_nodes(of: Numbers, _name: str, _value: float) -> float:
     """Return the initial distance of a vessel from the farthest of the nodes that it holds."""
-    scene = of.context.scene
-    held = of.context.once(_held_nodes).get(folded(str(getattr(of.holder, "vessel", ""))), [])
-    nodes = scene.coordinates[np.isin(scene.node_ids, held)] if held else ()
+    scene, vessel = of.context.scene, folded(str(getattr(of.holder, "vessel", "")))
+    held = [node for node, name in of.context.once(_on_vessels).items() if folded(name) == vessel]
     place = np.array([of("x"), of("y"), of("z")])
-    return max((float(np.linalg.norm(node * of.units.size("L") - place)) for node in nodes), default=math.nan)
+    nodes = scene.coordinates[held] * of.units.size("L")
+    return max((float(np.linalg.norm(node - place)) for node in nodes), default=math.nan)
 
 
-def _held_nodes(context: LintContext) -> dict[str, list[int]]:
-    """Return the nodes that each vessel holds, by the vessel's name."""
-    nodes_by_vessel: dict[str, list[int]] = {}
-    labels = {
-        folded(f"{{{line.label}}}"): str(int(number(line.node, "number")))
-        for _, block in context.blocks("LABEL")
-        for line in block.labels
-        if number(line.node, "number") > 0.0
-    }
-    for _, block in context.blocks("BOUNDARY", "LOAD CASE"):
-        for line in kept_lines(block):
-            node, _, vessel = line.partition(",")
-            node = labels.get(folded(node), node).strip()
-            if node.isdecimal() and len(node) < _DIGITS:
-                nodes_by_vessel.setdefault(folded(vessel.partition(",")[0]), []).append(int(node))
-    return nodes_by_vessel
+def _on_vessels(context: LintContext) -> dict[int, str]:
+    return held_freedoms(context.scene, [context.scene.deck])[1]
 
 
 def _shortest_period(context: LintContext) -> float:

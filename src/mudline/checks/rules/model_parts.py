@@ -13,7 +13,7 @@ import numpy as np
 
 from mudline.checks.context import LintContext
 from mudline.checks.rules.geometry import without_sections
-from mudline.checks.rules.seabed_position import first_of, held_nodes
+from mudline.checks.rules.seabed_position import first_of
 from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
@@ -22,6 +22,7 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
+from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isfinite
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.language.diagnostics import Code, Problem, Severity, Where
-from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.rules import rule
+from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
-from mudline.model.scene.references import freedom_and_step
+from mudline.model.scene.numbering import Floats, Mask, blocks_of
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.vertical_axis import FLAT
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.loads import Boundary, FixedValues
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -32,7 +28,6 @@ DEEPEST = 5.0
 """Depth below the seabed in diameters."""
 
 _IN_PLANE = (1, 2)
-_FREEDOMS = range(1, 7)
 
 
 def depths(context: LintContext) -> Floats:
@@ -334,35 +329,3 @@ def _on_slope(context: LintContext) -> Mask:
     near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
     sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
     return sloping
-
-
-class HeldNodes(NamedTuple):
-    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
-
-    where: Where
-    dof: int
-    nodes: Indices
-    how: tuple[object, object]
-
-
-def held_nodes(scene: Scene) -> Iterator[HeldNodes]:
-    """Yield the nodes that each line of `*BOUNDARY` holds; lines whose form is not public are left out."""
-    for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
-        for i, type_ in enumerate(cast("Boundary", block).types):
-            for j, entry in enumerate(type_.entries):
-                place = where.inside("types", i, "entries", j)
-                if hasattr(entry, "generate"):
-                    values = cast("FixedValues | None", entry.generate)
-                    if values is None:
-                        continue
-                    at, step = freedom_and_step(values)
-                    fields = (values.third, values.fourth, values.fifth, None)
-                    numbers: tuple[object, ...] = (values.start, values.end, step)
-                    dof, value, place = fields[at - 2], fields[at - 1], place.inside("generate")
-                else:
-                    numbers, dof, value = (entry.node, entry.node, 1), entry.dof, entry.value
-                    place = place.inside("dof")
-                whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
-                if whole and cast("int", numbers[2]) > 0 and dof in _FREEDOMS:
-                    nodes = scene.nodes.between(*cast("tuple[int, int, int]", numbers))
-                    yield HeldNodes(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))

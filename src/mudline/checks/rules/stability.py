@@ -198,9 +198,7 @@ def _effect(kind: str, product: float) -> str:
 
 def _described(scene: Scene, item: Oscillation) -> str:
     """Return the law, node and line of a contact in words, with the file if it is in a continued deck."""
-    from mudline.model.scene.oscillation import line_of  # noqa: PLC0415 - most decks do without
-
-    line, base = line_of(scene, item.where), scene.deck.base_of(item.where)
+    line, base = scene.line_of(item.where), scene.deck.base_of(item.where)
     place = f", line {line}" if line else ""
     return f"{item.name}, node {scene.node_ids[item.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
 

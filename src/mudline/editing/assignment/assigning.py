@@ -30,6 +30,8 @@ from mudline.language.syntax.layout import replacement_in_layout
 from mudline.language.syntax.source import Source
 from mudline.model.scene.model import resolve
 
+_BY_EQUATION = "{} is given by an equation, {}: change its parameters instead"
+
 
 class AssignmentError(ValueError):
     """Reason why a deck is left unchanged; `line` is its place, None for the deck as a whole."""
@@ -82,9 +84,7 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
     if span is None or not deck.written(place):
         raise AssignmentError(f"{target.path} is not written in the deck", line)
     if isinstance(current.value, Equation):
-        raise AssignmentError(
-            f"{target.path} is given by an equation, {cut(str(current.value), 60)}: change its parameters instead", line
-        )
+        raise AssignmentError(_BY_EQUATION.format(target.path, cut(str(current.value), 60)), line)
     new_value = _checked(current, operand, assignment, line)
     written = origin.source.text[slice(*span)]
     if _same(current.value, new_value):
@@ -120,8 +120,7 @@ def set_value(deck: Deck, path: str, value: object) -> None:
     if current is None:
         raise AssignmentError(f"the deck has no {target.path}")
     if isinstance(current.value, Equation):
-        equation = cut(str(current.value), 60)
-        raise AssignmentError(f"{target.path} is given by an equation, {equation}: change its parameters instead")
+        raise AssignmentError(_BY_EQUATION.format(target.path, cut(str(current.value), 60)))
     if not isinstance(current.owner, Table):
         setattr(current.owner, current.field.slot.name, value)
         return
@@ -150,21 +149,17 @@ def _the_one(deck: Deck, target: FieldTarget, *, left_out: bool = False) -> Fiel
     if left_out and len(candidates) == 1:
         return candidates[0]
     if not written and candidates:
-        raise AssignmentError(
-            f"{target.path} is left out here: only a value that is written can be changed", _line(deck, candidates[0])
-        )
-    if not written and (faults := _read_faults(deck, target.path.keyword)):
-        raise AssignmentError(
-            f"*{target.path.keyword} cannot be read: correct its errors first", None, deck.diagnose(faults)
-        )
-    return written[0] if written else None
-
-
-def _read_faults(deck: Deck, keyword: str) -> list[Problem]:
-    """Return the read errors in the blocks of a keyword: the missing value may be in a line that cannot be read."""
+        message = f"{target.path} is left out here: only a value that is written can be changed"
+        raise AssignmentError(message, _line(deck, candidates[0]))
+    if written:
+        return written[0]
     read = deck.origin.read if isinstance(deck.origin, TextOrigin) else {}
-    blocks = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, keyword))
-    return [problem for block in blocks if block for problem in block.problems if problem.weight is Severity.ERROR]
+    blocks = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, target.path.keyword))
+    faults = [problem for block in blocks if block for problem in block.problems if problem.weight is Severity.ERROR]
+    if faults:  # the missing value may be in a line that cannot be read
+        message = f"*{target.path.keyword} cannot be read: correct its errors first"
+        raise AssignmentError(message, None, deck.diagnose(faults))
+    return None
 
 
 def _line(deck: Deck, value: FieldValue) -> int:
@@ -216,9 +211,8 @@ def _require_only_this(
 ) -> None:
     """Raise AssignmentError unless the decks differ only in the given value, now `new_value`; changes `before`."""
     if before.units != after.units:
-        raise AssignmentError(
-            f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units", line
-        )
+        message = f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units"
+        raise AssignmentError(message, line)
     new = _at(after, current.where)
     if _same(new, new_value):
         if isinstance(current.owner, Table):

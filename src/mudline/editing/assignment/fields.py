@@ -179,10 +179,9 @@ def _hint(word: str, known: set[str]) -> str:
 
 def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
     """Yield the blocks of a keyword in the deck's own sections whose lines were read, with their places."""
-    for index, section in enumerate(deck.own_sections):
-        for number, block in enumerate(section.blocks):
-            if block.keyword == keyword and not isinstance(block, Opaque):
-                yield Where(index, number), block
+    for where, _, block in deck.alone.every_block():
+        if block.keyword == keyword and not isinstance(block, Opaque):
+            yield where, block
 
 
 def _all_values(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:

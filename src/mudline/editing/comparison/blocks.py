@@ -76,8 +76,9 @@ class _Flattening:
             lists = [slot for slot in record_schema(type(block)).slots if self._keyed(slot)]
             own: Flat = {}
             self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
-            if not lists:
-                flat |= self._apart(own)
+            if not lists:  # the values of a second block get its number
+                count = self.counts[""] = self.counts.get("", 0) + 1
+                flat |= own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
                 continue
             for name in block.facts.carried:
                 path = name.rstrip("_")
@@ -153,11 +154,6 @@ class _Flattening:
         count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
         return title if count == 1 else f"{title}#{count}"
 
-    def _apart(self, own: Flat) -> Flat:
-        """Return the values of a block without named records; those of a second block get a number."""
-        count = self.counts[""] = self.counts.get("", 0) + 1
-        return own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
-
     @staticmethod
     def _keyed(slot: FieldSpec) -> bool:
         return slot.many and bool(slot.record) and all(key_slot(record) for record in slot.record.values())
@@ -167,19 +163,15 @@ def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[t
     """Yield the rows of a table; points in ascending order."""
     rows = [(cells, index) for index, cells in enumerate(table.rows(slot.columns))]
     if isinstance(slot.about, Rows) and slot.about.unordered:
-        rows.sort(
-            key=lambda item: [
-                (cell is None, str(cell) if isinstance(cell, str) else "", _number(cell)) for cell in item[0]
-            ]
-        )
+        rows.sort(key=lambda row: [(cell is None, *_rank(cell)) for cell in row[0]])
     for number, (cells, index) in enumerate(rows, 1):
         while cells and cells[-1] is None:
             cells.pop()
         yield f"{path}/{number}", ComparedValue([plain(cell) for cell in cells], list(cells), where.inside(index))
 
 
-def _number(cell: float | str | None) -> float:
-    return 0.0 if cell is None or isinstance(cell, str) else float(cell)
+def _rank(cell: float | str | None) -> tuple[str, float]:
+    return (cell, 0.0) if isinstance(cell, str) else ("", cell or 0.0)
 
 
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
@@ -232,11 +224,10 @@ def _group(name: _Name) -> str:
 def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     modelled: dict[_Name, list[tuple[Where, Block]]] = {}
     titles = _titles(side)
-    for i, section in enumerate(side.scene.deck.sections):
-        for j, block in enumerate(section.blocks):
-            name = (titles[i], block.keyword)
-            if isinstance(block, Block) and not block.facts.defines:
-                modelled.setdefault(name, []).append((Where(i, j), side.comparable(block, Where(i, j))))
+    for where, _, block in side.scene.deck.every_block():
+        if isinstance(block, Block) and not block.facts.defines:
+            name = (titles[where.section], block.keyword)
+            modelled.setdefault(name, []).append((where, side.comparable(block, where)))
     return modelled
 
 

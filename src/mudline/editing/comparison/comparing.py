@@ -20,7 +20,7 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Label
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
-from mudline.model.scene.laws import SetLaw
+from mudline.model.scene.laws import ResistanceValues, SetLaw
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Numbered
 from mudline.model.scene.seabed import SeabedShape
@@ -36,7 +36,8 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     pair.before.require()
     pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
-    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor)
+    of_files = partial(seabed_points, of_files=True)
+    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, of_files)
     return [*(difference for differences in groups for difference in differences(pair)), *of_keywords]
 
 
@@ -46,15 +47,14 @@ def _units(pair: Pair) -> Iterator[Difference]:
         yield Difference("changed", "units", "units", old, new)
 
 
-def _floor(pair: Pair) -> Iterator[Difference]:
-    """Yield the differences of seabed points from files; points in the deck are compared with its blocks."""
-    if pair.before.scene.seabed.file or pair.after.scene.seabed.file:
-        yield from seabed_points(pair)
+def seabed_points(pair: Pair, *, of_files: bool = False) -> Iterator[Difference]:
+    """Yield the difference of the points of a profile or a surface; their order does not count.
 
-
-def seabed_points(pair: Pair) -> Iterator[Difference]:
-    """Yield the difference of the points of a profile or a surface; their order does not count."""
+    With `of_files` points in the decks are left out, as they are compared with their blocks.
+    """
     old, new = pair.before.scene.seabed, pair.after.scene.seabed
+    if of_files and not (old.file or new.file):
+        return
     same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
     if not same:
         held = ((f"{len(floor.points)} points", floor.where) for floor in (old, new))
@@ -170,12 +170,8 @@ def _sets(pair: Pair) -> Iterator[Difference]:
         if before is None or after is None or not before.same(after):
             title = old.name if old else new.name if new else name
             sides = (before, old), (after, new)
-            held = ((_text(members), group.where) if members and group else None for members, group in sides)
+            held = ((str(members), group.where) if members and group else None for members, group in sides)
             yield pair.difference("element sets", f"element sets/{title}", *held)
-
-
-def _text(members: Members) -> str:
-    return ", ".join(filter(None, [text_of(members.spans), *sorted(members.words)]))
 
 
 def _written(side: Side) -> dict[str, Members]:
@@ -273,6 +269,10 @@ class EntryMap:
     places: Sequence[Where]
     of_element: Indices
 
+    def entry(self, index: int) -> Values:
+        """Return an entry; no values for -1."""
+        return self.entries[index] if index >= 0 else {}
+
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
     """Yield elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
@@ -280,9 +280,10 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
     If the elements have the same record in both decks, or a record in one deck only, the difference of the record is
     reported instead.
     """
-    yield from follow_differently("laws", _laws, pair)
+    yield from follow_differently("laws", partial(laws_followed, describe=_law), pair)
     yield from follow_differently("sections", _sections, pair)
-    yield from follow_differently("bed", _bed, pair)
+    numbers = partial(resistance_followed, describe=lambda values, _: numbers_given(values._asdict()))
+    yield from follow_differently("bed", numbers, pair)
     for keyword in dict.fromkeys([*pair.before.scene.extensions, *pair.after.scene.extensions]):
         yield from follow_differently(keyword.lower(), partial(_extension, keyword=keyword), pair)
 
@@ -310,10 +311,9 @@ def follow_differently(
         places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
         if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.reported:  # the records
             continue
-        old, new = _entry(first, i), _entry(second, j)
-        names = [
-            name for name in dict.fromkeys([*old, *new]) if not pair.tolerance.values(old.get(name), new.get(name))
-        ]
+        old, new = first.entry(i), second.entry(j)
+        same = pair.tolerance.values
+        names = [name for name in dict.fromkeys([*old, *new]) if not same(old.get(name), new.get(name))]
         if not names:
             continue
         elements = _called(before.scene.element_ids[here[followed == both]], descriptions)
@@ -330,15 +330,11 @@ def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> s
     return "; ".join(dict.fromkeys(descriptions[number] for number in ids.tolist()))
 
 
-def _entry(followed: EntryMap, index: int) -> Values:
-    return followed.entries[index] if index >= 0 else {}
-
-
-def _laws(side: Side) -> EntryMap:
+def laws_followed(side: Side, describe: Callable[[Scene, SetLaw], Values]) -> EntryMap:
+    """Return the laws of a deck as `describe` gives them, and the law of each element."""
     laws = side.scene.laws
-    return EntryMap(
-        [_law(side.scene, grant) for grant in laws.set_laws], [g.where for g in laws.set_laws], laws.of_element
-    )
+    entries = [describe(side.scene, law) for law in laws.set_laws]
+    return EntryMap(entries, [law.where for law in laws.set_laws], laws.of_element)
 
 
 def _law(scene: Scene, grant: SetLaw) -> Values:
@@ -363,9 +359,10 @@ def _sections(side: Side) -> EntryMap:
     return EntryMap(entries, places, table.of_element)
 
 
-def _bed(side: Side) -> EntryMap:
-    bed = side.scene.resistance
-    return EntryMap([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
+def resistance_followed(side: Side, describe: Callable[[ResistanceValues, str], Values]) -> EntryMap:
+    """Return friction, lateral stiffness and suction as `describe` gives them, and the entry of each element."""
+    given, units = side.scene.resistance, side.scene.units
+    return EntryMap([describe(values, units) for values in given.values], given.places, given.of_element)
 
 
 def numbers_given(given: Mapping[str, Any]) -> Values:

@@ -155,22 +155,13 @@ def _pieces(spans: Spans) -> Iterator[str]:
 
 def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
     """Yield first and last index of equally spaced single numbers; neighbouring runs may share a number."""
-    count = len(spans) - 1
-    begins = [np.zeros(1, dtype=np.intp)]
-    for start in range(0, count, _AT_ONCE):
-        steps = _steps(spans[max(start - 1, 0) : start + _AT_ONCE + 1])
-        begins.append(np.flatnonzero(steps[1:] != steps[:-1]) + max(start, 1))
-    bounds = np.append(np.concatenate(begins), count)
-    for at in np.flatnonzero(np.diff(bounds) >= _WORTH_A_RANGE - 2).tolist():
-        begin, end = int(bounds[at]), int(bounds[at + 1])
-        if _steps(spans[begin : begin + 2])[0]:
-            yield begin, end
-
-
-def _steps(spans: Spans) -> NDArray[np.int64]:
-    """Return the step from each span to the next; 0 next to a span of several numbers."""
     single = spans[:, 0] == spans[:, 1]
-    return np.where(single[1:] & single[:-1], spans[1:, 0] - spans[:-1, 0], 0)
+    steps = np.where(single[1:] & single[:-1], spans[1:, 0] - spans[:-1, 0], 0)  # 0 next to several numbers
+    begins = np.append(0, np.flatnonzero(steps[1:] != steps[:-1]) + 1)
+    ends = np.append(begins[1:], len(steps))
+    for at in np.flatnonzero(ends - begins >= _WORTH_A_RANGE - 2).tolist():
+        if steps[begins[at]]:
+            yield int(begins[at]), int(ends[at])
 
 
 def _listed(spans: Spans) -> Iterator[str]:
@@ -199,15 +190,14 @@ class Members:
             self._spans = union([*map(spans_of, self.arrays), *(spans_of_run(*ends) for ends in self.ranges)])
         return self._spans
 
+    def __str__(self) -> str:
+        return ", ".join(filter(None, [text_of(self.spans), *sorted(self.words)]))
+
     def same(self, other: Members) -> bool:
         """Return True if another set has the same members."""
-        return self.words == other.words and (self._given_alike(other) or np.array_equal(self.spans, other.spans))
-
-    def _given_alike(self, other: Members) -> bool:
-        """Return True if both sets have the same arrays and ranges."""
-        if self.ranges != other.ranges or len(self.arrays) != len(other.arrays):
-            return False
-        return all(np.array_equal(own, others) for own, others in zip(self.arrays, other.arrays, strict=True))
+        alike = self.ranges == other.ranges and len(self.arrays) == len(other.arrays)
+        alike = alike and all(map(np.array_equal, self.arrays, other.arrays))  # without spans, which take longer
+        return self.words == other.words and (alike or np.array_equal(self.spans, other.spans))
 
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)

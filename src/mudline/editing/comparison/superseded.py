@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from mudline.editing.comparison.comparing import (
-    EntryMap,
     Values,
     compare,
     follow_differently,
+    laws_followed,
     numbers_given,
+    resistance_followed,
     seabed_points,
     shown_points,
 )
@@ -152,14 +154,8 @@ def _meaning(pair: Pair, groups: set[str]) -> Iterator[Difference]:
 
 def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator[Difference]:
     fresh = replace(pair, reported=set())
-    yield from follow_differently("laws", _laws, fresh, names)
-    yield from follow_differently("bed", _resistance, fresh, names)
-
-
-def _laws(side: Side) -> EntryMap:
-    laws = side.scene.laws
-    entries = [_law(side.scene, law) for law in laws.set_laws]
-    return EntryMap(entries, [law.where for law in laws.set_laws], laws.of_element)
+    yield from follow_differently("laws", partial(laws_followed, describe=_law), fresh, names)
+    yield from follow_differently("bed", partial(resistance_followed, describe=_values), fresh, names)
 
 
 def _law(scene: Scene, law: SetLaw) -> Values:
@@ -172,12 +168,6 @@ def _law(scene: Scene, law: SetLaw) -> Values:
         case LawKind.NONE:
             return {}
     return {"": scene.law_name(law)}
-
-
-def _resistance(side: Side) -> EntryMap:
-    resistance = side.scene.resistance
-    entries = [_values(values, side.scene.units) for values in resistance.values]
-    return EntryMap(entries, resistance.places, resistance.of_element)
 
 
 def _values(given: ResistanceValues, units: str) -> Values:

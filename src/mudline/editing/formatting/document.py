@@ -289,9 +289,11 @@ class _BlockLayout:
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
         """Yield the lines that are complete at this leaf: rows are collected until their table ends."""
-        if leaf.kind in (LeafKind.RUN, LeafKind.TEXT):
-            for span in self._row_spans(leaf.span):
-                yield from self._row(span)
+        if leaf.kind in (LeafKind.RUN, LeafKind.TEXT) and self.declared.tabular:
+            yield from self._row(leaf.span)
+        elif leaf.kind in (LeafKind.RUN, LeafKind.TEXT):
+            for line in line_spans(self.text, leaf.span):
+                yield from self._row(Span(line.start, min(line.end + 1, leaf.span.end)))
         elif leaf.span.start in self.kept:
             yield from self.flush()
         elif leaf.kind is LeafKind.SETTING or (
@@ -308,14 +310,6 @@ class _BlockLayout:
             yield from self.rows.laid_out()
         self.rows = None
 
-    def _row_spans(self, run: Span) -> Iterator[Span]:
-        """Yield the whole run if it belongs to a table, else its lines with their ends."""
-        if self.declared.tabular:
-            yield run
-            return
-        for line in line_spans(self.text, run):
-            yield Span(line.start, min(line.end + 1, run.end))
-
     def _row(self, span: Span) -> Iterator[Laid]:
         """Add a row, or a run of rows, to collected rows of the same kind; otherwise start a new table."""
         kind = self.reading.kind_at(span.start)
@@ -324,13 +318,12 @@ class _BlockLayout:
         if self.rows is None or self.rows.kind.slot is not kind.slot:
             yield from self.flush()
             self.rows = AlignedRows(kind)
-        self.rows.members.append(TableRun(self.text, span) if kind.table else Single(self._fields(span), span))
-
-    def _fields(self, span: Span) -> list[str]:
-        """Return the fields of a row outside a table."""
+        if kind.table:
+            self.rows.members.append(TableRun(self.text, span))
+            return
         fields, _ = split(self.text, span, slashes=self.declared.slashes)
         texts = [self.reading.choices.get(value.span.start, value.text) for value in fields]
-        return cut(split_blanks(texts))
+        self.rows.members.append(Single(cut(split_blanks(texts)), span))
 
     def _setting(self, span: Span) -> str:
         line = read_line(self.text, span, slashes=self.declared.slashes)

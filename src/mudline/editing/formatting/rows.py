@@ -61,16 +61,11 @@ class ColumnShape(NamedTuple):
 
     def padded(self, text: str) -> str:
         """Return a field with its comma, one blank before it, and the padding of its column on both sides."""
-        before = self.point - self._inner(text)
+        numeric = not text or text[0] in _NUMERIC
+        before = self.point - (_integer(text) if numeric else len(text) - self.right)
         if before <= 0:
             return f" {text},{' ' * (self.width - len(text))}"
         return f" {' ' * before}{text},{' ' * (self.width - before - len(text))}"
-
-    def _inner(self, text: str) -> int:
-        """Return the number of characters before the decimal point of the column."""
-        if not text or text[0] in _NUMERIC:
-            return _integer(text)
-        return len(text) - self.right
 
 
 def _integer(number: str) -> int:

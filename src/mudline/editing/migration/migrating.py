@@ -179,9 +179,8 @@ def verify(migration: Migration) -> Verification:
         return Verification(len(before.element_ids), kinds, positions, 0, tuple(differences))
     external, names = representatives(before)
     _, more, deviations = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
-    return Verification(
-        len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *deviations)
-    )
+    differences += deviations
+    return Verification(len(before.element_ids), kinds, positions + more, len(external.ids), tuple(differences))
 
 
 def _seabed_shapes(
@@ -206,7 +205,7 @@ def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int
     inputs = _contact_input(before, chosen), _contact_input(after, chosen)
     depths = _depths(inputs)
     labels = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
-    differences = [*_laws(before, after, chosen), *_values(before, after, chosen), *_forces(inputs, depths)]
+    differences = [*_values(before, after, chosen), *_forces(inputs, depths)]
     return len(chosen), depths.size, [MigrationDifference(labels[index], text) for index, text in differences]
 
 
@@ -221,15 +220,14 @@ def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
     return np.sort(first)
 
 
-def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """Yield elements whose kind of law differs: a rigid seabed and no law would both give no force in the sweep."""
+def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
+    """Yield differences of the kind of law, and of friction, lateral resistance and suction; an omitted value is 0.
+
+    A rigid seabed and no law would both give no force in the sweep.
+    """
     for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
         element = int(chosen[index])
         yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
-
-
-def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """Yield differences of friction, lateral resistance and suction; an omitted value is 0."""
     for name in ResistanceValues._fields:
         if name == "characteristic":  # checked earlier: effective lengths are the default, as in the new family
             continue

@@ -50,11 +50,10 @@ def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
 
 def misspelt(deck: Deck) -> Iterator[Problem]:
     """Yield unknown keywords of the model that resemble a legacy keyword; for a deck without legacy keywords."""
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
-            unknown = isinstance(block, Opaque) and sections_of(block.keyword) is None
-            if unknown and is_superseded(suggested := suggest_keyword(block.keyword)):
-                yield _refusal(_MISSPELT.format(f"*{block.keyword}, which is not known,", suggested, ""), Where(i, j))
+    for where, section, block in deck.every_block():
+        unknown = section == "MODEL" and isinstance(block, Opaque) and sections_of(block.keyword) is None
+        if unknown and is_superseded(suggested := suggest_keyword(block.keyword)):
+            yield _refusal(_MISSPELT.format(f"*{block.keyword}, which is not known,", suggested, ""), where)
 
 
 def refusals(deck: Deck, scene: Scene, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
@@ -63,9 +62,19 @@ def refusals(deck: Deck, scene: Scene, continued_by: Sequence[str] = ()) -> Iter
     `scene` is the resolved deck. `continued_by` names decks that continue this deck with seabed keywords of their own.
     """
     yield from misplaced_keywords(scene)
-    yield from _mixed_families(deck)
-    yield from _restarts(deck)
-    yield from _continued(deck, continued_by)
+    for where, _ in deck.blocks("SEABED PROPERTIES"):  # which family applies to an element is not for us to decide
+        message = "*SEABED PROPERTIES is used next to legacy keywords: decide which applies and remove the other"
+        yield _refusal(message, where)
+    for where, section, block in deck.every_block():
+        if (section, block.keyword) == ("LOAD CASE", "RESTART"):
+            message = "*RESTART continues another deck, whose seabed applies as well: put the model in one deck"
+            yield _refusal(message, where)
+    for name in continued_by:
+        message = (
+            f"{name} continues this deck and has seabed keywords of its own, which would apply differently: "
+            "leave both decks unchanged"
+        )
+        yield _refusal(message, superseded_blocks(deck)[0][0])
     yield from _varied_keywords(deck)
     legacy = surfaces(deck)
     for where, block in legacy[1:]:
@@ -90,33 +99,6 @@ def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
             words, where = scene.context.misplaced[keyword]
             codes = f" ({', '.join(depend)})" if depend else ""
             yield _refusal(_MISSPELT.format(words, keyword, codes), where)
-
-
-def _mixed_families(deck: Deck) -> Iterator[Problem]:
-    """Yield blocks of the new family: which family applies to an element cannot be decided by rewriting."""
-    for where, _ in deck.blocks("SEABED PROPERTIES"):
-        message = "*SEABED PROPERTIES is used next to legacy keywords: decide which applies and remove the other"
-        yield _refusal(message, where)
-
-
-def _restarts(deck: Deck) -> Iterator[Problem]:
-    """Yield the `*RESTART` of a deck that continues another deck, whose seabed applies as well."""
-    for index, section in enumerate(deck.sections):
-        for number, restart in enumerate(section.blocks):
-            if section.name == "LOAD CASE" and restart.keyword == "RESTART":
-                message = "*RESTART continues another deck, whose seabed applies as well: put the model in one deck"
-                yield _refusal(message, Where(index, number))
-
-
-def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
-    """Yield decks that continue this deck, whose keywords would be combined with other keywords than before."""
-    where, _ = superseded_blocks(deck)[0]
-    for name in continued_by:
-        message = (
-            f"{name} continues this deck and has seabed keywords of its own, which would apply differently: "
-            "leave both decks unchanged"
-        )
-        yield _refusal(message, where)
 
 
 def _varied_keywords(deck: Deck) -> Iterator[Problem]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from itertools import count
+from collections.abc import Container, Iterable, Mapping, Sequence
+from itertools import chain, count
 from pathlib import PurePath
 from typing import NamedTuple, cast
 
@@ -233,13 +233,9 @@ def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
     used = {folded(name) for name in taken}
     names: list[str] = []
     for name in sets:
-        chosen = next(name for name in _candidates(name) if folded(name) not in used and reads_as_name(name))
+        base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
+        candidates = chain([name, base], (f"{base} {number}" for number in count(2)))
+        chosen = next(each for each in candidates if folded(each) not in used and reads_as_name(each))
         used.add(folded(chosen))
         names.append(chosen)
     return names
-
-
-def _candidates(name: str) -> Iterator[str]:
-    base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
-    yield from (name, base)
-    yield from (f"{base} {number}" for number in count(2))

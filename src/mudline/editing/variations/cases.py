@@ -204,15 +204,10 @@ def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
 
 
 def _removal(deck: Deck, keyword: str, section: str) -> Removal:
-    blocks = [
-        (index, number, block.keyword)
-        for index, deck_section in enumerate(deck.sections)
-        if deck_section.name == section
-        for number, block in enumerate(deck_section.blocks)
-    ]
-    gone = frozenset((index, number) for index, number, name in blocks if name == keyword)
+    blocks = [(where, block.keyword) for where, name, block in deck.every_block() if name == section]
+    gone = frozenset((where.section, where.block) for where, name in blocks if name == keyword)
     if not gone:
-        hint = suggestion(keyword, {name for _, _, name in blocks})
+        hint = suggestion(keyword, {name for _, name in blocks})
         raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
     return Removal(gone)
 
@@ -222,14 +217,13 @@ def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Ad
     if varied.file is None:
         return Addition(last, f"*{keyword}\n")
     if deck.folder is None:
-        raise RefusedError(
-            f"FILE={varied.file} lies beside the deck, which came from standard input: give the deck as a file"
-        )
+        given = f"FILE={varied.file} lies beside the deck, which came from standard input"
+        raise RefusedError(f"{given}: give the deck as a file")
     path = find_file(deck.folder, varied.file)
     if path is None:
         why, severity = not_found(deck.folder, unquoted(varied.file))
-        is_refused = severity is Severity.ERROR
-        raise RefusedError(why if is_refused else f"file {shown(unquoted(varied.file))} was not found beside the deck")
+        gone = f"file {shown(unquoted(varied.file))} was not found beside the deck"
+        raise RefusedError(why if severity is Severity.ERROR else gone)
     try:
         text = _block_text(_content(path, varied.file), keyword)
     except RefusedError as error:
@@ -312,15 +306,10 @@ class CaseReader:
             columns[target.name] = self._values(varied, target, place)
         self._check_counts(name, columns, where)
         rows = list(zip(*columns.values(), strict=False)) if columns else [()]
-        return Cases(name, where, list(columns), rows, list(self._actions(variation, where)))
-
-    def _actions(self, variation: NamedVariation, where: Where) -> Iterator[Action]:
-        for index, varied in enumerate(variation.blocks):
-            action = action_of(self.deck, varied, where.inside("blocks", index))
-            if isinstance(action, Problem):
-                self.problems.append(action)
-            else:
-                yield action
+        effects = [action_of(self.deck, one, where.inside("blocks", at)) for at, one in enumerate(variation.blocks)]
+        self.problems += [effect for effect in effects if isinstance(effect, Problem)]
+        actions = [effect for effect in effects if not isinstance(effect, Problem)]
+        return Cases(name, where, list(columns), rows, actions)
 
     def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
         """Report a problem unless all parameters of a variation, which change together, have equally many values."""
@@ -344,23 +333,17 @@ class CaseReader:
             place = where.inside("values", index)
             field = target.field(text)
             if field is None:
-                self._report(
-                    f"value {index + 1} of PARA={varied.parameter}, {shown(text)}, cannot be a value: correct it",
-                    place,
-                )
+                what = f"value {index + 1} of PARA={varied.parameter}, {shown(text)},"
+                self._report(f"{what} cannot be a value: correct it", place)
                 return []
-            self._defined(field, place)
+            if equation := Equation.match(field):  # it may have a value in some cases only
+                try:
+                    self.targets.parameters.evaluate(equation, place)
+                except NoValueError as reason:
+                    if reason.problem and reason.problem.code == REF013:
+                        self.problems.append(reason.problem)
             values.append(field)
         return values
-
-    def _defined(self, field: str, where: Where) -> None:
-        """Report undefined parameters of an equation; it may have a value in some cases only."""
-        if equation := Equation.match(field):
-            try:
-                self.targets.parameters.evaluate(equation, where)
-            except NoValueError as reason:
-                if reason.problem and reason.problem.code == REF013:
-                    self.problems.append(reason.problem)
 
     def _range(self, given: ValueRange, where: Where) -> list[str]:
         ends = (given.start, given.end, 1.0 if given.increment is None else given.increment)

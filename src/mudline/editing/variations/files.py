@@ -173,15 +173,9 @@ def _written(deck: Deck) -> Iterator[str]:
         for block, lines in zip(section.blocks, raw.blocks, strict=True) if section.name != "PREPROCESSOR" else ():
             if isinstance(block, Block):
                 yield from (name for what in (Names.FILE, Names.DECK) for _, name in names_given(block, what))
-            else:
-                yield from _in_lines(text, lines)
-
-
-def _in_lines(text: str, block: RawBlock) -> Iterator[str]:
-    for leaf in block.leaves:
-        if leaf.kind is LeafKind.SETTING:
-            groups = read_line(text, leaf.span).groups
-            yield from (group.fields[0].text for group in groups if group.key in _KEYS and group.fields)
+            for leaf in () if isinstance(block, Block) else lines.leaves:
+                groups = read_line(text, leaf.span).groups if leaf.kind is LeafKind.SETTING else ()
+                yield from (group.fields[0].text for group in groups if group.key in _KEYS and group.fields)
 
 
 # ------------------------------------------------------------------------------------------------ the text of each deck
@@ -247,13 +241,10 @@ class CaseRewriter:
                 gone |= action.blocks
             else:
                 edits.append(self._insertion(action.section, action.text))
-        edits += (TextEdit(self._lines_of(*place), "") for place in sorted(gone))
+        for section, number in sorted(gone):  # comments and blank lines after a block belong to the next one
+            block = self.tree.sections[section].blocks[number]
+            edits.append(TextEdit(Span(block.head.span.start, self._end(section, block)), ""))
         return edits
-
-    def _lines_of(self, section: int, number: int) -> Span:
-        """Return the span of a block without the comments and blank lines after it, which belong to the next block."""
-        block = self.tree.sections[section].blocks[number]
-        return Span(block.head.span.start, self._end(section, block))
 
     def _insertion(self, section: int, text: str) -> TextEdit:
         """Return the insertion of lines after the last line of a section that is not a comment."""
@@ -310,12 +301,8 @@ MANIFEST = "manifest.json"
 def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
     """Return the list of the new decks as JSON text; it depends on the deck only, not on time or place of the run."""
     listed = [
-        {
-            "file": deck.path,
-            "description": deck.description,
-            "variations": list(deck.variations),
-            "parameters": dict(deck.values),
-        }
+        {"file": deck.path, "description": deck.description}
+        | {"variations": list(deck.variations), "parameters": dict(deck.values)}
         for deck in decks
     ]
     manifest = {"format": FORMAT, "source": source, "decks": listed}
@@ -355,20 +342,15 @@ def _conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> Iterator
             inside[path.parent] = os.path.commonpath([root, os.path.realpath(path.parent)]) == root
         if not inside[path.parent]:
             yield f"{path.as_posix()}: a link in its path leads out of the folder"
+        elif os.path.lexists(path) and (path.is_symlink() or not path.is_file()):
+            yield f"{path.as_posix()}: exists already and is not a regular file: it is not overwritten"
         elif os.path.lexists(path):
-            yield from _there(path, force=force)
+            if is_read(path):
+                yield f"{path.as_posix()}: this run reads the file, which is not overwritten"
+            elif not force:
+                yield f"{path.as_posix()}: exists already: --force overwrites it"
         elif (file := _file_above(folder, path)) is not None:
             yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"
-
-
-def _there(path: Path, *, force: bool) -> Iterator[str]:
-    """Yield the reason why an existing path may not be written."""
-    if path.is_symlink() or not path.is_file():
-        yield f"{path.as_posix()}: exists already and is not a regular file: it is not overwritten"
-    elif is_read(path):
-        yield f"{path.as_posix()}: this run reads the file, which is not overwritten"
-    elif not force:
-        yield f"{path.as_posix()}: exists already: --force overwrites it"
 
 
 def _file_above(folder: Path, path: Path) -> Path | None:

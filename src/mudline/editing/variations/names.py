@@ -79,7 +79,13 @@ def undefined_parameters(deck: Deck) -> Iterator[Problem]:
 
 def undefined_variations(deck: Deck) -> Iterator[Problem]:
     """Yield variations in VARIATIONS= that no `*VARIATION` defines; an unread `*EXCEL VARIATIONS` may define any."""
-    called = list(_called(deck))
+    called = [
+        (name, where.inside("combinations", i, "variations", j, "names", number))
+        for where, block in deck.blocks("COMBINATIONS", DEFINING)
+        for i, combination in enumerate(block.combinations)
+        for j, line in enumerate(combination.variations)
+        for number, name in enumerate(line.names or ())
+    ]
     present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
         return
@@ -140,15 +146,6 @@ def _in_names(deck: Deck) -> Iterator[_Named]:
             yield from ((name, place) for name in placeholders(unquoted(text or "")))
 
 
-def _called(deck: Deck) -> Iterator[_Named]:
-    """Yield the variations that combinations call."""
-    for where, block in deck.blocks("COMBINATIONS", DEFINING):
-        for i, combination in enumerate(block.combinations):
-            for j, line in enumerate(combination.variations):
-                for number, name in enumerate(cast("list[str] | None", line.names) or ()):
-                    yield name, where.inside("combinations", i, "variations", j, "names", number)
-
-
 def _parameters(deck: Deck) -> dict[str, str] | None:
     """Return names of parameters by casefolded form; None if a line that could not be read may define more."""
     blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", DEFINING)
@@ -163,11 +160,10 @@ def _parameters(deck: Deck) -> dict[str, str] | None:
 
 def _unsure(deck: Deck, keyword: str) -> bool:
     """Return True if a keyword may define more: a line could not be used, or a block may have its name misspelt."""
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks):
-            if block.keyword == keyword and section.name == DEFINING:
-                if deck.origin.lost(i, j):
-                    return True
-            elif isinstance(block, Opaque) and nearest(block.keyword, [keyword]):
+    for where, section, block in deck.every_block():
+        if block.keyword == keyword and section == DEFINING:
+            if deck.lost(where):
                 return True
+        elif isinstance(block, Opaque) and nearest(block.keyword, [keyword]):
+            return True
     return False

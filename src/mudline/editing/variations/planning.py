@@ -171,13 +171,9 @@ class _Planner:
             for values in _products(group.cases):
                 number = len(decks)
                 path, fault = self.namer.path(group.template, values, f"{number + 1:0{len(str(total))}d}")
-                deck = PlannedDeck(
-                    path,
-                    unquoted(group.combination.description),
-                    [cases.name for cases in group.cases],
-                    values,
-                    [action for cases in group.cases for action in cases.actions],
-                )
+                names = [cases.name for cases in group.cases]
+                actions = [action for cases in group.cases for action in cases.actions]
+                deck = PlannedDeck(path, unquoted(group.combination.description), names, values, actions)
                 decks.append(deck)
                 if not fault and (holder := taken.take(path, number)) is not None:
                     fault = _clash(deck, decks[holder] if holder >= 0 else None)
@@ -200,9 +196,8 @@ class _Planner:
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
             for fault in read.diagnose(faults[:SHOWN_ROWS]):
-                self._report(
-                    f"the new deck {shown(deck.path)} cannot be read: line {fault.line}: {fault.message}", Where()
-                )
+                what = f"the new deck {shown(deck.path)} cannot be read"
+                self._report(f"{what}: line {fault.line}: {fault.message}", Where())
 
 
 def _products(variations: Sequence[Cases]) -> Iterator[dict[str, str]]:

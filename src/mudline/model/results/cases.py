@@ -109,10 +109,9 @@ def write_parquet(rows: Sequence[CaseSummary], stream: BinaryIO) -> None:
     import pyarrow as pa  # noqa: PLC0415 - the extra `frames`
     import pyarrow.parquet as pq  # noqa: PLC0415 - as above
 
-    types = {"str": pa.string(), "int": pa.int64(), "float": pa.float64()}
-    schema = pa.schema(
-        [(field.name, types.get(str(field.type).partition(" ")[0], pa.string())) for field in fields(CaseSummary)]
-    )
+    types = {"int": pa.int64(), "float": pa.float64()}
+    kinds = [(field.name, str(field.type).partition(" ")[0]) for field in fields(CaseSummary)]
+    schema = pa.schema([(name, types.get(kind, pa.string())) for name, kind in kinds])
     plain = [{name: _escaped(value) for name, value in row.row().items()} for row in rows]
     pq.write_table(pa.Table.from_pylist(plain, schema), stream)
 

@@ -178,7 +178,7 @@ def evaluate_scene(
             raise scene.refusal(f"{message}: give them with --positions")
     ready = prepare(scene, positions, tension)
     if at_rest is not None:
-        from mudline.model.scene.pipe import pipe_of  # noqa: PLC0415 - other positions do without it
+        from mudline.model.scene.weights import pipe_of  # noqa: PLC0415 - other positions do without it
 
         weighed = replace(ready.model.input, weight=pipe_of(scene).weight)
         ready = replace(ready, model=ContactModel(weighed))

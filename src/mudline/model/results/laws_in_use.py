@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,9 +11,9 @@ from mudline.basics.short_repr import counted, cut
 from mudline.basics.spelling import Effort
 from mudline.language.codes.contact import REF003, SBD006, SBD017, SBD025
 from mudline.language.codes.lines import SYN009
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
-from mudline.language.diagnostics import Code, Problem, Where
+from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords.catalogue import (
     holds_in_soil,
     is_extension,
@@ -25,26 +25,16 @@ from mudline.language.keywords.catalogue import (
 from mudline.language.keywords.text import shown
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact import LawKind
+from mudline.model.scene.given_positions import Doubt
 from mudline.model.scene.numbering import Indices
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_properties import SeabedProperties
     from mudline.model.scene.curves import SceneCurve
     from mudline.model.scene.laws import SetLaw
 
 
 _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
-
-
-class Missing(NamedTuple):
-    """Reason why elements (indices) have no law: code, message and place, and a short text for a caption."""
-
-    code: Code
-    message: str
-    where: Where
-    elements: Indices
-    brief: str
 
 
 class UnknownKeyword(NamedTuple):
@@ -58,10 +48,9 @@ class UnknownKeyword(NamedTuple):
 def unknown_keywords(scene: ResolvedDeck) -> list[UnknownKeyword]:
     """Return the unknown keywords of the model that look like a seabed keyword, each once."""
     places: dict[str, Where] = {}
-    for i, section in enumerate(scene.deck.sections):
-        for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
-            if type(block) is Opaque:
-                places.setdefault(block.keyword, Where(i, j))
+    for where, section, block in scene.deck.every_block():
+        if section == "MODEL" and type(block) is Opaque:
+            places.setdefault(block.keyword, where)
     unknown, effort = [], Effort()
     for keyword, where in places.items():
         if sections_of(keyword) is not None:
@@ -73,7 +62,7 @@ def unknown_keywords(scene: ResolvedDeck) -> list[UnknownKeyword]:
     return unknown
 
 
-def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeyword], *, some: bool) -> Iterator[Missing]:
+def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeyword], *, some: bool) -> Iterator[Doubt]:
     """Yield the reasons why the elements `free`, which are in contact, have no law; name every unknown keyword.
 
     `some` is True if other elements of the line are not in `free`, and may carry a pipe inside of them.
@@ -85,20 +74,20 @@ def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeywor
             f"{_touching(scene, elements)} stiffness: this block gives none, and overrides earlier ones as a whole; "
             "give STIFFNESS= here too"
         )
-        yield Missing(SBD006, message, scene.laws.set_laws[block].where, elements, _brief(elements))
+        yield Doubt(SBD006, message, scene.laws.set_laws[block].where, elements, _brief(elements))
     bare = free[covered < 0]
     for where, keyword, near in unknown:
         meant = f" (did you mean *{near}?)" if near else ""
         lack = f"{_touching(scene, bare)} a seabed law" if bare.size else "its lines have no effect"
         message = f"keyword *{keyword} is not known{meant}, and {lack}: correct the name"
-        yield Missing(SYN009, message, where, bare, _brief(bare) if bare.size else f"*{cut(keyword, 40)} is not known")
+        yield Doubt(SYN009, message, where, bare, _brief(bare) if bare.size else f"*{cut(keyword, 40)} is not known")
     keywords = scene.deck.keywords()
     inside = some and not keywords.isdisjoint(_PIPE_IN_PIPE)
     if bare.size and not unknown and not inside and not any(map(holds_in_soil, keywords)):
         yield _bare(scene, bare)
 
 
-def _bare(scene: ResolvedDeck, elements: Indices) -> Missing:
+def _bare(scene: ResolvedDeck, elements: Indices) -> Doubt:
     """Return the reason for elements that no block covers, or an elastic surface without a stiffness."""
     surfaces = [where for where, _ in scene.deck.blocks("ELASTIC SURFACE")]
     if surfaces:
@@ -106,10 +95,10 @@ def _bare(scene: ResolvedDeck, elements: Indices) -> Missing:
             f"{_touching(scene, elements)} a curve of *EMBEDMENT, and this surface has no stiffness: give one in the "
             "first field"
         )
-        return Missing(SBD006, message, surfaces[-1], elements, _brief(elements))
+        return Doubt(SBD006, message, surfaces[-1], elements, _brief(elements))
     message = f"{_touching(scene, elements)} a seabed law: give STIFFNESS= to a set of them"
     where = scene.table.numbered.where(int(elements[0]))
-    return Missing(SBD006, message, where, elements, _brief(elements))
+    return Doubt(SBD006, message, where, elements, _brief(elements))
 
 
 def _touching(scene: ResolvedDeck, elements: Indices) -> str:
@@ -146,8 +135,13 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
                 yield Problem(
                     SBD025, f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}", where=curve.title
                 )
-        elif later := _namesake(scene, number):
-            message = f"{_called(curve)} has no effect: line {later} has one of the same name; rename it"
+        elif later := [
+            other
+            for other in laws.curves[number + 1 :]
+            if (other.embedment, folded(other.name)) == (curve.embedment, folded(curve.name))
+        ]:
+            line = scene.line_of(later[-1].title)
+            message = f"{_called(curve)} has no effect: line {line} has one of the same name; rename it"
             yield Problem(SBD025, message, where=curve.title)
         elif reader := _read_as_number(scene, curve):
             message = f"{_called(curve)} has no effect: STIFFNESS= in line {reader} is a number; rename the curve"
@@ -176,7 +170,7 @@ def _reason(scene: ResolvedDeck, grant: SetLaw) -> str:
     if scene.nodal[elements].all():
         return f"*SEABED CONTACT gives the nodes of {name} a stiffness of their own"
     winners = np.unique(scene.laws.of_element[elements]).tolist()
-    lines = sorted({line_of(scene, scene.laws.set_laws[index].where) for index in winners})
+    lines = sorted({scene.line_of(scene.laws.set_laws[index].where) for index in winners})
     if len(winners) > 1:
         return f"lines {', '.join(map(str, lines))} override it for all elements of {name}"
     winner = scene.laws.set_laws[winners[0]]
@@ -191,33 +185,19 @@ def _law(scene: ResolvedDeck, winner: SetLaw) -> str:
     return "a rigid seabed" if winner.kind is LawKind.RIGID else "no stiffness"
 
 
-def _namesake(scene: ResolvedDeck, number: int) -> int:
-    """Return the line of a later curve with the same name, which replaces this curve; 0 without one."""
-    curve, later = scene.laws.curves[number], scene.laws.curves[number + 1 :]
-    same = [other for other in later if other.embedment is curve.embedment and folded(other.name) == folded(curve.name)]
-    return line_of(scene, same[-1].title) if same else 0
-
-
 def _read_as_number(scene: ResolvedDeck, curve: SceneCurve) -> int:
     """Return the line of a STIFFNESS= whose number is the name of a curve; 0 without one."""
     value = read_number(curve.name)
     places = (grant.where for grant in scene.laws.set_laws if grant.family == "new" and grant.stiffness == value)
-    return next((line_of(scene, where) for where in places), 0)
+    return next((scene.line_of(where) for where in places), 0)
 
 
 def _chosen_by_values(scene: ResolvedDeck) -> bool:
     """Return True if equations or variations choose the curves: other values may then use the other curves."""
     if "VARIATION" in scene.deck.keywords("PREPROCESSOR"):
         return True
-    written, evaluated = (_stiffnesses(deck) for deck in (scene.context.written, scene.deck))
+    written, evaluated = (
+        [entry.stiffness for _, block in deck.blocks("SEABED PROPERTIES") for entry in block.sets]
+        for deck in (scene.context.written, scene.deck)
+    )
     return any(before is not after for before, after in zip(written, evaluated, strict=False))
-
-
-def _stiffnesses(deck: Deck) -> Iterator[object]:
-    blocks = (cast("SeabedProperties", block) for _, block in deck.blocks("SEABED PROPERTIES"))
-    return (entry.stiffness for block in blocks for entry in block.sets)
-
-
-def line_of(scene: ResolvedDeck, where: Where) -> int:
-    """Return the line of a place in its file."""
-    return scene.deck.place(Problem(SBD025, "", where=where)).line

@@ -23,7 +23,6 @@ from mudline.model.contact.arrays import IndexArray
 from mudline.model.contact.laws import law_named
 from mudline.model.contact.laws.suction import from_cohesion
 from mudline.model.scene.model import Scene
-from mudline.model.scene.oscillation import line_of
 
 Timer = Callable[[], float]
 CLOCK: Timer = thread_time if get_clock_info("thread_time").resolution < 1e-5 else perf_counter
@@ -96,7 +95,8 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     rows = []
     for stage in model.plan:
         where = _place(scene, stage.stage) if stage.active else None
-        file, line = (None, None) if where is None else (_file_of(scene, where), line_of(scene, where))
+        base = scene.deck.base_of(where)
+        file = None if where is None else Path(base[0].file if base else scene.deck.file).name
         share = time = added = None
         if stage.active and stage.stage in taken:
             less = taken[stage.stage]
@@ -104,6 +104,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
             share = min(time / whole, 1.0)
         elif stage.stage in taken and stage.stage in _STAGES:
             added = max(taken[stage.stage] - whole, 0.0) / len(given.node_ids)
+        line = scene.line_of(where) or None
         rows.append(StageRow(stage.stage, stage.active, stage.why, file, line, share, time, added))
     return Pruning(rows, whole, len(given.element_ids))
 
@@ -231,9 +232,3 @@ def _place(scene: Scene, stage: str) -> Where | None:
     having = np.greater(values, 0.0) if values.ndim == 1 else np.greater(values, 0.0).any(axis=1)
     at = resistance.of_element[having & (resistance.of_element >= 0)]
     return resistance.places[int(at.min())].inside(name) if at.size else None
-
-
-def _file_of(scene: Scene, where: Where) -> str:
-    """Return the name of the file of a place: of the deck, or of a deck that it continues."""
-    base = scene.deck.base_of(where)
-    return Path(base[0].file if base else scene.deck.file).name

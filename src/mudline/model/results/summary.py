@@ -36,10 +36,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "units": deck.units,
         "continues": [base.deck.file for base in deck.bases],
         "sections": [
-            {
-                "name": section.name,
-                "keywords": [_keyword(block) for block in section.blocks],
-            }
+            {"name": section.name, "keywords": [_keyword(block) for block in section.blocks]}
             for section in deck.own_sections
         ],
         "keywords": asdict(coverage_of(deck)),

@@ -28,7 +28,7 @@ from mudline.model.contact.input import ContactInput
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
-from mudline.model.scene.given_positions import PositionDoubt, position_doubts
+from mudline.model.scene.given_positions import Doubt, position_doubts
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import survey_of
@@ -127,14 +127,6 @@ def caption(warnings: Sequence[ContactWarning]) -> str:
     return cut(f"{counted(len(briefs), 'warning')}: {'; '.join(briefs)}", _CAPTION) if briefs else ""
 
 
-class _Clearance(NamedTuple):
-    """The smallest distance of a node above the seabed, the index of the node, and the step."""
-
-    gap: float
-    node: int
-    step: int
-
-
 class _Balance(NamedTuple):
     """Total reaction and submerged weight (NaN if unknown) of the elements (indices) in contact with a law.
 
@@ -189,14 +181,15 @@ class ContactWatch:
         self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
         self._sprung |= bool((scene.resistance.column("suction") > 0.0).any())
         self._acts = False
-        self._clearance = _Clearance(math.inf, -1, 0)
+        self._clearance = (math.inf, -1, 0)
+        """The smallest distance of a node above the seabed, the index of the node, and the step."""
         self.balance: _Balance | None = None
         self._survey = survey_of(scene.seabed)
         lawful = self._elements[scene.law[self._elements] != LawKind.NONE]
         self._lawful = np.unique(scene.element_nodes[lawful])
         self._thickest = float(np.fmax.reduce(scene.diameter[lawful], initial=0.0))
         self._left, self._left_at = np.zeros(len(scene.nodes), dtype=np.bool_), -1
-        self._doubts: list[PositionDoubt] = []
+        self._doubts: list[Doubt] = []
 
     @classmethod
     def of(cls, evaluation: Evaluation) -> ContactWatch:
@@ -225,7 +218,11 @@ class ContactWatch:
             # a spring acts on a node without an element in contact
             self._acts |= self._sprung and bool(result.normal_force[:, self._columns].any())
             if not self._acts:
-                self._measure(part.start, result.gap[:, self._columns])
+                gap = result.gap[:, self._columns]
+                least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))  # NaN means no seabed
+                if least < self._clearance[0]:
+                    step, column = np.argwhere(gap == least)[0].tolist()
+                    self._clearance = (least, int(self._nodes[column]), part.start + step)
         self.balance = self._weigh(result.contact, result.normal_force, self.balance)
         if self._survey is not None:
             for step, places in enumerate(self._positions[part.steps], part.start):
@@ -233,15 +230,6 @@ class ContactWatch:
                 if left.any():
                     self._left_at = step if self._left_at < 0 else self._left_at
                     self._left[self._lawful[left]] = True
-
-    def _measure(self, start: int, gap: Floats) -> None:
-        """Keep the smallest distance of the nodes above the seabed; NaN means no seabed."""
-        least = float(gap.min(initial=np.inf))
-        if math.isnan(least):
-            least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))
-        if least < self._clearance.gap:
-            step, column = np.argwhere(gap == least)[0].tolist()
-            self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
 
     def _least_weight(self) -> tuple[Floats, PipeContents | None]:
         """Return the least submerged weight per length (m,) over the load cases, and the first case that floats."""
@@ -280,9 +268,13 @@ class ContactWatch:
 
     def warnings(self) -> list[ContactWarning]:
         """Return the warnings in the order of the deck; call after all steps."""
-        listed = [self._warning(doubt.code, doubt.message, None, doubt.elements, doubt.brief) for doubt in self._doubts]
-        listed += [*self._without_law(), *self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced()]
-        listed += [*self._floating(), *self._curves()]
+        listed = [self._warning(*doubt) for doubt in self._doubts]
+        free = np.flatnonzero(self._touched & (self._scene.law == LawKind.NONE))
+        some, none = len(free) < len(self._elements), np.zeros(0, dtype=np.intp)
+        listed += [self._warning(*each) for each in missing_laws(self._scene, free, self._unknown, some=some)]
+        listed += [*self._on_rigid(), *self._beyond(), *self._apart(), *self._unbalanced(), *self._floating()]
+        for each in () if self._unknown else unused_curves(self._scene):  # an unknown keyword may use any curve
+            listed.append(self._warning(each.code, each.message, each.where, none, "a curve without effect"))
         return sorted(listed, key=lambda warning: warning.diagnostic.sort_key)
 
     def note(self) -> str:
@@ -309,13 +301,6 @@ class ContactWatch:
             diagnostic = replace(diagnostic, message=f"{diagnostic.message} (in {diagnostic.file})")
         return ContactWarning(diagnostic, len(elements), first, brief)
 
-    def _without_law(self) -> Iterator[ContactWarning]:
-        """Yield warnings about elements in contact without a law, and about unknown keywords like seabed keywords."""
-        free = np.flatnonzero(self._touched & (self._scene.law == LawKind.NONE))
-        some = len(free) < len(self._elements)
-        for missing in missing_laws(self._scene, free, self._unknown, some=some):
-            yield self._warning(*missing)
-
     def _on_rigid(self) -> Iterator[ContactWarning]:
         """Yield a warning about elements that a rigid seabed holds at some step, as its force is not known."""
         ends = self._restrained[self._scene.element_nodes[self._elements]].any(axis=1)
@@ -330,7 +315,7 @@ class ContactWatch:
     def _beyond(self) -> Iterator[ContactWarning]:
         """Yield a warning about nodes beyond the end of the surveyed seabed at some step."""
         left = np.flatnonzero(self._left)
-        all_without = not self._acts and self._clearance.node < 0  # GEO005 then says it of the whole line
+        all_without = not self._acts and self._clearance[1] < 0  # GEO005 then says it of the whole line
         if self._survey is None or not left.size or all_without:
             return
         scene, number = self._scene, self._scene.node_ids[left[0]]
@@ -421,7 +406,7 @@ class ContactWatch:
         behind = unit_names(scene.units).behind("line_force") or " per length"
         least, how = float(self._lightest[light].min()), "without contents"
         if self._case is not None:
-            line = scene.deck.place(Problem(RUN004, "", where=self._case.where)).line
+            line = scene.line_of(self._case.where)
             how = f"with the contents of load case {self._case.number} (line {line})"
         message = (
             f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(least)}{behind} {how}; "
@@ -429,11 +414,3 @@ class ContactWatch:
         )
         where = scene.section_table.sections[int(scene.section_table.of_element[light[0]])].where
         yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")
-
-    def _curves(self) -> Iterator[ContactWarning]:
-        """Yield warnings about curves that no element follows, unless an unknown keyword may use them."""
-        if self._unknown:
-            return
-        none = np.zeros(0, dtype=np.intp)
-        for problem in unused_curves(self._scene):
-            yield self._warning(problem.code, problem.message, problem.where, none, "a curve without effect")

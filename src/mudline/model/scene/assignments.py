@@ -90,8 +90,10 @@ def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
     """Return the springs of the nodes (`NODAL STIFFNESS=` of `*SEABED CONTACT`), with their quadratic zones."""
     extension = scene.extensions["SEABED CONTACT"]
     block = _nodal_blocks(scene, extension)
-    stiffness = nodal_stiffness(scene, extension)
-    width = _half_width(extension, block, *_static_at_nodes(scene, stiffness))
+    stiffness, ends = nodal_stiffness(scene, extension), scene.element_nodes
+    with np.errstate(all="ignore"):  # W L_t / Kn, of half of the total weight of a node's elements
+        penetration = summed(0.5 * scene.submerged_weight * scene.length, ends, len(scene.node_ids)) / stiffness
+    width = _half_width(extension, block, penetration, _sizes(scene))
     rows = np.flatnonzero(~np.isnan(stiffness))
     sides = extension.says(block, "form", "ONE-SIDED")
     return LawAssignment(
@@ -108,16 +110,6 @@ def _nodal_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
     """Return the block that gives each node (n,) its stiffness: the last one that its nodal elements follow, or -1."""
     of_element = np.where(scene.law == LawKind.NODAL, extension.of_element, -1)
     return at_nodes(of_element, scene.element_nodes, len(scene.node_ids))
-
-
-def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Floats]:
-    """Return static penetrations W L_t / Kn of the nodes (n,), and their diameters (n,).
-
-    W L_t is half of the total weight of a node's elements. Its diameter is the mean of theirs.
-    """
-    ends, count = scene.element_nodes, len(scene.node_ids)
-    with np.errstate(all="ignore"):
-        return summed(0.5 * scene.submerged_weight * scene.length, ends, count) / stiffness, _sizes(scene)
 
 
 def _sizes(scene: ResolvedDeck) -> Floats:
@@ -228,22 +220,16 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
     rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
     with np.errstate(all="ignore"):
         rising = coefficients[rows] / mobilisation[rows]
-    _refuse_endless_springs(scene, rising, rows)
+    if (endless := np.isinf(rising).any(axis=1)).any():
+        node = int(scene.node_ids[rows[np.argmax(endless)]])
+        what = "its friction coefficient divided by its mobilisation length is too large for a double-precision number"
+        raise scene.refusal(f"node {node}: {what}; this cannot be evaluated", node=node)
     parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
     for side, name in enumerate(("axial", "lateral")):
         parameters[f"{name}_coefficient"] = np.nan_to_num(coefficients[rows, side])
         parameters[f"{name}_stiffness"] = stiffness[rows, side]
         parameters[f"{name}_mobilisation"] = mobilisation[rows, side]
     return LawAssignment("friction", rows, parameters)
-
-
-def _refuse_endless_springs(scene: ResolvedDeck, rising: Floats, nodes: Indices) -> None:
-    """Raise DeckError if springs (k, 2) per unit of normal force at a node are not finite numbers."""
-    endless = np.isinf(rising).any(axis=1)
-    if endless.any():
-        node = int(scene.node_ids[nodes[np.argmax(endless)]])
-        what = "its friction coefficient divided by its mobilisation length is too large for a double-precision number"
-        raise scene.refusal(f"node {node}: {what}; this cannot be evaluated", node=node)
 
 
 def _of_properties(scene: ResolvedDeck) -> Floats:

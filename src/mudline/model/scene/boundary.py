@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.language.deck.evaluated import evaluated
+from mudline.language.deck.evaluated import EvaluatedDeck, evaluated
 from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.values import Names
@@ -18,80 +19,105 @@ from mudline.model.contact.lines import lines_of
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.references import freedom_and_step
+from mudline.model.scene.references import KEYWORD, freedom_and_step
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.loads import Boundary, BoundaryType
+    from mudline.language.keywords.library.loads import Boundary, FixedValues
     from mudline.language.keywords.library.vessel_motions import Offsets
 
 TRANSLATIONS = frozenset({1, 2, 3})
+NO_FREEDOMS: frozenset[int] = frozenset()
+_FREEDOMS = range(1, 7)
 
 
-def conditions(scene: Scene, block_type: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
-    """Yield nodes, degrees of freedom and displacement of each line; a vessel's line without a freedom holds all."""
-    for start, end, step, freedom, value in _ranges(block_type):
-        nodes = scene.nodes.between(start, end, step)
-        if nodes.size:
-            yield nodes, TRANSLATIONS if freedom is None else frozenset({freedom}), value
+class HeldNodes(NamedTuple):
+    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
+
+    where: Where
+    dof: int
+    nodes: Indices
+    how: tuple[object, object]
 
 
-def _ranges(block_type: BoundaryType) -> Iterator[tuple[int, int, int, int | None, float]]:
-    for entry in block_type.entries:
-        if hasattr(entry, "generate"):
-            values = entry.generate
-            at, step = freedom_and_step(values)
-            numbers = (values.start, values.end, step, (values.third, values.fourth)[at - 2])
-            if all(isinstance(each, int | float) for each in numbers):
-                start, end, step, freedom = (int(cast("int", each)) for each in numbers)
-                yield start, end, max(1, step), freedom, number(values, "fifth", 0.0)
-        elif isinstance(entry.node, int) and isinstance(entry.dof, int | float):
-            yield entry.node, entry.node, 1, int(entry.dof), number(entry, "value", 0.0)
-    for line in block_type.unread:
-        words = [read_number(word.strip()) for word in line.text.split(",")]
-        whole = [int(word) for word in words if word is not None and abs(word) <= LARGEST_WHOLE]
-        if words[0] is not None and whole:
-            yield whole[0], whole[0], 1, next(iter(whole[1:]), None), 0.0
+def held_nodes(scene: Scene, deck: EvaluatedDeck | None = None) -> Iterator[HeldNodes]:
+    """Yield the nodes that each line of `*BOUNDARY` holds in the deck of a scene, or in one that it continues.
+
+    Lines whose form is not public are left out.
+    """
+    for where, block in (deck or scene.deck).blocks(KEYWORD, "LOAD CASE"):
+        for i, type_ in enumerate(cast("Boundary", block).types):
+            for j, entry in enumerate(type_.entries):
+                place = where.inside("types", i, "entries", j)
+                if hasattr(entry, "generate"):
+                    values = cast("FixedValues | None", entry.generate)
+                    if values is None:
+                        continue
+                    at, step = freedom_and_step(values)
+                    fields = (values.third, values.fourth, values.fifth, None)
+                    numbers: tuple[object, ...] = (values.start, values.end, step)
+                    dof, value, place = fields[at - 2], fields[at - 1], place.inside("generate")
+                else:
+                    numbers, dof, value = (entry.node, entry.node, 1), entry.dof, entry.value
+                    place = place.inside("dof")
+                whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
+                if whole and cast("int", numbers[2]) > 0 and dof in _FREEDOMS:
+                    nodes = scene.nodes.between(*cast("tuple[int, int, int]", numbers))
+                    yield HeldNodes(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))
 
 
-def held_nodes(scene: Scene) -> tuple[dict[int, frozenset[int]], dict[int, str]]:
+def nodes_on_vessels(scene: Scene, deck: EvaluatedDeck) -> Iterator[tuple[int, frozenset[int], str]]:
+    """Yield index, degrees of freedom and vessel of each node below TYPE=VESSEL, in lines whose form is not public.
+
+    A line is `node, vessel`, or `node` below VESSEL=; a line without a degree of freedom holds all. A vessel without a
+    name is "".
+    """
+    labels = {
+        folded(f"{{{line.label}}}"): number(line.node, "number", 0.0)
+        for _, block in deck.blocks("LABEL")
+        for line in block.labels
+    }
+    types = (each for _, block in deck.blocks(KEYWORD, "LOAD CASE") for each in cast("Boundary", block).types)
+    for lines in (each.unread for each in types if each.type_ == Names.VESSEL.name):
+        vessel = ""
+        for text in (line.text for line in lines):
+            key, equals, name = text.partition("=")
+            if equals and key.strip().upper() == Names.VESSEL.name:
+                vessel = name.strip()
+            first, *others = [word.strip() for word in text.split(",")]
+            node = labels.get(folded(first), read_number(first))
+            if node is None or not abs(node) <= LARGEST_WHOLE or node != int(node):
+                continue
+            own = next((word for word in others if word and read_number(word) is None), vessel)
+            freedoms = [value for value in map(read_number, others) if value in _FREEDOMS][:1]
+            at = int(scene.nodes.indices(np.array([int(node)]))[0])
+            if at >= 0:
+                yield at, frozenset(map(int, cast("list[float]", freedoms))) or TRANSLATIONS, own
+
+
+def held_freedoms(
+    scene: Scene, decks: Sequence[EvaluatedDeck] | None = None
+) -> tuple[dict[int, frozenset[int]], dict[int, str]]:
     """Return the degrees of freedom in which `*BOUNDARY` holds nodes, by index, and the vessels that move nodes.
 
-    Continued decks count too: a restart keeps what it does not change.
+    `decks` are those whose conditions count, by default also the continued ones: a restart keeps what it does not
+    change. A vessel without a name in `*BOUNDARY` is the only one of the decks, or "".
     """
     freedoms: dict[int, frozenset[int]] = {}
     vessels: dict[int, str] = {}
-    decks = [*(evaluated(base.deck)[0] for base in reversed(scene.deck.bases)), scene.deck]
-    keywords = catalogue.definers(Names.VESSEL)
-    placed = (block for deck in decks for keyword in keywords for _, block in deck.blocks(keyword))
+    every = [*(evaluated(base.deck)[0] for base in reversed(scene.deck.bases)), scene.deck]
+    placed = (
+        block for deck in every for keyword in catalogue.definers(Names.VESSEL) for _, block in deck.blocks(keyword)
+    )
     known = [str(each.vessel) for block in placed for each in block.vessels]
     only = known[0] if len({folded(name) for name in known}) == 1 else ""
-    for deck in decks:
-        for _, block in deck.blocks("BOUNDARY", "LOAD CASE"):
-            for each in cast("Boundary", block).types:
-                for nodes, axes, _ in conditions(scene, each):
-                    for node in nodes.tolist():
-                        freedoms[node] = freedoms.get(node, frozenset()) | axes
-                        if each.type_ == "VESSEL":
-                            vessels.setdefault(node, only)
-                current = ""
-                for line in each.unread if each.type_ == "VESSEL" else ():
-                    current = _vessel_of_line(scene, line.text, current, vessels)
+    for deck in every if decks is None else decks:
+        for line in held_nodes(scene, deck):
+            for node in line.nodes.tolist():
+                freedoms[node] = freedoms.get(node, NO_FREEDOMS) | {line.dof}
+        for node, axes, vessel in nodes_on_vessels(scene, deck):
+            freedoms[node] = freedoms.get(node, NO_FREEDOMS) | axes
+            vessels[node] = vessel or vessels.get(node, only)
     return freedoms, vessels
-
-
-def _vessel_of_line(scene: Scene, text: str, current: str, vessels: dict[int, str]) -> str:
-    """Add the vessel of a node that a line names, `node, vessel` or below VESSEL=; return the current vessel."""
-    key, equals, name = text.partition("=")
-    if equals and key.strip().upper() == "VESSEL":
-        return name.strip()
-    words = [word.strip() for word in text.split(",")]
-    node = read_number(words[0])
-    own = next((word for word in words[1:] if word and read_number(word) is None), current)
-    if node is not None and own and node == int(node):
-        at = int(scene.nodes.indices(np.array([int(node)]))[0])
-        if at >= 0:
-            vessels[at] = own
-    return current
 
 
 def vessel_offset(scene: Scene, vessel: str) -> Floats:
@@ -123,15 +149,14 @@ class HeldLine(NamedTuple):
 
 def lines_between(scene: Scene) -> Iterator[HeldLine]:
     """Yield the lines of a scene, cut at inner nodes that are held in all directions."""
-    held, vessels = held_nodes(scene)
+    held, vessels = held_freedoms(scene)
     lines = lines_of(scene.element_nodes, np.nan_to_num(scene.length), len(scene.node_ids))
-    nothing: frozenset[int] = frozenset()
     number = 0
     for elements, nodes in zip(lines.elements, lines.nodes, strict=True):
-        inner = [at for at in range(1, len(nodes) - 1) if held.get(int(nodes[at]), nothing) >= TRANSLATIONS]
+        inner = [at for at in range(1, len(nodes) - 1) if held.get(int(nodes[at]), NO_FREEDOMS) >= TRANSLATIONS]
         for first, last in pairwise([0, *inner, len(nodes) - 1]):
             number += 1
             ends = int(nodes[first]), int(nodes[last])
-            freedoms = (held.get(ends[0], nothing), held.get(ends[1], nothing))
+            freedoms = (held.get(ends[0], NO_FREEDOMS), held.get(ends[1], NO_FREEDOMS))
             names = (vessels.get(ends[0], ""), vessels.get(ends[1], ""))
             yield HeldLine(number, elements[first:last], nodes[first : last + 1], freedoms, names)

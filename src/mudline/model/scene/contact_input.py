@@ -34,6 +34,9 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
         raise DeckError(scene.deck.diagnose(problems))
     arrays = scene.law_arrays()
     laws = tuple(law for law in (*_normal_laws(scene, arrays), *_laws_beside(scene)) if len(law.rows))
+    left_out: dict[str, str] = {}
+    for stage, why in _reasons(scene, [law.law for law in laws]):
+        left_out[stage] = f"{left_out[stage]}; {why}" if stage in left_out else why
     tables: list[Floats] = []
     if "SEABED TRENCH" in scene.extensions:
         from mudline.model.scene.assignments import resistance_tables  # noqa: PLC0415 - only now is it needed
@@ -54,7 +57,7 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
             seabed=_seabed(scene),
             weight=operating_weight(scene),
             empty_weight=scene.submerged_weight,
-            left_out=_left_out(scene, [law.law for law in laws]),
+            left_out=left_out,
             names=scene,
         )
     except ElementError as error:
@@ -166,16 +169,8 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
         raise scene.refusal(f"{error}{_REFUSED}", seabed.where) from error
 
 
-def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
-    """Return by stage of the plan the requests that are not evaluated, or not as written; nothing for other stages."""
-    reasons: dict[str, str] = {}
-    for stage, why in _reasons(scene, laws):
-        reasons[stage] = f"{reasons[stage]}; {why}" if stage in reasons else why
-    return reasons
-
-
 def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Yield stage and reason of each request that is left out."""
+    """Yield stage of the plan and reason of each request that is not evaluated, or not as written."""
 
     def where_given(name: str) -> Mask:
         return scene.resistance.column(name) > 0.0

@@ -137,8 +137,13 @@ class Context:
         `lacks` is the missing object, None if it is not a single one. A number is not missing if an unreadable number
         becomes equal to it by one edit.
         """
-        if isinstance(lacks, int) and self._is_excused(keyword, lacks):
-            return
+        if isinstance(lacks, int):
+            misread = self._misread.get(keyword, ())
+            places = [at for at, written in misread if edits(written, str(lacks), 1) <= 1]
+            for at in places:
+                self.excused.setdefault(at, set()).add(lacks)
+            if places:
+                return
         number = lacks if isinstance(lacks, int) else None
         if keyword in _NUMBERED and (definer := self._definer(keyword, number)):
             use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
@@ -169,13 +174,6 @@ class Context:
         else:
             self._misread.setdefault(keyword, []).append((where, written))
 
-    def _is_excused(self, keyword: str, number: int) -> bool:
-        """Return True if an undefined number may be one that could not be read."""
-        places = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
-        for where in places:
-            self.excused.setdefault(where, set()).add(number)
-        return bool(places)
-
     def report_out_of_sight(self) -> None:
         """Add, once for each unread keyword, how often the deck uses objects that it may define."""
         for (definer, keyword), use in self._out_of_sight.items():
@@ -185,13 +183,10 @@ class Context:
                 f"*{definer} may define {thing}s that this deck does not show: {counted(use.count, 'use')} of such "
                 f"{thing}s{first} cannot be checked"
             )
-            where = self._own_block(definer) or use.where
+            own = self.written.alone.every_block()
+            blocks = (where for where, name, block in own if (name, block.keyword) == ("MODEL", definer))
+            where = next(blocks, use.where)
             self.note(Problem(use.code, message, None, Severity.INFO, where, None, use.blocks))
-
-    def _own_block(self, keyword: str) -> Where | None:
-        """Return the first block of a keyword in the model of the deck itself."""
-        blocks = self.written.alone.every_block()
-        return next((where for where, name, block in blocks if (name, block.keyword) == ("MODEL", keyword)), None)
 
     def _definer(self, keyword: str, number: int | None) -> str:
         """Return the unread keyword whose lines may define an object with a number, None for any, or ""."""

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import csv
 import io
+import tokenize
+import zipfile
+import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -23,6 +26,23 @@ from mudline.model.scene.numbering import Floats, Ids
 
 SEPARATORS = (",", ";", "\t")
 """Separators of fields in a file that another program wrote."""
+
+DAMAGED = (
+    # damaged bytes meet the checks of zipfile, of the parsers of headers and XML, and the assumptions of libraries
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""Errors, besides OSError, that a damaged archive, array or workbook raises when it is read."""
 
 _UNUSED = "\0"
 """Beginning of the name of a column that is not needed."""
@@ -245,19 +265,19 @@ def read_external(path: Path) -> ExternalElements:
     if not table.lines:
         raise data_error(table.file, "no row below the header", 2)
     ids, first, second = map(table.whole, ("element", "node1", "node2"))
-    _unique(ids, table)
+    seen: set[int] = set()
+    for number, line in zip(ids.tolist(), table.lines, strict=True):
+        if number in seen:
+            raise data_error(table.file, f"element {number} is given twice", line)
+        seen.add(number)
     diameter = _positive("diameter", table)
     length = _positive("length", table) if "length" in table.columns else np.full(len(ids), np.nan)
-    return ExternalElements(table.file, ids, np.column_stack([first, second]), diameter, length, _sets(ids, table))
-
-
-def _sets(ids: Ids, table: CsvTable) -> dict[str, Ids]:
     members: dict[str, list[int]] = {}
     for number, text in zip(ids.tolist(), table.columns.get("sets", [""] * len(ids)), strict=True):
-        for name in text.split(";"):
-            if name.strip():
-                members.setdefault(name.strip(), []).append(number)
-    return {name: np.array(numbers, dtype=np.int64) for name, numbers in members.items()}
+        for name in filter(None, map(str.strip, text.split(";"))):
+            members.setdefault(name, []).append(number)
+    sets = {name: np.array(numbers, dtype=np.int64) for name, numbers in members.items()}
+    return ExternalElements(table.file, ids, np.column_stack([first, second]), diameter, length, sets)
 
 
 def _positive(name: str, table: CsvTable) -> Floats:
@@ -266,11 +286,3 @@ def _positive(name: str, table: CsvTable) -> Floats:
         value = float(values[row])
         raise data_error(table.file, f"{name} is {value!r}: it must be greater than 0", table.lines[row])
     return values
-
-
-def _unique(ids: Ids, table: CsvTable) -> None:
-    seen: set[int] = set()
-    for number, line in zip(ids.tolist(), table.lines, strict=True):
-        if number in seen:
-            raise data_error(table.file, f"element {number} is given twice", line)
-        seen.add(number)

@@ -262,7 +262,8 @@ def _has_curves(part: type[Part]) -> bool:
 
 def _curves(part: Part, keyword: str, where: Where, name: str, title: Where) -> Iterator[DeckCurve]:
     if not issubclass(type(part), Block):
-        given = [slot for slot in _settings(type(part)) if getattr(part, slot.name) is not None]
+        settings = (slot for slot in record_schema(type(part)).slots if isinstance(slot.about, Setting))
+        given = [slot for slot in settings if getattr(part, slot.name) is not None]
         if given:
             first = min(given, key=lambda slot: slot.about.names is not Names.SET)
             name = ", ".join(filter(None, [name, _written(first, getattr(part, first.name))]))
@@ -277,12 +278,6 @@ def _curves(part: Part, keyword: str, where: Where, name: str, title: Where) -> 
             for index, child in enumerate(value):
                 if _has_curves(cast("type[Part]", type(child))):
                     yield from _curves(child, keyword, where.inside(slot.json, index), name, title)
-
-
-@cache
-def _settings(part: type[Part]) -> list[FieldSpec]:
-    """Return the fields that distinguish a record from others of its kind: the set, or else the first given one."""
-    return [slot for slot in record_schema(part).slots if isinstance(slot.about, Setting)]
 
 
 def _written(slot: FieldSpec, value: object) -> str:

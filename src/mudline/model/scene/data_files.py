@@ -47,7 +47,10 @@ def fault_of(path: Path, contents: DataFile, *, layout: str = "") -> str:
             _operators(lines, layout)
         elif contents in _WIDTH:
             times = [row[0] for row in _table(lines, _WIDTH[contents])]
-            _rising(times, lines)
+            after = next((at for at in range(1, len(times)) if times[at] <= times[at - 1]), 0)
+            if after:
+                what = f"the time {times[after]:g} does not come after {times[after - 1]:g}"
+                return f"line {lines[after].number}: {what}"
         else:
             for line in lines:
                 if "=" not in line.text:
@@ -113,12 +116,6 @@ def _row(line: DataLine, width: int) -> list[float]:
     if len(values) != width:
         raise ValueError(f"line {line.number}: expected {counted(width, 'number')}, found {len(values)}")
     return values
-
-
-def _rising(times: Sequence[float], lines: Sequence[DataLine]) -> None:
-    for before, after, line in zip(times, times[1:], lines[1:], strict=False):
-        if after <= before:
-            raise ValueError(f"line {line.number}: the time {after:g} does not come after {before:g}")
 
 
 def operators(path: Path, layout: str = "") -> list[list[float]]:

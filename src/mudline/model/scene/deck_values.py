@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path, PurePath
@@ -18,7 +18,7 @@ from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import kinds_of, names_given
-from mudline.language.keywords.model import Block, FieldSpec, Part, Row, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Row, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax.fields import read_line
@@ -192,56 +192,41 @@ def _makes(keyword: str) -> tuple[str, ...]:
 
 def opaque_set_names(deck: Deck) -> dict[str, str]:
     """Return names of the element sets that lines make, as first written, by their folded form."""
-    return _first_written(name for block in _model(deck) for name in _sets(block))
+    return _first_written(deck, _sets)
 
 
 def opaque_labels(deck: Deck) -> dict[str, str]:
     """Return texts in kept blocks that may be labels of nodes, as first written, by their folded form."""
-    return _first_written(text for block in _model(deck) for text in _texts(block))
+    return _first_written(deck, _texts)
 
 
-def _first_written(names: Iterable[str]) -> dict[str, str]:
+def _first_written(deck: Deck, named: Callable[[Block | Opaque], Iterator[str]]) -> dict[str, str]:
+    """Return the names in every block of `$MODEL`, read or not, by their folded form."""
     first_written: dict[str, str] = {}
-    for name in names:
-        if text := bare(name):
-            first_written.setdefault(folded(text), text)
+    blocks = (block for _, section, block in deck.every_block() if section == "MODEL")
+    for text in filter(None, (bare(name) for block in blocks for name in named(block))):
+        first_written.setdefault(folded(text), text)
     return first_written
-
-
-def _model(deck: Deck) -> Iterator[Block | Opaque]:
-    """Return every block of `$MODEL`, read or not."""
-    return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
 
 
 def _sets(block: Block | Opaque) -> Iterator[str]:
     """Yield the element sets that a block of lines names."""
     if isinstance(block, Opaque):
         kept = catalogue.opaque_keyword("MODEL", block.keyword)
-        if kept and kept.name_settings:
-            yield from _given_in_lines(block.lines, kept.name_settings)
+        keys = kept.name_settings if kept else {}
+        for line in data_lines(block.lines) if keys else ():
+            for key, values in _groups(line) if "=" in line else ():
+                if kind := keys.get(key):
+                    yield from values if kind is Names.SETS else values[:1]
     elif block.facts.makes:
-        yield from _given_in_parts(block)
-
-
-def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator[str]:
-    for line in data_lines(lines):
-        if "=" not in line:
-            continue
-        for key, values in _groups(line):
-            if kind := keys.get(key):
-                yield from values if kind is Names.SETS else values[:1]
+        for _, _, value in block.walk(_makes_sets):
+            name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
+            if isinstance(name, str) and name:
+                yield name
 
 
 def _makes_sets(slot: FieldSpec) -> bool:
     return slot.key in LINE_SETS
-
-
-def _given_in_parts(part: Part) -> Iterator[str]:
-    """Yield the same settings of a keyword that is read, as far as it could be read."""
-    for _, _, value in part.walk(_makes_sets):
-        name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
-        if isinstance(name, str) and name:
-            yield name
 
 
 def _texts(block: Block | Opaque) -> Iterator[str]:

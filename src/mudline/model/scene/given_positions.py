@@ -10,7 +10,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.language.codes.contact import RUN006, RUN007, RUN008
-from mudline.language.diagnostics import Code
+from mudline.language.diagnostics import Code, Where
 from mudline.model.contact.arrays import Positions
 from mudline.model.contact.input import ContactInput
 from mudline.model.scene.csv_file import data_error
@@ -29,11 +29,12 @@ _ENOUGH, _DIGITS = 10, 0.6
 """Limits of rounded coordinates: number of different values, and share that needs the last digit."""
 
 
-class PositionDoubt(NamedTuple):
-    """Doubt: its code, the message, the elements (indices), the message for the caption of a plot."""
+class Doubt(NamedTuple):
+    """Doubt about contact: code, message, place, elements (indices), and the message for the caption of a plot."""
 
     code: Code
     message: str
+    where: Where | None
     elements: Indices
     brief: str
 
@@ -76,14 +77,14 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
     raise data_error(file, message)
 
 
-def position_doubts(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+def position_doubts(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[Doubt]:
     """Return doubts about positions (n, 3) of a file: elements without positions, other lengths, few digits."""
     doubts = []
     lost = np.flatnonzero(~present[scene.element_nodes].all(axis=1))
     if lost.size:
         missing = counted(int((~present).sum()), "node")
         message = f"no positions for {missing}: {scene.describe(lost, 'is', 'are')} left out"
-        doubts.append(PositionDoubt(RUN007, message, lost, ""))
+        doubts.append(Doubt(RUN007, message, None, lost, ""))
     off, known = off_lengths(scene, places, _SLIGHT)
     if off.size:
         first = int(off[0])
@@ -94,11 +95,11 @@ def position_doubts(contact_input: ContactInput, scene: Scene, present: Mask, pl
             f"the element is long (first: {scene.element_ids[first]}, {apart} instead of "
             f"{shown(float(scene.length[first]))}): check that the positions are of this deck, and their units"
         )
-        doubts.append(PositionDoubt(RUN006, message, off, "distances differ from lengths"))
+        doubts.append(Doubt(RUN006, message, None, off, "distances differ from lengths"))
     return [*doubts, *_few_digits(contact_input, scene, present, places)]
 
 
-def _few_digits(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[PositionDoubt]:
+def _few_digits(contact_input: ContactInput, scene: Scene, present: Mask, places: Floats) -> list[Doubt]:
     """Return a doubt about coordinates whose rounding moves nodes by much of their mobilisation length."""
     friction = contact_input.assigned.get("friction")
     if friction is None:
@@ -119,7 +120,7 @@ def _few_digits(contact_input: ContactInput, scene: Scene, present: Mask, places
     held = np.zeros(len(scene.node_ids), dtype=np.bool_)
     held[nodes] = True
     elements = np.flatnonzero(held[scene.element_nodes].any(axis=1))
-    return [PositionDoubt(RUN008, message, elements, "coordinates rounded")]
+    return [Doubt(RUN008, message, None, elements, "coordinates rounded")]
 
 
 def _digits(places: Floats) -> int | None:

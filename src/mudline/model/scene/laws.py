@@ -101,8 +101,7 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     laws = LawTable(curves=[*named, *by_set])
     if any(map(catalogue.is_superseded, context.unread)):
         laws.gaps.append(Where(len(context.deck.sections)))
-    surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
-    legacy = [*surfaces, *_embedment(sets, laws, len(named))]
+    legacy = [*_surfaces(context, sets, laws), *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
     wins = later_wins([set_law.set_ for set_law in new], count)
@@ -114,8 +113,9 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
     replaced = looked_up(gives, laws.covered)
     if any(set_law.kind is LawKind.CURVE for set_law in legacy):
-        curves, numbers = (_marked(laws, kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
-        replaced = replaced & ~(looked_up(curves, laws.of_element) & looked_up(numbers, laws.covered))
+        kinds = np.array([*(set_law.kind for set_law in laws.set_laws), LawKind.NONE])
+        curves = looked_up(kinds == LawKind.CURVE, laws.of_element)
+        replaced = replaced & ~(curves & looked_up(kinds == LawKind.LINEAR, laws.covered))
     count_replaced = np.count_nonzero(replaced)
     if count_replaced == count:
         laws.of_element = laws.covered
@@ -124,19 +124,11 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     return laws
 
 
-def _marked(laws: LawTable, kind: LawKind) -> Mask:
-    """Return a mask of the laws of a kind; its last item, for elements without a law (-1), is False."""
-    return np.array([*(set_law.kind is kind for set_law in laws.set_laws), False])
-
-
-def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
+def _surfaces(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
+    """Yield rigid surfaces, and the linear stiffness that holds where no curve of `*EMBEDMENT` does, in any order."""
     for where, _ in context.blocks("RIGID SURFACE"):
         laws.types.setdefault("RIGID", []).append(where)
         yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
-
-
-def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
-    """Yield the linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they are given."""
     for where, block in context.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
         place = where.inside("properties")

@@ -16,9 +16,7 @@ from mudline.model.scene.numbering import (
     DefinitionBatch,
     Definitions,
     Floats,
-    Ids,
     Indices,
-    Mask,
     Numbered,
     blocks_of,
     whole_numbers,
@@ -55,7 +53,9 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
         for index, entry in enumerate(cast("Nodes", block).entries):
             place = where.inside("entries", index)
             if hasattr(entry, "nodes"):
-                _add_nodes(context, gathered, cast("NodeRows", entry), place)
+                table = cast("NodeRows", entry).nodes
+                for row in _add_rows(gathered, table.column(0), _coordinates(table), place, "nodes"):
+                    context.misread("NODE", place.inside("nodes", row, 0))
             elif line := _node_line(context, gathered, entry.generate, place):
                 gathered.add(line.batch)
                 if not _between(gathered, line):
@@ -72,13 +72,6 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
         repeats = repeats[[nodes.where_row(row) not in placeless for row in repeats.tolist()]]
     report_repeats(context, nodes, repeats, "node")
     return nodes
-
-
-def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
-    table = entry.nodes
-    values = _coordinates(table)
-    for row in _add_rows(gathered, table.column(0), values, where, "nodes"):
-        context.misread("NODE", where.inside("nodes", row, 0))
 
 
 def _coordinates(table: Table) -> Floats:
@@ -253,7 +246,9 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     indices = np.empty(elements.values.shape, dtype=np.intp)
     missing_ends: list[Indices] = []
     for block in blocks_of(len(elements)):
-        numbered, numbers = _node_numbers(elements.values[block])
+        values = elements.values[block]
+        numbered = np.abs(values) <= 2 * LARGEST_WHOLE
+        numbers = np.where(numbered, values, 0).astype(np.int64)
         indices[block] = np.where(numbered, nodes.indices(numbers), -1)
         lacks = numbered & (indices[block] < 0)
         if np.count_nonzero(lacks):
@@ -273,12 +268,6 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
         place = where if generated else where.inside(end + 1)
         context.report_missing(REF006, message, place, "NODE", number, blocks=Blocks.ALWAYS)
     return indices
-
-
-def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
-    """Return a mask of values that are numbers of nodes, and the numbers, 0 elsewhere."""
-    usable = np.abs(values) <= 2 * LARGEST_WHOLE
-    return usable, np.where(usable, values, 0).astype(np.int64)
 
 
 def _lengths(ends: Indices, coordinates: Floats) -> Floats:

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.basics.quantities import time_unit, unit_names
-from mudline.language.codes import RUN001
-from mudline.language.diagnostics import Problem, Where
+from mudline.language.diagnostics import Where
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.model.scene.resolved import ResolvedDeck
@@ -74,11 +73,6 @@ def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
     springs = [contact for contact in every if contact.kind != SOFTENING]
     softening = [contact for contact in every if contact.kind == SOFTENING]
     return Oscillations(sorted(springs, key=lambda contact: -contact.omega), softening)
-
-
-def line_of(scene: ResolvedDeck, where: Where | None) -> int:
-    """Return the line of a place in its file; 0 for none."""
-    return 0 if where is None else scene.deck.place(Problem(RUN001, "", where=where)).line
 
 
 def softening_needs(scene: ResolvedDeck, contact: Oscillation) -> str:
@@ -160,9 +154,8 @@ def _groups(having: Mask, *keys: Indices) -> list[Indices]:
     rows = np.flatnonzero(having)
     if not rows.size:
         return []
-    _, group, counts = np.unique(
-        np.column_stack([key[rows] for key in keys]), axis=0, return_inverse=True, return_counts=True
-    )
+    columns = np.column_stack([key[rows] for key in keys])
+    _, group, counts = np.unique(columns, axis=0, return_inverse=True, return_counts=True)
     return np.split(rows[np.argsort(group.ravel(), kind="stable")], np.cumsum(counts)[:-1])
 
 

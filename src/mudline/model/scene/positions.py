@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tokenize
 import warnings
 import weakref
 import zipfile
-import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
@@ -20,28 +18,13 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import listed_numbers, short_repr
 from mudline.language.diagnostics import DeckError
 from mudline.model.contact.arrays import Positions, StepReader
-from mudline.model.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
+from mudline.model.scene.csv_file import DAMAGED, NumericTable, data_error, finite, read_numeric_csv, whole_numbers
 from mudline.model.scene.numbering import Floats, Ids, Indices, Numbered
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
 COLUMNS = ("time", "node", *_AXES, *_VELOCITIES)
 """Columns of positions in a CSV."""
-
-_UNREADABLE = (
-    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
-    ValueError,
-    EOFError,
-    KeyError,
-    MemoryError,
-    NotImplementedError,
-    OverflowError,
-    RuntimeError,
-    SyntaxError,
-    tokenize.TokenError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
 
 Reals = NDArray[np.floating]
 
@@ -202,7 +185,7 @@ def _from_npy(path: Path, nodes: Numbered) -> Positions:
             mapped = np.lib.format.open_memmap(path, mode="r")  # reads the header only
             in_steps = mapped.ndim == 3 and mapped.dtype.kind == "f" and mapped.flags.c_contiguous
             array = mapped if in_steps else np.load(path, allow_pickle=False)
-    except _UNREADABLE as error:
+    except DAMAGED as error:
         raise data_error(file, f"not an NPY array: {error}") from error
     positions = _from_arrays(file, {"positions": _real(file, "positions", array)}, nodes, ordered=in_steps)
     return replace(positions, values=StepFile(path, mapped, _ranks(nodes))) if in_steps else positions
@@ -224,7 +207,7 @@ def _load_npz(path: Path) -> dict[str, Reals]:
                 return {name: _real(file, name, _member(archive, name, most)) for name in names}
         except DeckError:
             raise
-        except (*_UNREADABLE, OSError) as error:
+        except (*DAMAGED, OSError) as error:
             raise data_error(file, f"not an NPZ archive: {error}") from error
 
 

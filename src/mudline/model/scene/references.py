@@ -131,19 +131,15 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
         for key, (first, *_) in names.defined.items():
             if key in used:
                 continue
-            raw = raw or _not_read(context.deck)
+            if not raw:
+                unread = (line for _, _, block in context.deck.every_block() for line in raw_lines(block))
+                raw = "\n".join(map(folded, unread)) or "\n"
             if key in raw:
                 continue
             thing = kind.value.removeprefix("a ").removeprefix("an ")
             by = f"name it in {' or '.join(f'*{keyword}' for keyword in users)}, or remove it" if users else "remove it"
             severity = None if users else Severity.INFO
             yield Problem(code, f"{thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
-
-
-def _not_read(deck: Deck) -> str:
-    """Return the unread lines, which may use names; a line end if there are none."""
-    lines = (raw_lines(block) for _, _, block in deck.every_block())
-    return "\n".join(folded(line) for own in lines for line in own) or "\n"
 
 
 _FREEDOMS = 6

@@ -260,6 +260,10 @@ class ResolvedDeck:
             where = self.nodes.where(int(np.flatnonzero(self.node_ids == node)[0]))
         return DeckError(self.deck.diagnose([Problem(RUN001, message, where=where)]))
 
+    def line_of(self, where: Where | None) -> int:
+        """Return the line of a place in its file; 0 for none."""
+        return 0 if where is None else self.deck.place(Problem(RUN001, "", where=where)).line
+
     def set_law(self, element: int) -> SetLaw | None:
         """Return the law of the set through which the element of an index has its law."""
         index = int(self.laws.of_element[element])

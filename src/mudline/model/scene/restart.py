@@ -64,7 +64,11 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
-        problems += (_shown(problem, base, deck.folder) for problem in base.errors)
+        path = Path(base.deck.folder or deck.folder, Path(base.deck.file).name)
+        for problem in base.errors:  # without text from files outside of the project
+            shown_ = replace(problem, message=without_text(problem.message, path, deck.folder), repair=None)
+            values = {each.name: getattr(shown_, each.name) for each in fields(Problem)}
+            problems.append(BaseProblem(**values, deck=base.deck))
     units = (each.units for each in (deck, *(base.deck for base in chain.bases)))
     whole = replace(
         deck,
@@ -78,13 +82,6 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
 
 def _reported(fault: str, refused: bool, where: Where) -> Problem:  # noqa: FBT001 - as `_missing` returns it
     return Problem(REF015, fault, None, Severity.ERROR if refused else None, where)
-
-
-def _shown(problem: Problem, base: Base, folder: Path) -> BaseProblem:
-    """Return a problem of a continued deck, without text from files outside of the project."""
-    path = Path(base.deck.folder or folder, Path(base.deck.file).name)
-    shown_ = replace(problem, message=without_text(problem.message, path, folder), repair=None)
-    return BaseProblem(**{each.name: getattr(shown_, each.name) for each in fields(Problem)}, deck=base.deck)
 
 
 def decks_before(deck: Deck) -> list[Path]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from importlib.util import find_spec
@@ -30,7 +30,6 @@ from mudline.model.scene.deck_values import file_name, find_file, number
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_properties import Surface
     from mudline.language.keywords.library.seabed_surface import Plane, SeabedPlanes, SeabedProfile
     from mudline.model.contact.seabed import Seabed
     from mudline.model.contact.seabed.profile import Interpolation
@@ -113,22 +112,17 @@ def read_seabed(context: Context) -> SeabedShape:
     shape = _FLAT
     unreadable: list[tuple[Where, str]] = []
     for where, surface in context.surfaces:
-        shape = _surface(surface, where, shape)
+        if surface.profile is not None:
+            points = np.column_stack((surface.profile.column(0), surface.profile.column(1)))
+            shape = SeabedShape(SeabedKind.PROFILE, points=points, where=where.inside("profile"))
+        elif surface.slope is not None:
+            shape = SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where.inside("slope"))
     for where, block in context.blocks("SEABED PROFILE"):
         shape = _profile(context, cast("SeabedProfile", block), where, unreadable)
     blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.blocks("SEABED PLANES")]
     if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
         shape = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
     return replace(shape, unreadable=tuple(unreadable)) if unreadable else shape
-
-
-def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
-    if surface.profile is not None:
-        points = np.column_stack((surface.profile.column(0), surface.profile.column(1)))
-        return SeabedShape(SeabedKind.PROFILE, points=points, where=where.inside("profile"))
-    if surface.slope is not None:
-        return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where.inside("slope"))
-    return before
 
 
 def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: list[tuple[Where, str]]) -> SeabedShape:
@@ -288,20 +282,18 @@ REACH = 100.0
 """Height in diameters above the seabed's level beyond its end; higher parts of the line touch no seabed."""
 
 
-class Survey(ABC):
+class Survey(NamedTuple):
     """Known part of the seabed.
 
     Attributes:
+        heights: returns heights (n,) of places (n, 3) beyond the end above the level there, -inf at least; NaN within.
         end: its end in words, as they follow "node 3 lies".
         consequence: assumption of the evaluator beyond it.
     """
 
+    heights: Callable[[Floats], Floats]
     end: str
-    consequence = "no seabed holds the line there; give it as far as the line goes, or correct the coordinates"
-
-    @abstractmethod
-    def heights(self, places: Floats) -> Floats:
-        """Return heights (n,) of `places` (n, 3) beyond the end above the level there, -inf at least; NaN within it."""
+    consequence: str = "no seabed holds the line there; give it as far as the line goes, or correct the coordinates"
 
     def left(self, places: Floats, diameter: float) -> Mask:
         """Return a mask (n,) of `places` (n, 3) beyond the end that are low enough for the seabed to matter."""
@@ -309,69 +301,64 @@ class Survey(ABC):
             return np.asarray(self.heights(places) <= REACH * diameter)
 
 
-class _ProfileSurvey(Survey):
-    def __init__(self, seabed: SeabedShape) -> None:
-        points = seabed.points[np.argsort(seabed.points[:, 0], kind="stable")]
-        (self._first, self._start), (self._last, self._stop) = points[0].tolist(), points[-1].tolist()
-        self._heading = heading(seabed.direction)
-        axis = "Y" if seabed.direction == 0.0 else "along it"
-        self.end = f"beyond the ends of the seabed profile ({axis} = {self._first:.6g} to {self._last:.6g})"
-        self.consequence = (
-            "it is taken as level there; give the profile as far as the line goes, or correct the coordinates"
-        )
-
-    def heights(self, places: Floats) -> Floats:
-        x, y, z = places.T
-        along = y * self._heading[0] + z * self._heading[1]
-        levels = np.where(along < self._first, self._start, np.where(along > self._last, self._stop, np.nan))
-        return np.asarray(x - levels)
-
-
-class _SurfaceSurvey(Survey):
-    def __init__(self, seabed: SeabedShape) -> None:
-        from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - only now is it needed
-
-        from mudline.model.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
-
-        try:
-            corners = ConvexHull(seabed.points[:, 1:]).vertices
-        except QhullError as error:
-            raise ValueError("the points lie on a line") from error
-        self._hull, self._top = ScatteredSeabed(seabed.points[corners]), float(seabed.points[:, 0].max())
-        self.end = f"outside of the hull of the seabed's {len(seabed.points)} points"
-
-    def heights(self, places: Floats) -> Floats:
-        x, y, z = places.T.copy()
-        return np.where(np.isnan(self._hull.elevation(y, z)), x - self._top, np.nan)
-
-
-class _PlanesSurvey(Survey):
-    def __init__(self, seabed: SeabedShape) -> None:
-        self._seabed, self._shape = made_seabed(seabed), seabed
-        self.end = "outside of the bounds of all planes of the seabed"
-
-    def heights(self, places: Floats) -> Floats:
-        x, y, z = places.T.copy()
-        level = np.full(len(x), -np.inf)
-        for plane in self._shape.planes:  # at its place nearest to each node
-            y_min, y_max, z_min, z_max = plane.bounds
-            level = np.fmax(level, self._seabed.elevation(np.clip(y, y_min, y_max), np.clip(z, z_min, z_max)))
-        return np.where(np.isnan(self._seabed.elevation(y, z)), x - level, np.nan)
-
-
 def survey_of(seabed: SeabedShape) -> Survey | None:
     """Return the known part of a seabed; None if it has no end, or its points are unknown or form no seabed."""
-    surveys: dict[SeabedKind, type[_ProfileSurvey | _SurfaceSurvey | _PlanesSurvey]] = {
-        SeabedKind.PROFILE: _ProfileSurvey,
-        SeabedKind.SURFACE: _SurfaceSurvey,
-        SeabedKind.PLANES: _PlanesSurvey,
-    }
-    kind = surveys.get(seabed.kind)
-    if kind is None or seabed.missing or (kind is not _PlanesSurvey and len(seabed.points) < 2):
-        return None
-    if kind is _SurfaceSurvey and find_spec("scipy") is None:
+    kind = seabed.kind
+    if seabed.missing or (kind in (SeabedKind.PROFILE, SeabedKind.SURFACE) and len(seabed.points) < 2):
         return None
     try:
-        return kind(seabed)
+        if kind is SeabedKind.PROFILE:
+            return _profile_survey(seabed)
+        if kind is SeabedKind.SURFACE and find_spec("scipy") is not None:
+            return _surface_survey(seabed)
+        return _planes_survey(seabed) if kind is SeabedKind.PLANES else None
     except ValueError:  # other findings report its fault
         return None
+
+
+def _profile_survey(seabed: SeabedShape) -> Survey:
+    points = seabed.points[np.argsort(seabed.points[:, 0], kind="stable")]
+    (first, start), (last, stop) = points[0].tolist(), points[-1].tolist()
+    cosine, sine = heading(seabed.direction)
+
+    def heights(places: Floats) -> Floats:
+        x, y, z = places.T
+        along = y * cosine + z * sine
+        return np.asarray(x - np.where(along < first, start, np.where(along > last, stop, np.nan)))
+
+    axis = "Y" if seabed.direction == 0.0 else "along it"
+    end = f"beyond the ends of the seabed profile ({axis} = {first:.6g} to {last:.6g})"
+    level = "it is taken as level there; give the profile as far as the line goes, or correct the coordinates"
+    return Survey(heights, end, level)
+
+
+def _surface_survey(seabed: SeabedShape) -> Survey:
+    from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - only now is it needed
+
+    from mudline.model.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
+
+    try:
+        corners = ConvexHull(seabed.points[:, 1:]).vertices
+    except QhullError as error:
+        raise ValueError("the points lie on a line") from error
+    hull, top = ScatteredSeabed(seabed.points[corners]), float(seabed.points[:, 0].max())
+
+    def heights(places: Floats) -> Floats:
+        x, y, z = places.T.copy()
+        return np.where(np.isnan(hull.elevation(y, z)), x - top, np.nan)
+
+    return Survey(heights, f"outside of the hull of the seabed's {len(seabed.points)} points")
+
+
+def _planes_survey(seabed: SeabedShape) -> Survey:
+    made = made_seabed(seabed)
+
+    def heights(places: Floats) -> Floats:
+        x, y, z = places.T.copy()
+        level = np.full(len(x), -np.inf)
+        for plane in seabed.planes:  # at its place nearest to each node
+            y_min, y_max, z_min, z_max = plane.bounds
+            level = np.fmax(level, made.elevation(np.clip(y, y_min, y_max), np.clip(z, z_min, z_max)))
+        return np.where(np.isnan(made.elevation(y, z)), x - level, np.nan)
+
+    return Survey(heights, "outside of the bounds of all planes of the seabed")

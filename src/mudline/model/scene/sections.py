@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.language.keywords.library.mesh import ElementSets, SetGenerate, SetList
     from mudline.language.keywords.library.tapered_joints import TaperedJoint, TaperedJoints
-    from mudline.language.keywords.model import Part
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
 
@@ -226,7 +225,11 @@ def weights(entry: GeometricSet, around: Surroundings) -> tuple[float, float]:
 
 def _mass(entry: GeometricSet) -> float:
     """Return mass per length of a section, NaN if it is not known."""
-    return number(entry.section, "mass") if entry.rigid is None else _wall(entry.rigid)
+    if entry.rigid is None:
+        return number(entry.section, "mass")
+    area, outer, inner = (number(entry.rigid, name) for name in ("area", "do", "di"))
+    area = math.pi / 4 * (outer * outer - inner * inner) if math.isnan(area) else area
+    return area * number(entry.rigid, "density")
 
 
 def _displaced(entry: GeometricSet) -> float:
@@ -235,14 +238,6 @@ def _displaced(entry: GeometricSet) -> float:
     if math.isnan(buoyancy) and entry.flexible is None:
         buoyancy = number(entry.section, "do")
     return math.pi / 4 * buoyancy * buoyancy
-
-
-def _wall(section: Part) -> float:
-    area = number(section, "area")
-    if math.isnan(area):
-        outer, inner = number(section, "do"), number(section, "di")
-        area = math.pi / 4 * (outer * outer - inner * inner)
-    return area * number(section, "density")
 
 
 class Stiffnesses(NamedTuple):

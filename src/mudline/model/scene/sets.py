@@ -186,7 +186,9 @@ class _SetReader:
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
-                    elements, whole = self._subset(cast("SetSubset", member).subset)
+                    name = known_name(cast("SetSubset", member).subset)
+                    set_ = None if name is None else self.sets.named.get(name_key(name))
+                    elements, whole = (_NOTHING, False) if set_ is None else (set_.elements, not set_.open)
                 elif member.rule == "set_list":
                     elements, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:
@@ -197,11 +199,6 @@ class _SetReader:
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure, faulty)
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
-
-    def _subset(self, subset: str) -> tuple[Indices, bool]:
-        name = known_name(subset)
-        set_ = None if name is None else self.sets.named.get(name_key(name))
-        return (_NOTHING, False) if set_ is None else (set_.elements, not set_.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Return indices of the elements of a list in ascending order, and True if these are all."""
@@ -244,7 +241,9 @@ class _SetReader:
         count = (end - start) // step + 1
         lacking = count - len(elements)
         if lacking and not self.context.possible_definition("ELEMENT"):
-            first = self._first_lacking(start, end, step)
+            numbers_there = _distinct(self.elements.ids[elements])
+            gaps = np.flatnonzero(numbers_there != start + step * np.arange(len(numbers_there)))
+            first = start + step * int(gaps[0] if len(gaps) else len(numbers_there))
             if lacking == 1:
                 message = f"GEN={start}, {end}, {step}: element {first} is not defined: correct it, or define that"
             else:
@@ -253,12 +252,6 @@ class _SetReader:
             severity = Severity.WARNING if len(elements) else None
             self.context.note(Problem(REF005, message, None, severity, place, lacks=str(first)))
         return elements, not lacking
-
-    def _first_lacking(self, start: int, end: int, step: int) -> int:
-        """Return the first number of a range that no element has."""
-        numbers = _distinct(self.elements.ids[self.elements.between(start, end, step)])
-        gaps = np.flatnonzero(numbers != start + step * np.arange(len(numbers)))
-        return start + step * int(gaps[0] if len(gaps) else len(numbers))
 
 
 def _ascending(indices: Indices) -> Indices:

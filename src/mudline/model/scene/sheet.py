@@ -12,10 +12,9 @@ from mudline.language.keywords.format import unit_text
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, picked
-from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.sections import stiffnesses
-from mudline.model.scene.weights import attached, contents, left_out
+from mudline.model.scene.weights import attached, contents, left_out, pipe_of
 
 Value = str | int | float | None
 
@@ -113,7 +112,10 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
     entries = [section.entry.section for section in table.sections]
     inner = picked((number(each, "di") or np.nan for each in entries), table.of_element)
     own = [stiffnesses(scene.deck, section) for section in table.sections]
-    friction = _friction(scene)
+    friction = scene.resistance.column("friction")
+    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
+        given = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
+        friction = np.where((extension.of_element >= 0)[:, None], np.column_stack(given), friction)
     last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
     values_by_column = {
         "outer_diameter": scene.diameter,
@@ -142,15 +144,6 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
             values_by_column[dense.key] = case_contents.density
             values_by_column[heavy.key] = scene.submerged_weight + case_contents.mass * scene.surroundings.gravity
     return values_by_column, others
-
-
-def _friction(scene: ResolvedDeck) -> Floats:
-    """Return axial and lateral coefficients (m, 2): those of `*SEABED FRICTION`, else of the seabed's properties."""
-    coefficients = scene.resistance.column("friction")
-    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
-        own = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
-        coefficients = np.where((extension.of_element >= 0)[:, None], np.column_stack(own), coefficients)
-    return coefficients
 
 
 def _runs(scene: ResolvedDeck, values: Floats) -> list[tuple[int, int]]:

@@ -22,7 +22,7 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Path, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
-from mudline.language.syntax.fields import Field, FieldGroup, read_line
+from mudline.language.syntax.fields import FieldGroup, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import COMMENT, data_lines, file_name, find_file, not_found
@@ -135,13 +135,17 @@ class _Looking:
         known = catalogue.sections_of(keyword) is not None
         _, groups, problems = read_line(line, Span(0, len(line)))
         self._keyless(where, keyword, groups)
-        for problem in problems:
-            self._unclosed(problem, where, line)
+        for problem in problems:  # an equation that is not closed; other marks may be text
+            if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
+                place = where.inside(*problem.span)
+                self._note(Problem(SYN006, f"{problem.message}{_UNREAD}", None, Severity.WARNING, place))
         for group in groups:
             for field in group.fields:
-                self._label(field, where)
-                if known and group.key not in _FREE:
-                    self._number(field, where)
+                if field.text.startswith("{") and Label.match(field.text):
+                    check_label(self.context, REF006, field.text, where.inside(*field.span))
+                if known and group.key not in _FREE and (number := number_meant(field.text)):
+                    message = f"{shown(field.text)} is not a number: write {number}{_UNREAD}"
+                    self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*field.span)))
             value = group.fields[0]
             if known and value.text and not value.text.startswith("=["):
                 if check := self.checks.get(group.key):
@@ -199,23 +203,6 @@ class _Looking:
             if reason.problem:
                 self._note(reason.problem)
 
-    def _label(self, field: Field, where: Where) -> None:
-        if field.text.startswith("{") and Label.match(field.text):
-            check_label(self.context, REF006, field.text, where.inside(*field.span))
-
-    def _number(self, field: Field, where: Where) -> None:
-        """Report a number with a letter in place of a digit."""
-        if number := number_meant(field.text):
-            message = f"{shown(field.text)} is not a number: write {number}{_UNREAD}"
-            self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*field.span)))
-
-    def _unclosed(self, problem: Problem, where: Where, line: str) -> None:
-        """Report an equation that is not closed; other marks may be text."""
-        if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
-            message = f"{problem.message}{_UNREAD}"
-            where = where.inside(*problem.span)
-            self._note(Problem(SYN006, message, None, Severity.WARNING, where))
-
     def _set(self, where: Where, keyword: str, name: str) -> None:
         """Report an undefined set that a line names; postprocessing may have its own sets."""
         if keyword in catalogue.definers(Names.SET) or not self._is_of_model(where, keyword, _OF_RESULTS):
@@ -264,8 +251,9 @@ class _Looking:
         """
         if not self._is_of_model(where, keyword):
             return
-        key = name_key(name)
-        if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
+        key, kinds = name_key(name), (*CURVES, Names.CURVE)
+        definers = {keyword for kind in kinds for keyword in catalogue.definers(kind)}
+        if key not in self.curves and key not in self._other_words and self.context.unread.isdisjoint(definers):
             from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
 
             meant = self.context.hint(name, self.curves)
@@ -277,12 +265,6 @@ class _Looking:
         """Curves of all kinds that the deck defines, by their folded names."""
         kinds = names_of(self.context, CURVES | {Names.CURVE}).values()
         return {key: name for names in kinds for key, name in names.known.items()}
-
-    @cached_property
-    def _may_lack_curves(self) -> bool:
-        """True if a line that could not be used may define a curve."""
-        kinds = (*CURVES, Names.CURVE)
-        return not self.context.unread.isdisjoint(keyword for kind in kinds for keyword in catalogue.definers(kind))
 
     @cached_property
     def _other_words(self) -> set[str]:

@@ -5,36 +5,17 @@ from __future__ import annotations
 import csv
 import io
 import zipfile
-import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any, BinaryIO, NamedTuple
-from xml.etree.ElementTree import ParseError
 
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.short_repr import cut
 from mudline.language.diagnostics import DeckError
 from mudline.language.syntax.source import Source
-from mudline.model.scene.csv_file import SEPARATORS, csv_rows, data_error
-
-_UNREADABLE = (
-    # damaged bytes meet the checks of zipfile, of the parser of XML, and the assumptions of openpyxl
-    ArithmeticError,
-    AttributeError,
-    EOFError,
-    LookupError,
-    MemoryError,
-    NotImplementedError,
-    OSError,
-    ParseError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
+from mudline.model.scene.csv_file import DAMAGED, SEPARATORS, csv_rows, data_error
 
 
 @contextmanager
@@ -56,7 +37,7 @@ def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> I
         yield book
     except DeckError:
         raise
-    except (*_UNREADABLE, InvalidFileException) as error:
+    except (*DAMAGED, OSError, InvalidFileException) as error:
         raise data_error(file, f"not a workbook that can be read: {cut(str(error), 100)}") from error
 
 

@@ -16,14 +16,12 @@ from mudline.checks.fixing import with_severities
 from mudline.checks.verdict import all_findings, errors_of
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.loading import coverage_of, extent, load_bytes
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import Parameters, folded, name_key
 from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded
-from mudline.language.keywords.contents import kept_lines
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
-from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import OF_SEABED, other_curves
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
@@ -89,11 +87,11 @@ def _findings(findings: Iterable[Diagnostic]) -> list[FindingRow]:
 
 
 def _keywords(deck: Deck) -> Iterator[KeywordRow]:
-    blocks = [(i, j, block) for i, section in enumerate(deck.sections) for j, block in enumerate(section.blocks)]
-    digests = [_digest(deck.sections[i].name, block) for i, _, block in blocks]
+    blocks = deck.every_block()
+    digests = [_digest(section, block) for _, section, block in blocks]
     total = sum(digests)
-    for place, ((i, j, block), digest) in enumerate(zip(blocks, digests, strict=True), 1):
-        names = (deck.sections[i].name, block.keyword, _line(deck, Where(i, j)), type(block) is not Opaque)
+    for place, ((where, section, block), digest) in enumerate(zip(blocks, digests, strict=True), 1):
+        names = (section, block.keyword, _line(deck, where), type(block) is not Opaque)
         facts = (extent(block) == "partly", is_superseded(block.keyword), is_extension(block.keyword))
         yield KeywordRow(place, *names, *facts, digest, (total - digest) % _DIGESTS)
 
@@ -102,8 +100,7 @@ def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
     used = {name_key(name) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
     # Unread lines may name sets.
-    lines = (each.lines if type(each) is Opaque else kept_lines(each) for part in deck.sections for each in part.blocks)
-    unread = "\n".join(line for own in lines for line in own).casefold()
+    unread = "\n".join(line for _, _, block in deck.every_block() for line in raw_lines(block)).casefold()
     for key, entry in named.items():
         ids = scene.element_ids[entry.elements]
         first, last = (int(ids.min()), int(ids.max())) if len(ids) else (None, None)
@@ -131,7 +128,7 @@ def _laws(deck: Deck, scene: Scene) -> Iterator[LawRow]:
     laws = scene.laws.set_laws
     followers = np.bincount(scene.laws.of_element + 1, minlength=len(laws) + 1)[1:].tolist()
     for place, (law, elements) in enumerate(zip(laws, followers, strict=True), 1):
-        names = (place, _keyword_at(scene, law.where), law.family, LawKind(law.kind).name.lower(), law.set_.name)
+        names = (place, _keyword_at(scene, law.where), law.family, law.kind.name.lower(), law.set_.name)
         numbers = (law.curve + 1 or None, law.stiffness, len(law.set_.elements), elements)
         yield LawRow(*names, *numbers, _line(deck, law.where))
 

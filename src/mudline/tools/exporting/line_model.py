@@ -15,19 +15,17 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.basics.quantities import shown
-from mudline.language.codes import RUN001
-from mudline.language.diagnostics import Problem, Where
+from mudline.language.diagnostics import Where
 from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
 from mudline.model.contact.touchdown import line_summaries
-from mudline.model.scene.boundary import TRANSLATIONS
+from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms, held_nodes
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
-from mudline.tools.exporting.held import End, read_held, report_inside
+from mudline.model.scene.weights import Pipe, pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
@@ -42,6 +40,20 @@ _AROUND = 5
 _DRAG, _ADDED = 1.2, 1.0
 """Coefficients used if the deck has none."""
 _UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """End of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
+
+    node: int
+    held: frozenset[int]
+    vessel: bool
+
+    @property
+    def joins(self) -> bool:
+        """True if lines join there and nothing else holds the node."""
+        return not self.held & TRANSLATIONS
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,10 +150,6 @@ class LineModel:
         known = level[~np.isnan(level)]
         return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
 
-    def line_of(self, where: Where) -> int:
-        """Return the line of a place in its file."""
-        return self.scene.deck.place(Problem(RUN001, "", where=where)).line
-
     def line_nodes(self) -> Indices:
         """Return the nodes of all lines, each once."""
         return np.unique(np.concatenate([part.nodes for line in self.lines for part in line.stretches]))
@@ -200,12 +208,7 @@ def _around_touchdown(result: ContactResult, carried: Mask) -> Mask:
 def _require_elements(scene: Scene) -> None:
     if not len(scene.element_ids):
         makers = unread_makers(scene.set_table.context.external_definers, "ELEMENT")
-        blocks = (
-            (i, j, block.keyword)
-            for i, section in enumerate(scene.deck.sections)
-            for j, block in enumerate(section.blocks)
-        )
-        where = next((Where(i, j) for i, j, keyword in blocks if keyword in makers), None)
+        where = next((at for at, _, block in scene.deck.every_block() if block.keyword in makers), None)
         names = " or ".join(f"*{maker}" for maker in makers)
         why = f": those of {names} are not in it, as its lines have no public format" if makers else ""
         raise scene.refusal(f"the deck has no elements to export{why}; give nodes and elements", where)
@@ -281,7 +284,7 @@ def _plain(coefficient: float) -> float:
     return float(f"{coefficient:.12g}")
 
 
-def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
+def report_sections(model: LineModel, names: list[str], *, torsion: bool) -> None:
     """Report each cross-section: its name in the target, curves by their slope at 0, torsion."""
     for section, name in zip(model.sections, names, strict=True):
         entry = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
@@ -290,8 +293,8 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
         effect += f", mass with {shown(section.contents, 4)} kg/m of contents" if section.contents else ""
-        model.report.add(section.where, status, f"{target} {name}", effect)
-    _report_water(model, target)
+        model.report.add(section.where, status, f"line type {name}", effect)
+    _report_water(model)
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
         model.report.add(twisted[0].where, Outcome.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
@@ -300,24 +303,22 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
             model.report.add(where, Outcome.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 
 
-def _report_water(model: LineModel, target: str) -> None:
+def _report_water(model: LineModel) -> None:
     """Report coefficients and contents."""
     deck = model.scene.deck
     for where, block in deck.blocks("HYDRODYNAMIC SETS"):
-        entries = cast("HydrodynamicSets", block).sets
-        plain = all(each.constant is not None and each.constant.drag_lift is None for each in entries)
-        effects = (
-            [] if plain and cast("HydrodynamicSets", block).option is None else ["no drag lift, no types but CONSTANT"]
-        )
+        given = cast("HydrodynamicSets", block)
+        plain = all(each.constant is not None and each.constant.drag_lift is None for each in given.sets)
+        effects = [] if plain and given.option is None else ["no drag lift, no types but CONSTANT"]
         if any(section.axial_drag for section in model.sections):
             effects += ["drag along as it is written, on an area that the manual does not show"]
         if any(section.assumed for section in model.sections):
             effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
         status = Outcome.APPROXIMATED if effects else Outcome.CARRIED
-        model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
+        model.report.add(where, status, "Cd, Ca of each line type", "; ".join(effects))
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
         effect = "its mass at rest; pressure and flow are not written"
-        model.report.add(where, Outcome.APPROXIMATED, f"mass of each {target}", effect)
+        model.report.add(where, Outcome.APPROXIMATED, "mass of each line type", effect)
 
 
 # ---------------------------------------------------------------------------------------------------------- lines
@@ -326,7 +327,7 @@ def _report_water(model: LineModel, target: str) -> None:
 def _lines(
     scene: Scene, report: ExportReport, units: SiFactors, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
-    held = read_held(scene, report)
+    held, vessels = held_freedoms(scene, [scene.deck])
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     ends: dict[int, End] = {}
@@ -335,7 +336,7 @@ def _lines(
 
     def end_of(node: int) -> int:
         if node not in ends:
-            end = End(node, held.of(node), node in held.moved)
+            end = End(node, held.get(node, NO_FREEDOMS), node in vessels)
             if end.joins and degree[node] < 2:
                 what = f"node {int(scene.node_ids[node])} ends a line, and nothing in *BOUNDARY holds it along an axis"
                 raise scene.refusal(f"{what}: a free end cannot be exported; hold the node", scene.nodes.where(node))
@@ -346,19 +347,61 @@ def _lines(
         if nodes[0] == nodes[-1]:
             message = "the line of this node is closed, and has no end to be held by: it cannot be exported"
             raise scene.refusal(message, scene.nodes.where(int(nodes[0])))
-        inner = [at for at, node in enumerate(nodes.tolist()) if held.of(node) >= TRANSLATIONS]
+        inner = [at for at, node in enumerate(nodes.tolist()) if held.get(node, NO_FREEDOMS) >= TRANSLATIONS]
         cuts = sorted({0, *inner, len(nodes) - 1})
         for first, last in pairwise(cuts):
             part, through = elements[first:last], nodes[first : last + 1]
             begin, end = end_of(int(through[0])), end_of(int(through[-1]))
             keys = np.column_stack([section_of[part], soil_of[part]])
             starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
+            lengths = scene.length[part] * units.length
             stretches = [
-                LineStretch(
-                    int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length
-                )
+                LineStretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], lengths[a:b])
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
-    report_inside(scene, report, held, set(ends))
+    _report_held(scene, report, held, set(ends))
     return list(ends.values()), lines
+
+
+# ----------------------------------------------------------------------------------------------------------------- ends
+
+
+def _report_held(scene: Scene, report: ExportReport, held: dict[int, frozenset[int]], ends: set[int]) -> None:
+    """Report displacements, types of motion but those of vessels, and nodes inside lines that are held in part."""
+    where = Where()
+    for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
+        for each in block.types:
+            if each.type_ not in ("CONSTANT", "VESSEL"):
+                effect = "its nodes are held and not moved"
+                report.add(where, Outcome.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
+    for line in held_nodes(scene):
+        value = line.how[0]
+        if isinstance(value, float | int) and value and line.nodes.size:
+            effect = f"node {int(scene.node_ids[line.nodes[0]])} stays where its coordinates are"
+            report.add(line.where._replace(path=()), Outcome.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
+    inside: dict[str, list[int]] = {}
+    for node in sorted(set(held) - ends):
+        inside.setdefault(", ".join(map(str, sorted(held[node]))), []).append(int(scene.node_ids[node]))
+    for freedoms, nodes in inside.items():
+        effect = f"inside of a line: free here (nodes: {len(nodes)}, the first {nodes[0]})"
+        report.add(where, Outcome.LEFT_OUT, "none", effect, f"DOF {freedoms}")
+
+
+def report_ends(report: ExportReport, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
+    """Report the ends: held although partly free, on vessels, fixed against rotation."""
+    scene = report.scene
+    places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
+    for where in places:
+        report.add(where, Outcome.CARRIED, f"{fixed}, {vessel} ends")
+    for end in ends:
+        node = f"node {int(scene.node_ids[end.node])}"
+        if end.vessel:
+            status = Outcome.CARRIED if vessel != fixed else Outcome.APPROXIMATED
+            report.add(places[-1], status, vessel, f"{node} stays where it is until it is moved", f"vessel at {node}")
+        if not end.joins and (missing := sorted(TRANSLATIONS - end.held)):
+            effect = f"free in DOF {', '.join(map(str, missing))} in the deck: held at its coordinates"
+            report.add(places[-1], Outcome.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
+        if not clamps and (turned := sorted(end.held - TRANSLATIONS)):
+            effect = f"no moment at {node}: the line turns freely there"
+            report.add(places[-1], Outcome.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")

@@ -14,8 +14,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.seabed import SeabedKind
-from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_sections
+from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames
 from mudline.tools.exporting.soil import (
     ExportSoil,
@@ -84,7 +83,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
         "--- LINE TYPES ---",
         "TypeName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx",
         "(-) (m) (kg/m) (N) (N-s/-) (N-m2) (-) (-) (-) (-)",
-        *[_line_type(model.sections[at], each) for at, each in taken.items()],
+        *[" ".join([each, *map(repr, _numbers(model.sections[at]))]) for at, each in taken.items()],
         "--- POINTS ---",
         "ID Type X Y Z Mass Volume CdA Ca",
         "(-) (-) (m) (m) (m) (kg) (m3) (m2) (-)",
@@ -104,10 +103,6 @@ def _numbers(section: PipeSection) -> tuple[float, ...]:
     """Return the numbers of a section for MoorDyn: diameter, mass, EA, damping, EI, Cd, Ca, CdAx, CaAx."""
     water = (section.drag, section.added, section.axial_drag, section.axial_added)
     return (section.buoyancy, section.mass, section.axial, -1.0, section.bending, *water)
-
-
-def _line_type(section: PipeSection, name: str) -> str:
-    return f"{name} {' '.join(map(repr, _numbers(section)))}"
 
 
 def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
@@ -199,14 +194,14 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 
 def _report(model: LineModel, types: list[str], soil: ExportSoil, stiffness: float, width: dict[int, float]) -> None:
     report = model.report
-    report_sections(model, "line type", names=types, torsion=False)
+    report_sections(model, types, torsion=False)
     report_ends(report, model.ends, "Fixed", "Coupled")
     report_governing(report, model.soils, soil, at_touchdown=model.at_touchdown)
     used = [stiffness * width[at] for at in range(len(model.soils))]
     report_stiffness(report, model.soils, f"kBot {shown(stiffness, 4)} Pa/m, here", used)
     target = "FrictionCoefficient, regularised by velocity"
     report_friction(report, model.soils, target, [(soil.axial, soil.axial)] * len(model.soils))
-    report_resistance(report, "none")
+    report_resistance(report)
     bed = model.levels(*model.places[:, :2].T)
     for end in model.ends:
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
@@ -222,8 +217,6 @@ def _report(model: LineModel, types: list[str], soil: ExportSoil, stiffness: flo
             report.add(blocks[-1], Outcome.APPROXIMATED, "equal segments", effect, "lengths")
     joints = sum(len(parts) - 1 for parts in pieces(model))
     if joints and any(section.bending for section in model.sections):
-        where = model.sections[0].where
-        report.add(
-            where, Outcome.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints"
-        )
+        where, effect = model.sections[0].where, "no moment where the section changes"
+        report.add(where, Outcome.APPROXIMATED, f"{joints} Free points", effect, "joints")
     report.finish()

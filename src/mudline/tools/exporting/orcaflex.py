@@ -15,8 +15,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.seabed import SeabedKind
-from mudline.tools.exporting.held import report_ends
-from mudline.tools.exporting.line_model import LineModel, LineStretch, report_sections
+from mudline.tools.exporting.line_model import LineModel, LineStretch, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames, one_line, short_name
 from mudline.tools.exporting.soil import (
     ExportSoil,
@@ -78,10 +77,8 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     _report(model, names, soil)
     text = ["%YAML 1.1", *(f"# {line}" for line in model.report.comments(TITLE)), "---"]
     text += ["General:", "  UnitsSystem: SI", "Environment:", *_rows(environment, "  ")]
-    for title, objects in (
-        ("LineTypes", [_line_type(model, key, each) for key, each in names.items()]),
-        ("Lines", lines),
-    ):
+    types = [_line_type(model, key, each) for key, each in names.items()]
+    for title, objects in (("LineTypes", types), ("Lines", lines)):
         text.append(f"{title}:")
         for items in objects:
             first, *others = _rows(items, "    ")
@@ -126,7 +123,7 @@ def _line_type(model: LineModel, key: Key, name: str) -> Items:
     section = model.sections[key[0]]
     return {
         "Name": name,
-        "#": f"*GEOMETRIC SETS {short_name(section.name)}, line {model.line_of(section.where)}",
+        "#": f"*GEOMETRIC SETS {short_name(section.name)}, line {model.scene.line_of(section.where)}",
         "Category": "General",
         "OD": section.buoyancy,
         "ID": section.inner,
@@ -147,7 +144,7 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
     nodes = [model.ends[index].node for index in (line.begin, line.end)]
     ids = [int(model.scene.node_ids[node]) for node in nodes]
-    where = [model.line_of(model.scene.nodes.where(node)) for node in nodes]
+    where = [model.scene.line_of(model.scene.nodes.where(node)) for node in nodes]
     held = [model.ends[index].held for index in (line.begin, line.end)]
     sections = [[names[_key(model, each)], float(each.lengths.sum()), float(each.lengths.min())] for each in parts]
     return {
@@ -175,7 +172,7 @@ def _end(model: LineModel, index: int, piece: LineStretch) -> list[object]:
 def _environment(model: LineModel, soil: ExportSoil) -> Items:
     shape = model.scene.seabed
     half = 0.5 * soil.diameter
-    law = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
+    law = soil.says() if soil.where is None else f"{soil.says()}, line {model.scene.line_of(soil.where)}"
     items: Items = {
         "#": f"seabed: {law}",
         "Density": model.density / 1e3,
@@ -238,7 +235,7 @@ def _profile(model: LineModel, half: float) -> Items:
 def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report = model.report
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
-    report_sections(model, "line type", names=listed, torsion=True)
+    report_sections(model, listed, torsion=True)
     report_ends(report, model.ends, "Fixed", "Fixed", clamps=True)
     if soil.kind is LawKind.SOIL:
         _report_soil(model, soil)
@@ -249,10 +246,9 @@ def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report_friction(report, model.soils, "friction of line types", [(each.axial, each.lateral) for each in model.soils])
     if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
         springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
-        report.add(
-            soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", f"the stiffer of {springs}", "spring"
-        )
-    report_resistance(report, "none")
+        effect = f"the stiffer of {springs}"
+        report.add(soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", effect, "spring")
+    report_resistance(report)
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):
             effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"

@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 from mudline.basics.arguments import given_path
 from mudline.basics.files import write_atomically
-from mudline.language.codes import RUN001
-from mudline.language.diagnostics import Problem, Where
+from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.text import shown as quoted
@@ -93,7 +92,7 @@ class ExportReport:
         self._claimed.add((where.section, where.block))
         keyword = deck.sections[where.section].blocks[where.block].keyword
         base = deck.base_of(where)
-        line = deck.place(Problem(RUN001, "", where=where)).line
+        line = self.scene.line_of(where)
         name = f"*{one_line(keyword)}{f' {setting}' if setting else ''}"
         entry = ExportEntry(name, base[0].file if base else deck.file, line, status, target, effect)
         if entry not in self._seen:
@@ -108,15 +107,14 @@ class ExportReport:
     def finish(self) -> None:
         """Add the blocks without an entry, and sort all entries in the order of the deck."""
         self.claim("PARAMETERS", "the numbers that they give", "PREPROCESSOR")
-        for i, section in enumerate(self.scene.deck.sections):
-            for j, block in enumerate(section.blocks):
-                if (i, j) not in self._claimed:
-                    known = next((entry.subject for entry in catalogue.entries(block.keyword)), "")
-                    subject = block.subject if isinstance(block, Block) else known
-                    if section.name.endswith("POSTPROCESSING"):
-                        subject = "post-processing"
-                    effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
-                    self.add(Where(i, j), Outcome.LEFT_OUT, "none", effect)
+        for where, section, block in self.scene.deck.every_block():
+            if (where.section, where.block) not in self._claimed:
+                known = next((entry.subject for entry in catalogue.entries(block.keyword)), "")
+                subject = block.subject if isinstance(block, Block) else known
+                if section.endswith("POSTPROCESSING"):
+                    subject = "post-processing"
+                effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
+                self.add(where, Outcome.LEFT_OUT, "none", effect)
         self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
 
     @property

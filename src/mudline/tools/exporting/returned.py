@@ -55,7 +55,8 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
     parts = [part for parts in moordyn.pieces(model) for part in parts]
     if int(named[2]) > len(parts):
         raise data_error(path.as_posix(), f"line {named[2]}: the deck is exported as {len(parts)} lines")
-    time, parts_read = None, {}
+    time: Floats | None = None
+    parts_read: list[tuple[LineStretch, Floats, Floats]] = []
     for number, part in enumerate(parts, 1):
         file = path.with_name(f"{named[1]}{number}{named[3]}")
         if not file.exists():
@@ -64,9 +65,8 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
         if time is not None and not np.array_equal(time, times):
             raise data_error(file.as_posix(), f"other times than in the file of line {number - 1}")
         time = times
-        arcs = np.linspace(0.0, float(part.lengths.sum()), places.shape[1])
-        parts_read[number] = (part, arcs, places)
-    return _positions(model, list(parts_read.values()), time)
+        parts_read.append((part, np.linspace(0.0, float(part.lengths.sum()), places.shape[1]), places))
+    return _positions(model, parts_read, time)
 
 
 def _line_file(path: Path) -> tuple[Floats, Floats]:

@@ -18,8 +18,8 @@ from mudline.model.contact.laws.soil import initial, lift
 from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.pipe import pipe_of
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
+from mudline.model.scene.weights import pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
 _RIGID_SHARE = 1e-3
@@ -130,10 +130,8 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
         at = keyword.of_element
         names = (("coefficients", "first"), ("coefficients", "second"), ("stiffness", "first"), ("stiffness", "second"))
         first, second, along, across = (keyword.values(at, *path) for path in names)
-        own, springs = (
-            np.column_stack([first, second]),
-            np.column_stack([along, np.where(np.isnan(across), along, across)]),
-        )
+        own = np.column_stack([first, second])
+        springs = np.column_stack([along, np.where(np.isnan(across), along, across)])
         coefficient = np.where(at[:, None] >= 0, np.nan_to_num(own), coefficient)
         spring = np.where(at[:, None] >= 0, springs / scene.length[:, None], spring)
     return np.column_stack([coefficient, spring])
@@ -222,14 +220,9 @@ def report_governing(report: ExportReport, soils: list[ExportSoil], main: Export
     carrying = [each.stiffness for each in soils if each.stiffness > 0.0]
     if carrying and max(carrying) > (1.0 + _SAME) * min(carrying):
         span = f"over the line {shown(min(carrying) / 1e3, 4)} to {kilo(max(carrying))}"
-        what = (
-            "that of the elements around touchdown"
-            if at_touchdown
-            else "that of the elements most of the pipe rests on"
-        )
-        report.add(
-            main.where, Outcome.APPROXIMATED, f"one stiffness, {kilo(main.stiffness)}", f"{what}; {span}", "range"
-        )
+        effect = f"that of the elements {'around touchdown' if at_touchdown else 'most of the pipe rests on'}; {span}"
+        target = f"one stiffness, {kilo(main.stiffness)}"
+        report.add(main.where, Outcome.APPROXIMATED, target, effect, "range")
 
 
 def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, used: list[float]) -> None:
@@ -270,7 +263,7 @@ def report_friction(
         report.add(soil.friction_at, Outcome.CARRIED if same else Outcome.APPROXIMATED, target, effect, "friction")
 
 
-def report_resistance(report: ExportReport, target: str) -> None:
+def report_resistance(report: ExportReport) -> None:
     """Report the settings next to stiffness and friction that no target has."""
     table = report.scene.resistance
     for values, where in zip(table.values, table.places, strict=True):
@@ -280,10 +273,10 @@ def report_resistance(report: ExportReport, target: str) -> None:
             ("constant friction", values.constant, "as in mudline, which does not evaluate it"),
         ):
             if value > 0.0:
-                report.add(where, Outcome.LEFT_OUT, target, effect, setting)
+                report.add(where, Outcome.LEFT_OUT, "none", effect, setting)
     for keyword, names in _SETTINGS.items():
         extension = report.scene.extensions.get(keyword)
         for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
             for name, effect in names.items():
                 if (choice := getattr(entry, name, None)) is not None and choice not in _PLAIN:
-                    report.add(where, Outcome.LEFT_OUT, target, effect, f"{name.upper()}=")
+                    report.add(where, Outcome.LEFT_OUT, "none", effect, f"{name.upper()}=")

@@ -63,7 +63,8 @@ def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[type
     if head := _HEAD.match(cursor.before):
         start = line.start + head.start(1)
         return list(_sections(cursor, start) if head[1] == "$" else _keywords(cursor, start))
-    if _in_comment(here, offset):
+    leaves = here.raw.leaves if here.raw else here.raw_section.leaves if here.raw_section else []
+    if any(leaf.kind is LeafKind.COMMENT and leaf.span.start < offset < leaf.span.end for leaf in leaves):
         return []
     if match := _IN_EQUATION.search(cursor.before):
         return list(_in_equation(cursor, line.start + (match.start(1) if match[1] else match.end())))
@@ -83,11 +84,6 @@ def resolved(item: types.CompletionItem) -> types.CompletionItem:
         text = keyword_help(keyword, section) if isinstance(keyword, str) else section_help(section)
         item.documentation = types.MarkupContent(types.MarkupKind.Markdown, text)
     return item
-
-
-def _in_comment(here: Spot, offset: int) -> bool:
-    leaves = here.raw.leaves if here.raw else here.raw_section.leaves if here.raw_section else []
-    return any(leaf.kind is LeafKind.COMMENT and leaf.span.start < offset < leaf.span.end for leaf in leaves)
 
 
 # ---------------------------------------------------------------------------------------------- sections and keywords

@@ -215,10 +215,7 @@ class Decks:
             path = str(document.path)
             return self._configured.configured.of(path), self._configured.of(path)
         except (ConfigurationError, UnknownRule) as error:
-            self._fault(str(error))
+            if str(error) not in self._shown:
+                self._shown.add(str(error))
+                self.faults.append(str(error))
         return Configuration(), merged_settings(Configuration(), CallerSettings())
-
-    def _fault(self, message: str) -> None:
-        if message not in self._shown:
-            self._shown.add(message)
-            self.faults.append(message)

@@ -19,10 +19,6 @@ from mudline.language.diagnostics import Span
 _LINE_END = re.compile(r"\r\n?|\n")
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _BOM = "\ufeff"
-_SHORT = 20_000
-"""Characters of a text up to which its lines are found without arrays."""
-_CHUNK = 1 << 20
-_LF, _CR = b"\n\r"
 _REVISIONS = count(1)
 
 
@@ -33,16 +29,7 @@ def _valid(text: str) -> str:
 
 def _ends(text: str) -> NDArray[np.int64]:
     """Return the offset after each line end."""
-    if len(text) < _SHORT:
-        return np.fromiter((match.end() for match in _LINE_END.finditer(text)), np.int64)
-    pieces: list[NDArray[np.int64]] = []
-    for at in range(0, len(text), _CHUNK):
-        letters = np.frombuffer(text[at : at + _CHUNK + 1].encode("latin-1", "replace"), np.uint8)
-        ends = letters == _LF
-        carriage = letters == _CR
-        carriage[:-1] &= ~ends[1:]
-        pieces.append(np.flatnonzero((ends | carriage)[: min(_CHUNK, len(text) - at)]) + (at + 1))
-    return np.concatenate(pieces)
+    return np.fromiter((match.end() for match in _LINE_END.finditer(text)), np.int64)
 
 
 def units_of(text: str, encoding: str) -> int:

@@ -97,13 +97,9 @@ def _quick_fixes(analysis: Analysis, asked: Span) -> Iterator[types.CodeAction]:
         span = span_of(document, finding)
         if span.start <= asked.end and asked.start <= span.end:
             unsafe = "" if fix.applicability == "safe" else " (may change what the deck means)"
-            edits = [
-                types.TextEdit(
-                    document.range(Span(document.point(*edit.start), document.point(*edit.end))),
-                    edit.text,
-                )
-                for edit in fix.edits
-            ]
+            places = (Span(document.point(*edit.start), document.point(*edit.end)) for edit in fix.edits)
+            ranges = map(document.range, places)
+            edits = [types.TextEdit(at, edit.text) for at, edit in zip(ranges, fix.edits, strict=True)]
             yield types.CodeAction(
                 f"{finding.code}: {fix.message}{unsafe}",
                 types.CodeActionKind.QuickFix,

@@ -27,10 +27,9 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
-from mudline.model.scene.sets import NamedSet
 from mudline.tools.lsp.decks import Analysis, value_text
 from mudline.tools.lsp.names import Occurrence, at, equation_spans
-from mudline.tools.lsp.sites import Site, Spot, site, spot
+from mudline.tools.lsp.sites import Site, site, spot
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
@@ -41,7 +40,9 @@ def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     here = spot(origin.tree, offset)
     leaf = here.leaf
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
-        return _hover(analysis, _head_help(here), trimmed(origin.source.unified, *leaf.span))
+        section = here.raw_section.name if here.raw_section else ""
+        head = section_help(section) if here.raw is None else keyword_help(here.raw.name, section)
+        return _hover(analysis, head, trimmed(origin.source.unified, *leaf.span))
     named = at(analysis.names, offset)
     if named is not None and named.thing.kind is Names.PARAMETER:
         return _hover(analysis, parameter_help(analysis, named), named.span)
@@ -55,12 +56,6 @@ def _hover(analysis: Analysis, text: str, span: Span) -> types.Hover | None:
 
 
 # ---------------------------------------------------------------------------------------------- keywords and sections
-
-
-def _head_help(here: Spot) -> str:
-    if here.raw is None:
-        return section_help(here.raw_section.name) if here.raw_section else ""
-    return keyword_help(here.raw.name, here.raw_section.name if here.raw_section else "")
 
 
 def section_help(name: str) -> str:
@@ -265,12 +260,10 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
         return f"{_title(entry)} cannot be evaluated"
     ratios, forces = entry.curve.ratios, entry.curve.forces
     unit = unit_names(scene.units).line_force
-    words = [
-        f"{_title(entry)}: {counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}, "
-        + _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit),
-        f"followed by {counted(int(followers(scene, index).sum()), 'element')}",
-    ]
-    return "\n\n".join(words)
+    points = f"{counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}"
+    force = _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit)
+    followed = counted(int(followers(scene, index).sum()), "element")
+    return f"{_title(entry)}: {points}, {force}\n\nfollowed by {followed}"
 
 
 # --------------------------------------------------------------------------------------------------- nodes and elements
@@ -278,8 +271,7 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
 
 def number_help(analysis: Analysis, value_site: Site, value: float) -> str:
     """Return the help on the node or element whose number stands in a field."""
-    kind = value_site.slot.about.names or value_site.slot.about.defines
-    scene = analysis.scene
+    kind, scene = value_site.slot.about.names or value_site.slot.about.defines, analysis.scene
     if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
         return ""
     return "\n\n".join(_node(scene, int(value)) if kind is Names.NODE else _element(scene, int(value)))
@@ -315,13 +307,8 @@ def _element(scene: Scene, number: int) -> Iterator[str]:
     if not np.isnan(scene.diameter[index]):
         facts.append(_with_unit("D =", float(scene.diameter[index]), unit))
     yield f"element **{number}**: {', '.join(facts)}"
-    sets = [shown(each.name) for each in scene.set_table.named.values() if _contains(each, index)]
+    sets = [shown(each.name) for each in scene.set_table.named.values() if index in each.elements]
     yield f"in {', '.join(sets[:_FEW])}" + (" and more" if len(sets) > _FEW else "")
-
-
-def _contains(named_set: NamedSet, index: int) -> bool:
-    at = int(np.searchsorted(named_set.elements, index))
-    return at < len(named_set.elements) and int(named_set.elements[at]) == index
 
 
 # ---------------------------------------------------------------------------------------------------- between the lines
@@ -334,10 +321,5 @@ def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
         return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
     spans = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
-    return [_hint(analysis, span) for span in islice(spans, MOST_HINTS)]
-
-
-def _hint(analysis: Analysis, equation: Span) -> types.InlayHint:
-    document = analysis.document
-    value = analysis.evaluated(Equation(document.text[slice(*equation)]))
-    return types.InlayHint(document.position(equation.end), f"= {value}", padding_left=True)
+    values = ((span, analysis.evaluated(Equation(document.text[slice(*span)]))) for span in islice(spans, MOST_HINTS))
+    return [types.InlayHint(document.position(span.end), f"= {value}", padding_left=True) for span, value in values]

@@ -101,14 +101,8 @@ def _parameters(origin: TextOrigin, where: Where, block: Block) -> Iterator[Occu
     if isinstance(value, str) and value.startswith("/"):
         span = places.find((*where.path[:-1], "value"))
         for item in list_items(name, value)[0]:
-            at_ = span.start + item.start
-            yield Occurrence(
-                thing(Names.PARAMETER, item.name),
-                item.name,
-                Span(at_, at_ + len(item.value)),
-                defines=True,
-                composed=True,
-            )
+            place = Span(span.start + item.start, span.start + item.start + len(item.value))
+            yield Occurrence(thing(Names.PARAMETER, item.name), item.name, place, defines=True, composed=True)
         return
     yield Occurrence(thing(Names.PARAMETER, name), name, places.find(where.path), defines=True)
 

@@ -48,9 +48,8 @@ def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
     for base in analysis.scene.deck.bases:
         if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
             path = base.deck.folder / Path(base.deck.file).name
-            linked.append(
-                Linked(decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0), base.deck)
-            )
+            document = decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0)
+            linked.append(Linked(document, base.deck))
     if analysis.document.path is not None:
         linked += _dependents(decks, analysis.document.path)
     return linked
@@ -97,9 +96,16 @@ class Navigator:
             uses = self._named(named.thing)
             return [_location(each.document, use.span) for each, use in uses if declaration or not use.defines]
         value = site(self.analysis, offset)
-        if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
-            return list(self._named_file(file))
-        return []
+        file = value and self._file(value.slot.about.names, self.analysis.deck, value.value)
+        if file is None:
+            return []
+        return [
+            _location(document, span)
+            for document, deck in self._linked()
+            for kind, role, name, where in deck.names()
+            if role == "names" and self._file(kind, deck, name) == file
+            if isinstance(deck.origin, TextOrigin) and (span := deck.origin.span(where))
+        ]
 
     def highlights(self, offset: int) -> list[types.DocumentHighlight]:
         """Return the uses and definitions in this deck only."""
@@ -137,14 +143,6 @@ class Navigator:
             return []
         span = origin.span(where.inside(0)) or origin.span(where)
         return [_location(document, span)] if span else []
-
-    def _named_file(self, file: Path) -> Iterator[types.Location]:
-        """Yield every place in the decks of the chain that names a file."""
-        for document, deck in self._linked():
-            for kind, role, name, where in deck.names():
-                span = deck.origin.span(where) if isinstance(deck.origin, TextOrigin) else None
-                if span is not None and role == "names" and self._file(kind, deck, name) == file:
-                    yield _location(document, span)
 
     def _file(self, kind: Names | None, deck: Deck | None, name: object) -> Path | None:
         """Return the existing file that a name of a kind in a deck stands for, or None."""

@@ -172,14 +172,9 @@ class DeckServer(LanguageServer):
     @property
     def takes_snippets(self) -> bool:
         """True if the editor supports snippets."""
-        item = self._completion_items
-        return bool(item and item.snippet_support)
-
-    @property
-    def _completion_items(self) -> types.ClientCompletionItemOptions | None:
-        """Abilities of the editor for items of a completion."""
         document = self.client_capabilities.text_document
-        return document.completion.completion_item if document and document.completion else None
+        item = document.completion.completion_item if document and document.completion else None
+        return bool(item and item.snippet_support)
 
     def watch_files(self) -> None:
         """Ask the editor to report changes of decks, of files that they name, and of configurations."""

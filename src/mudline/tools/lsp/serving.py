@@ -24,10 +24,7 @@ AskAt = Callable[[Navigator, int, Any], object]
 """Function that answers a request about a place in a deck, from its offset and the parameters."""
 
 _ABOUT_DECKS: dict[str, tuple[Ask, object]] = {
-    types.TEXT_DOCUMENT_HOVER: (
-        lambda analysis, asked: hover(analysis, analysis.document.offset(asked.position)),
-        None,
-    ),
+    types.TEXT_DOCUMENT_HOVER: (lambda deck, asked: hover(deck, deck.document.offset(asked.position)), None),
     types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda analysis, _: structure.outline(analysis), []),
     types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda analysis, _: structure.folding(analysis), []),
     types.TEXT_DOCUMENT_FORMATTING: (lambda analysis, _: structure.formatting(analysis), []),

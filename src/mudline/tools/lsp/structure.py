@@ -13,7 +13,7 @@ from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Span
-from mudline.language.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
@@ -93,15 +93,12 @@ def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> It
 
 def _name(record: Part) -> str:
     """Return the name that a record gives or is found by."""
-    slots = [slot for slot in record_schema(type(record)).slots if _is_name(slot)]
-    values = (getattr(record, slot.name, None) for slot in slots)
-    return next((value for value in values if isinstance(value, str) and value), "")
-
-
-def _is_name(slot: FieldSpec) -> bool:
-    about = slot.about
-    named = about.defines is not None or about.names is Names.SET or slot.key == "NAME"
-    return named and slot.kind is Kind.NAME and not slot.many
+    for slot in record_schema(type(record)).slots:
+        named = slot.about.defines is not None or slot.about.names is Names.SET or slot.key == "NAME"
+        value = getattr(record, slot.name, None) if named and slot.kind is Kind.NAME and not slot.many else None
+        if isinstance(value, str) and value:
+            return value
+    return ""
 
 
 # ----------------------------------------------------------------------------------------------------------- folding
@@ -112,18 +109,19 @@ def folding(analysis: Analysis) -> list[types.FoldingRange]:
     origin = analysis.origin
     if origin is None:
         return []
-    regions = [(span, types.FoldingRangeKind.Region) for span in _regions(origin)]
-    comments = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
-    return list(_folded(analysis, [*regions, *comments]))
-
-
-def _regions(origin: TextOrigin) -> Iterator[Span]:
-    """Yield the lines of every section and block."""
+    spans = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
     for index, section in enumerate(origin.tree.sections):
         if section.head is not None:
             stop = _end(origin, index)
-            yield Span(section.head.span.start, stop)
-            yield from (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
+            blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
+            spans += [(span, types.FoldingRangeKind.Region) for span in (Span(section.head.span.start, stop), *blocks)]
+    document, ranges = analysis.document, []
+    for span, kind in sorted(spans, key=lambda each: each[1] is types.FoldingRangeKind.Comment):
+        body = trimmed(document.text, *span)
+        first, last = document.line_at(body.start), document.line_at(max(body.end - 1, body.start))
+        if last > first:
+            ranges.append(types.FoldingRange(first, last, kind=kind))
+    return ranges
 
 
 def _comments(origin: TextOrigin) -> Iterator[Span]:
@@ -135,15 +133,6 @@ def _comments(origin: TextOrigin) -> Iterator[Span]:
         elif first is not None and last is not None:
             yield Span(first.span.start, last.span.end)
             first = None
-
-
-def _folded(analysis: Analysis, spans: list[tuple[Span, types.FoldingRangeKind]]) -> Iterator[types.FoldingRange]:
-    document = analysis.document
-    for span, kind in spans:
-        body = trimmed(document.text, *span)
-        first, last = document.line_at(body.start), document.line_at(max(body.end - 1, body.start))
-        if last > first:
-            yield types.FoldingRange(first, last, kind=kind)
 
 
 # -------------------------------------------------------------------------------------------------------- formatting

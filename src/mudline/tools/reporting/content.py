@@ -41,8 +41,7 @@ from mudline.model.results.warnings import ContactWatch, caption
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sheet import Sheet, sheet_of
-from mudline.tools.reporting.inferred import inferences
-from mudline.tools.reporting.inputs import inputs_of
+from mudline.tools.reporting.inputs import inferences, inputs_of
 from mudline.tools.touchdown_study.rest_shape import rest_shape
 from mudline.tools.touchdown_study.study import Study, study
 
@@ -50,8 +49,6 @@ FORMAT = "mudline-report/1"
 SECTIONS = ("verdict", "findings", "inputs", "model", "curves", "contact", "study", "plan")
 BY_DEFAULT = tuple(name for name in SECTIONS if name != "study")
 """Sections by default; a study takes seconds and measures run times, which vary from run to run."""
-
-_NO_DECK = "the file holds no deck"
 
 
 class DeckFile(NamedTuple):
@@ -139,7 +136,9 @@ def report_on(
     sections = head["sections"]
     if "findings" in requested:
         sections["findings"] = _findings(given, settings, context)
-        content.named = _titles([row["code"] for rows in sections["findings"].values() for row in rows])
+        codes = sorted({row["code"] for rows in sections["findings"].values() for row in rows})
+        titles = {rule.code.code: rule.page.title for rule in rules()} if codes else {}
+        content.named = {code: titles.get(code, "") for code in codes}
     of_scene = [name for name in SECTIONS[2:] if name in requested]
     content.scene, missing = _scene(deck) if of_scene or "verdict" in requested else (None, "")
     if content.scene is not None:
@@ -216,7 +215,10 @@ def _section(name: str, scene: Scene, content: PageContent) -> dict[str, Any]:
         content.sheet = sheet_of(scene)
         rows, without = list(content.sheet.rows), list(content.sheet.left_out)
         return {"inputs": inputs_of(scene), "sheet": rows, "weights_without": without}
-    return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
+    if name == "plan":
+        plan = prepare(scene, None, _tension(scene)).model.plan
+        return {"stages": plan_rows(plan), "steps": plan.steps}
+    return _model(scene) if name == "model" else _curves(scene)
 
 
 def _judged(given: DeckFile, settings: LintSettings) -> tuple[Verdict, Deck | None, LintContext | None]:
@@ -260,7 +262,7 @@ def _title(deck: Deck) -> str:
 def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
     """Return the scene of a deck that can be evaluated, or the reason why there is none."""
     if deck is None:
-        return None, _NO_DECK
+        return None, "the file holds no deck"
     try:
         return resolve(deck).require(), ""
     except DeckError as error:
@@ -312,11 +314,6 @@ def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[i
     return rows
 
 
-def _titles(codes: Collection[str]) -> dict[str, str]:
-    rules_by_code = {rule.code.code: rule for rule in rules()} if codes else {}
-    return {code: rules_by_code[code].page.title if code in rules_by_code else "" for code in sorted(set(codes))}
-
-
 # ----------------------------------------------------------------------------------------------------- model and curves
 
 
@@ -355,8 +352,7 @@ def _law(
     name = set_name or "ALL"
     known = scene.set_table.find(name)
     counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
-    location = {"file": place.file, "line": place.line}
-    return {"law": law, "set": name} | counts | {"values": values} | location
+    return {"law": law, "set": name} | counts | {"values": values, "file": place.file, "line": place.line}
 
 
 def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction
@@ -403,11 +399,6 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
         "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
         "warnings": [warning.row() for warning in warnings],
     }
-
-
-def _plan(scene: Scene) -> dict[str, Any]:
-    plan = prepare(scene, None, _tension(scene)).model.plan
-    return {"stages": plan_rows(plan), "steps": plan.steps}
 
 
 def _tension(scene: Scene) -> Tension:

@@ -1,4 +1,7 @@
-"""Inputs of a deck next to its lines of pipe: water, conditions, waves, current, vessels and times, with units."""
+"""Inputs of a deck next to its lines of pipe: water, conditions, waves, current, vessels and times, with units.
+
+It also lists deductions in the declarations of a deck's keywords: statements that no public page makes.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from typing import Any
 
 from mudline.basics.quantities import labelled, shown
 from mudline.language.codes.contact import SBD025
-from mudline.language.deck.model import Opaque
+from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import unit_text
@@ -31,16 +34,13 @@ def inputs_of(scene: Scene) -> list[dict[str, Any]]:
         name = "$MODEL" if section.name == "MODEL" else "$LOAD CASE"
         name += f" {cases.index(index) + 1}" if index in cases and len(cases) > 1 else ""
         for number, block in enumerate(section.blocks):
-            if section.name == "LOAD CASE" or block.keyword in _MODEL or _is_of_vessel(section.name, block.keyword):
+            subjects = (entry.subject for entry in catalogue.entries(block.keyword) if section.name in entry.sections)
+            if section.name == "LOAD CASE" or block.keyword in _MODEL or "vessels" in subjects:
                 (place,) = scene.deck.diagnose([Problem(SBD025, "", where=Where(index, number))])
                 values = "; ".join(filter(None, _values(block, scene.units)))
                 row = {"section": name, "keyword": block.keyword, "values": values}
                 rows.append(row | {"file": place.file, "line": place.line})
     return rows
-
-
-def _is_of_vessel(section: str, keyword: str) -> bool:
-    return any(entry.subject == "vessels" for entry in catalogue.entries(keyword) if section in entry.sections)
 
 
 def _values(part: Part, units: str) -> Iterator[str]:
@@ -87,3 +87,37 @@ def _table(slot: FieldSpec, table: Table, units: str) -> str:
     rows = [", ".join(shown(value) for value in row) for row in table.values[:_MOST].tolist()]
     more = f", {len(table) - _MOST} more" if len(table) > _MOST else ""
     return f"{heads}: {' / '.join(rows)}{more}"
+
+
+# ----------------------------------------------------------------------------------------------------------- deductions
+
+
+def inferences(deck: Deck) -> list[dict[str, Any]]:
+    """Return each deduction once, with its keyword, its fields, and the number of blocks with these fields."""
+    deductions: dict[tuple[str, str], tuple[list[str], int]] = {}
+    for _, section, block in deck.alone.every_block():
+        touched: dict[str, list[str]] = {}
+        for label, text in _of_block(section, block):
+            touched.setdefault(text, []).append(label)
+        for text, labels in touched.items():
+            known, count = deductions.get((block.keyword, text), ([], 0))
+            deductions[block.keyword, text] = list(dict.fromkeys([*known, *labels])), count + 1
+    return [
+        {"keyword": keyword, "fields": [label for label in labels if label], "inferred": text, "blocks": count}
+        for (keyword, text), (labels, count) in deductions.items()
+    ]
+
+
+def _of_block(section: str, block: Part | Opaque) -> Iterator[tuple[str, str]]:
+    """Yield the name of each field with a deduction, and the deduction."""
+    if isinstance(block, Opaque):
+        kept = catalogue.opaque_keyword(section, block.keyword)
+        if kept is not None and kept.inferred:
+            yield "", kept.inferred
+        return
+    for _, slot, value in block.walk():
+        if slot.about.inferred:
+            yield slot.label, slot.about.inferred
+        if isinstance(value, Table):  # rows of a table are alike: its columns are enough
+            columns = record_schema(slot.row).slots if slot.row else ()
+            yield from ((column.label, column.about.inferred) for column in columns if column.about.inferred)

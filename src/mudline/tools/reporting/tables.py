@@ -9,13 +9,13 @@ from mudline.basics.display import Cell, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, labelled, shown
 from mudline.basics.short_repr import counted, cut
-from mudline.model.results.sheet_tables import sheet_tables
 from mudline.model.results.summary_tables import (
     OPEN,
     diameter_table,
     elements_of,
     law_table,
     set_table,
+    sheet_tables,
     static_table,
     weight_note,
 )
@@ -90,10 +90,8 @@ def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
     """Return the five numbers next to the verdict as a table of one row."""
     words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
     doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
-    notes = filter(
-        None,
-        [f"at {_SHAPES[content['positions']]}; no load case is solved", weight_note(content["weights_without"]), doubt],
-    )
+    shape = f"at {_SHAPES[content['positions']]}; no load case is solved"
+    notes = filter(None, [shape, weight_note(content["weights_without"]), doubt])
     columns = (
         number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
@@ -101,8 +99,7 @@ def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
         number("total reaction", lambda _: _known(content["reaction"]), names.force),
         number("reaction over submerged weight", "ratio"),
     )
-    table = DisplayTable("Contact in five numbers", columns, [content], "; ".join(notes))
-    return on_page(table)
+    return on_page(DisplayTable("Contact in five numbers", columns, [content], "; ".join(notes)))
 
 
 def four_digits(value: float | None) -> str:
@@ -122,19 +119,15 @@ def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units:
         text("values", "values"),
         text("line", lambda row: str(row["line"]) if row["file"] == deck else f"{row['line']} of {row['file']}"),
     )
-    yield on_page(
-        DisplayTable("Water, conditions, loads, vessels and times", columns, content["inputs"]),
-        MOST_CURVES,
-        longest=LONGEST,
-    )
+    table = DisplayTable("Water, conditions, loads, vessels and times", columns, content["inputs"])
+    yield on_page(table, MOST_CURVES, longest=LONGEST)
     for table in () if sheet is None else sheet_tables(sheet, units):
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
 def _model(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
-    rows = sorted(
-        content["static_embedment"], key=lambda row: int(row["element"])
-    )  # empty and with contents side by side
+    # empty and with contents side by side
+    rows = sorted(content["static_embedment"], key=lambda row: int(row["element"]))
     yield on_page(static_table(rows, names, content["weights_without"], first=False))
 
 
@@ -149,16 +142,12 @@ def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTa
     columns = (
         text("section", lambda row: f"${row[0]}"),
         text("keyword", lambda row: f"*{row[1]['keyword']}"),
-        text("lines", lambda row: _extent(row[1])),
+        text("lines", lambda row: "read in part" if row[1]["partly"] else "read" if row[1]["read"] else "not read"),
     )
     yield on_page(DisplayTable("Keywords", columns, keywords), 4 * SHOWN_ROWS)
 
 
 _FIGURES = (text("what", 0), number("value", 1))
-
-
-def _extent(keyword: dict[str, Any]) -> str:
-    return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
 
 
 def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
@@ -185,9 +174,8 @@ def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTab
         own = ["", names.line_force] if of_seabed else [unit.replace("-", "") for unit in row.get("units", ["", ""])]
         slope = [number("slope to the next", 2, own[1])] if of_seabed else []
         of_points = (number(over, 0, own[0]), number(value, 1, own[1]), *slope)
-        yield on_page(DisplayTable(caption + (ends if of_seabed else ""), of_points, points))._replace(
-            anchor=f"curve-{place}"
-        )
+        table = DisplayTable(caption + (ends if of_seabed else ""), of_points, points)
+        yield on_page(table)._replace(anchor=f"curve-{place}")
     yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
 
 
@@ -206,12 +194,10 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 
 def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
+    weight = f"submerged weight of the elements in contact, with contents{masses}"
     figures = [
         (labelled("total reaction", names.force), _known(content["reaction"])),
-        (
-            labelled(f"submerged weight of the elements in contact, with contents{masses}", names.force),
-            content["weight"],
-        ),
+        (labelled(weight, names.force), content["weight"]),
         (labelled("the same, empty", names.force), content["empty_weight"]),
         ("reaction over weight with contents", content["ratio"]),
     ]
@@ -219,11 +205,8 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
     notes = [weight_note(content["weights_without"]), *content["notes"]]
-    yield on_page(
-        DisplayTable(
-            f"Equilibrium of {_SHAPES[content['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes))
-        )
-    )
+    title = f"Equilibrium of {_SHAPES[content['positions']]}"
+    yield on_page(DisplayTable(title, _FIGURES, figures, "; ".join(filter(None, notes))))
     yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
@@ -236,8 +219,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
     ]
-    touchdown = DisplayTable("Touchdown", columns, content["lines"], weight_note(content["weights_without"]))
-    yield on_page(touchdown)
+    yield on_page(DisplayTable("Touchdown", columns, content["lines"], weight_note(content["weights_without"])))
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = content["warnings"][:SHOWN_ROWS]
     yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)

@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mudline.model.results.stage_times import Timer
-from mudline.model.scene.load_case import OwnSteps
-from mudline.model.scene.time_stepping import generalised_alpha
+from mudline.model.scene.load_case import OwnSteps, generalised_alpha
 from mudline.tools.touchdown_study.beam import BeamRun, NotConvergedError
 from mudline.tools.touchdown_study.stability import change, unstable
 from mudline.tools.touchdown_study.zone import Measures, Variant, Zone

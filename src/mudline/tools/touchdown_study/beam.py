@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.scene.time_stepping import Scheme
+from mudline.model.scene.load_case import Scheme
 from mudline.tools.touchdown_study.soil import BeamSoil, Reaction
 
 _ITERATIONS, _CUTS, _STATIC_ITERATIONS = 25, 6, 200

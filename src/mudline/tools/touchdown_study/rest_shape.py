@@ -23,8 +23,8 @@ from mudline.model.results.evaluation import require_elements
 from mudline.model.scene.boundary import HeldLine, lines_between, vessel_offset
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedLine, elevations, plane_below
+from mudline.model.scene.weights import Pipe, pipe_of
 from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
 from mudline.tools.touchdown_study.catenary import Catenary, HangingLine, NoRestShapeError, rest
 from mudline.tools.touchdown_study.soil import soil_of
@@ -302,9 +302,8 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     if size * weight > _STEEP * tension:  # slopes are not small where the line bends
         return _NO_BEND
     first, last = window(arcs, node, LEFT * size, RIGHT * size)
-    others = [
-        each.arc if point.beyond else line.model.length - each.arc for each in touchdowns(trial, line.model.length)
-    ]
+    length = line.model.length
+    others = [each.arc if point.beyond else length - each.arc for each in touchdowns(trial, length)]
     before = max((each for each in others if each < arc), default=0.0)
     behind = min((each for each in others if each > arc), default=float(arcs[-1]))
     while first < node - 1 and arcs[first] < before:
@@ -317,7 +316,10 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     weights = pipe.weight[elements[first : last + 1]] * upright
     moment = bending * float(weights[-1]) / tension
     inside = slice(first, last + 2)
-    drawn = _parabola(arcs[inside] - arc, vertical[inside] / tension)
+    # a line without bending stiffness, from its slopes V/T beyond its touchdown
+    s = arcs[inside] - arc
+    rising = np.where(s > 0.0, vertical[inside] / tension, 0.0)
+    drawn = np.append(0.0, np.cumsum(0.5 * (rising[:-1] + rising[1:]) * np.diff(np.maximum(s, 0.0))))
     end = float(drawn[-1])
     left = -float(depth[first])
     beam = Beam(stretch.length, bending, tension, weight, 0.0, 0.0, left, end, moment, weights=weights)
@@ -327,13 +329,6 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     at = np.arange(first, last + 2) if point.beyond else len(nodes) - 1 - np.arange(first, last + 2)
     bent = height[inside] + balanced[::2] - drawn  # the catenary continues the beam, whose slopes are small
     return _Bend(at, bent / upright, (float(balanced[-2]) - end) / upright)
-
-
-def _parabola(s: Floats, slope: Floats) -> Floats:
-    """Return heights (k,) of a line without bending stiffness, from slopes V/T at nodes `s` beyond its touchdown."""
-    rising = np.where(s > 0.0, slope, 0.0)
-    steps = np.diff(np.maximum(s, 0.0))
-    return np.append(0.0, np.cumsum(0.5 * (rising[:-1] + rising[1:]) * steps))
 
 
 def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | None:

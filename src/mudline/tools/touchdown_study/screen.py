@@ -21,6 +21,7 @@ _NAME, _WHY = 44, 90
 _DIGITS = 3
 _MASS = {"metric": "kg/m", "imperial": "slug/ft"}
 _KILO = 1e3
+_CONSISTENT = "With the resistance integrated along each element the verdict is"
 
 
 def description(result: Study) -> str:
@@ -36,9 +37,8 @@ def description(result: Study) -> str:
     own = scheme.alpha if scheme.rho is None else scheme.rho
     values = f"{scheme.alpha_f:.3g}, {scheme.alpha_m:.3g}" if own is None else f"{own:.3g}"
     masses = float(zone.pipe.mass[zone.own]), float(zone.pipe.contents[zone.own]), float(zone.pipe.added_mass[zone.own])
-    parts = ", ".join(
-        f"{name} {_short(mass)}" for name, mass in zip(("pipe", "contents", "water"), masses, strict=True)
-    )
+    named = zip(("pipe", "contents", "water"), masses, strict=True)
+    parts = ", ".join(f"{name} {_short(mass)}" for name, mass in named)
     mass_unit = f" {_MASS[result.units]}" if result.units in _MASS else ""
     reference = "" if result.reference is None else f" Errors against {result.milliseconds(result.reference.step)}."
     assumed = "" if zone.pipe.has_coefficients[zone.own] else " (Cd and Ca 1, assumed)"
@@ -95,7 +95,9 @@ def steps_table(result: Study) -> DisplayTable | None:
         shares = result.mesh.changes or (None, None, None)
         rows.append([row, "", *(_share(each) for each in shares), "", "", ""])
     title = "Errors of the time step, and of the elements"
-    return DisplayTable(title, columns, rows, _mesh_note(result))
+    verdict = None if result.mesh is None else result.mesh.consistent_verdict
+    note = "" if verdict in (None, result.advice.verdict) else f"{_CONSISTENT}: {verdict}."
+    return DisplayTable(title, columns, rows, note)
 
 
 def _step_cells(result: Study, row: StepRow) -> list[str]:
@@ -116,14 +118,6 @@ def _share(value: float | None) -> str:
         return ""
     percent = 100.0 * value
     return f"{shown(float(f'{percent:.1g}' if abs(percent) < 1.0 else f'{percent:.2g}'))} %"
-
-
-def _mesh_note(result: Study) -> str:
-    """Return a note if the verdict differs with a consistent matrix, else ""."""
-    verdict = None if result.mesh is None else result.mesh.consistent_verdict
-    if verdict is None or verdict == result.advice.verdict:
-        return ""
-    return f"With the resistance integrated along each element the verdict is: {verdict}."
 
 
 def extremes_table(result: Study) -> DisplayTable | None:
@@ -157,10 +151,8 @@ def stability_sentences(result: Study) -> list[str]:
             friction += f"; the deck's step is {tenth} a tenth of that"
         axial = None if result.zone is None else axial_period(result.zone)
         if axial:
-            friction += (
-                f". Axial waves pass an element in {result.milliseconds(axial)}: no practical step resolves them, "
-            )
-            friction += "friction is quasi-static"
+            waves = f"Axial waves pass an element in {result.milliseconds(axial)}"
+            friction += f". {waves}: no practical step resolves them, friction is quasi-static"
         remarks.append(f"{friction}.")
     if result.evaluator is not None:
         remarks.append(

@@ -17,7 +17,7 @@ from mudline.model.results.stage_times import Timer, seconds_per_step
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.model import Scene
-from mudline.model.scene.oscillation import line_of, oscillations
+from mudline.model.scene.oscillation import oscillations
 from mudline.tools.touchdown_study.beam import NotConvergedError
 from mudline.tools.touchdown_study.zone import RAMP, Measures, Variant, Zone, jump, ramp
 
@@ -127,16 +127,9 @@ def _extreme(zone: Zone, name: str, variant: Variant, step: float) -> ExtremeRow
         message = str(error) if where is None else f"{error}: see the jump at line {where}"
         return ExtremeRow(name, step, converged=False, message=message, deck_line=where)
     stable = not (unstable(whole, half) or unstable(half, whole))
-    return ExtremeRow(
-        name,
-        step,
-        stable,
-        run.most_iterations,
-        run.searches,
-        change(whole.moment_range, half.moment_range),
-        change(whole.largest_force, half.largest_force),
-        None if stable else "unstable: the two steps differ by over 3 times",
-    )
+    changes = change(whole.moment_range, half.moment_range), change(whole.largest_force, half.largest_force)
+    why = None if stable else "unstable: the two steps differ by over 3 times"
+    return ExtremeRow(name, step, stable, run.most_iterations, run.searches, *changes, why)
 
 
 def unstable(tried: Measures, reference: Measures) -> bool:
@@ -168,7 +161,7 @@ def _jumps(scene: Scene, given: ContactInput) -> Iterator[tuple[int, float]]:
     """Yield the lines of curves in use whose force jumps at the mudline, and that force."""
     for entry, curve, _, weight in _curves_in_use(scene, given):
         if force := jump(curve, weight):
-            yield line_of(scene, entry.where), force
+            yield scene.line_of(entry.where), force
 
 
 def snapping(scene: Scene, given: ContactInput) -> str:
@@ -192,7 +185,7 @@ def snapping(scene: Scene, given: ContactInput) -> str:
 def _line_of_point(scene: Scene, entry: SceneCurve, ratio: float) -> int:
     """Return the line of the point of a curve at a ratio, else of the curve."""
     at = np.flatnonzero(entry.points[:, 0] == ratio)
-    return line_of(scene, entry.point(int(at[0])) if at.size else entry.where)
+    return scene.line_of(entry.point(int(at[0])) if at.size else entry.where)
 
 
 def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
@@ -209,11 +202,9 @@ def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
             at = int(np.argmin(np.where(inside, curve.slopes, 0.0)))
             line = _line_of_point(scene, entry, float(curve.ratios[at]))
             stiffness = float(f"{float(curve.slopes[at]) / diameter:.4g}")
-            remarks.append(
-                f"Line {line}: curve {entry.name} falls from {curve.forces[at]:.4g} to {curve.forces[at + 1]:.4g}"
-                f"{units.behind('line_force')}: a stiffness of {stiffness:,.15g}{units.behind('stiffness')} that "
-                "the line has to carry."
-            )
+            falls = f"{curve.forces[at]:.4g} to {curve.forces[at + 1]:.4g}{units.behind('line_force')}"
+            carried = f"a stiffness of {stiffness:,.15g}{units.behind('stiffness')} that the line has to carry"
+            remarks.append(f"Line {line}: curve {entry.name} falls from {falls}: {carried}.")
     return remarks
 
 
@@ -227,7 +218,7 @@ def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> li
         if oscillation.kind == "friction" and oscillation.omega > 0.0:
             period = 2.0 * math.pi / oscillation.omega
             steps = None if own is None else period / own.largest
-            name, line = oscillation.name.removeprefix("friction on "), line_of(scene, oscillation.where)
+            name, line = oscillation.name.removeprefix("friction on "), scene.line_of(oscillation.where)
             rows.append(FrictionRow(name, line, period, steps))
     return rows
 

@@ -15,8 +15,7 @@ from mudline.model.results.stage_times import CLOCK, Pruning, Timer, pruned
 from mudline.model.scene.load_case import OwnSteps, own_steps
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.oscillation import line_of
-from mudline.tools.touchdown_study.accuracy import ADVISED, SHORT, Errors, Mesh, StepRow, measured_accuracy, verdict_of
+from mudline.tools.touchdown_study.accuracy import ADVISED, SHORT, Mesh, StepRow, measured_accuracy, verdict_of
 from mudline.tools.touchdown_study.beam import NotConvergedError
 from mudline.tools.touchdown_study.stability import (
     EvaluatorCost,
@@ -28,11 +27,7 @@ from mudline.tools.touchdown_study.stability import (
     friction_rows,
     snapping,
 )
-from mudline.tools.touchdown_study.zone import (
-    NotStudiedError,
-    Zone,
-    touchdown_zone,
-)
+from mudline.tools.touchdown_study.zone import NotStudiedError, Zone, touchdown_zone
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -199,7 +194,7 @@ def study(
     require_elements(scene)
     given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
     own = own_steps(scene)
-    own_line = 0 if own is None else line_of(scene, own.where)
+    own_line = 0 if own is None else scene.line_of(own.where)
     result = Study(scene.deck.file, scene.units, own, own_line, parts=tuple(part for part in PARTS if part in parts))
     for part in tracked(result.parts):
         notes = result.notes.setdefault(part, [])
@@ -218,7 +213,9 @@ def study(
         elif part == "pruning":
             result.stages = pruned(scene, given, timer)
     if not result.advice.text:
-        result.advice = _advice(result)
+        text, verdict, step = _judged(result)
+        largest, file = (None, None) if own is None else (own.largest, result.deck)
+        result.advice = Advice(text, verdict, largest, step, file, own_line or None)
     return result
 
 
@@ -230,11 +227,10 @@ def _find_zone(result: Study, scene: Scene, given: ContactInput, heave: float | 
     try:
         zone = touchdown_zone(scene, given, heave, period)
         beam, _, rest = zone.rest()
-    except NotStudiedError as error:
-        result.advice = Advice(f"Not studied: {error}.")
-        return
-    except NotConvergedError:
-        result.advice = Advice("Not studied: the touchdown zone has no state of rest on its soil.")
+    except (NotStudiedError, NotConvergedError) as error:
+        known = isinstance(error, NotStudiedError)
+        why = str(error) if known else "the touchdown zone has no state of rest on its soil"
+        result.advice = Advice(f"Not studied: {why}.")
         return
     result.zone = zone
     heights, turned = rest.state[np.newaxis, ::2], rest.state[np.newaxis, 1::2]
@@ -247,13 +243,6 @@ def _find_zone(result: Study, scene: Scene, given: ContactInput, heave: float | 
 
 
 # --------------------------------------------------------------------------------------------------------------- advice
-
-
-def _advice(result: Study) -> Advice:
-    """Return the answer, from the rows."""
-    text, verdict, step = _judged(result)
-    own, file = (None, None) if result.own is None else (result.own.largest, result.deck)
-    return Advice(text, verdict, own, step, file, result.own_line or None)
 
 
 def _judged(study: Study) -> tuple[str, str, float | None]:
@@ -271,7 +260,13 @@ def _judged(study: Study) -> tuple[str, str, float | None]:
         return text.rstrip(), NOT_STUDIED, fine
     place = f"The deck's own step, {study.milliseconds(study.own.largest)} (line {study.own_line}),"
     verdict, step, tried = verdict_of(last.worst), None, study.milliseconds(last.step)
-    errors = f"the run {last.state}" if last.errors is None else _of_errors(last.errors)
+    errors = f"the run {last.state}"
+    if last.errors is not None:
+        touchdown, moment, force = map(about, last.errors)
+        errors = (
+            f"about {moment} of the range of the bending moment, {force} of the largest soil force, {touchdown} of the "
+            "touchdown point's travel"
+        )
     if row is not None:
         text = f"{place} is {verdict} for its touchdown zone: {errors}"
         if verdict == "too long":
@@ -293,14 +288,6 @@ def _advised(rows: Sequence[StepRow]) -> float | None:
             break
         largest = row.step
     return largest
-
-
-def _of_errors(errors: Errors) -> str:
-    touchdown, moment, force = (about(each) for each in errors)
-    return (
-        f"about {moment} of the range of the bending moment, {force} of the largest soil force, {touchdown} of the "
-        "touchdown point's travel"
-    )
 
 
 def about(share: float) -> str:

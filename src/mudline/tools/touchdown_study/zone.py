@@ -15,12 +15,10 @@ from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawAssignment
 from mudline.model.contact.stretch import cut_out
 from mudline.model.curves import ForceCurve
-from mudline.model.scene.load_case import TopMotion, top_motion
+from mudline.model.scene.load_case import Scheme, TopMotion, scheme_of, top_motion
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.pipe import Pipe, pipe_of
-from mudline.model.scene.time_stepping import Scheme, scheme_of
-from mudline.model.scene.weights import left_out
+from mudline.model.scene.weights import Pipe, left_out, pipe_of
 from mudline.tools.touchdown_study.beam import Beam, BeamRun, NotConvergedError, Solved, at_rest, march
 from mudline.tools.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.tools.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
@@ -209,9 +207,8 @@ def _with_law(given: ContactInput, cut: ContactInput, element: int) -> ContactIn
     for law in given.normal_laws:
         at = np.flatnonzero(law.rows == element)
         if at.size:
-            laws.append(
-                LawAssignment(law.law.name, rows, {name: values[at[0]] for name, values in law.parameters.items()})
-            )
+            parameters = {name: values[at[0]] for name, values in law.parameters.items()}
+            laws.append(LawAssignment(law.law.name, rows, parameters))
     return replace(cut, laws=tuple(laws))
 
 
@@ -261,22 +258,8 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
     )
     unit, wave = unit_names(scene.units).behind("length"), math.sqrt(tension / mass) * motion.period
     notes = _limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit)
-    return Zone(
-        scene,
-        given,
-        pipe,
-        line,
-        elements,
-        nodes,
-        node - first,
-        beam,
-        scheme,
-        scheme_line,
-        motion,
-        travel,
-        float(depths[1]),
-        notes,
-    )
+    place, schemes = (elements, nodes, node - first), (scheme, scheme_line)
+    return Zone(scene, given, pipe, line, *place, beam, *schemes, motion, travel, float(depths[1]), notes)
 
 
 def _require(scene: Scene, own: int, weight: float, bending: float, mass: float) -> None:

@@ -98,9 +98,8 @@ class DrawnStretch:
             arcs, node_arcs = lines.element_arc[elements], lines.node_arcs(line, data.given.length)
             here, near = self._within(arcs), self._within(node_arcs)
             style = style_of(place) if len(drawn) > 1 else Style(COLORS[0], "-", "o")
-            self.lines.append(
-                DrawnLine(line, style, elements[here], arcs[here], lines.nodes[line][near], node_arcs[near])
-            )
+            nodes = lines.nodes[line][near]
+            self.lines.append(DrawnLine(line, style, elements[here], arcs[here], nodes, node_arcs[near]))
 
     def _changes(self, line: int) -> Indices:
         """Return the elements of a line where contact begins or ends, or the embedment changes, at any step."""
@@ -225,9 +224,8 @@ def _extents(axes: Axes, data: PlotData, extents: Extents, stretch: DrawnStretch
         kept = thinned(extents.most[line.elements])
         least, most = extents.least[line.elements[kept]], extents.most[line.elements[kept]]
         label = "least to largest of all steps" if line is stretch.lines[0] else None
-        axes.fill_between(
-            line.element_arcs[kept], least, most, color=line.style.color, alpha=0.2, linewidth=0.0, label=label
-        )
+        arcs, color = line.element_arcs[kept], line.style.color
+        axes.fill_between(arcs, least, most, color=color, alpha=0.2, linewidth=0.0, label=label)
     legend(axes)
 
 

@@ -67,10 +67,8 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
         axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
         title = f"{kind[:1].upper()}{kind[1:]}s"
         if kind == OF_SEABED:
-            labels = [
-                labelled(ELEMENTS["ratio"].label, "-"),
-                labelled(ELEMENTS["force"].label, unit_text("F/L", units)),
-            ]
+            force = labelled(ELEMENTS["force"].label, unit_text("F/L", units))
+            labels = [labelled(ELEMENTS["ratio"].label, "-"), force]
         else:
             labels = [labelled(name, unit) for name, unit in zip(own[0]["axes"], own[0]["units"], strict=True)]
             title += f" (*{own[0]['keyword']})"
@@ -111,9 +109,8 @@ def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
             part = (to - ratios[end]) / (ratios[end] - ratios[inner])
             rise = 0.0 if row.get("ends") == "value" else part * (forces[end] - forces[inner])
         if part > 0.0 and np.isfinite(forces[end] + rise):
-            axes.plot(
-                [ratios[end], to], [forces[end], forces[end] + rise], color=style.color, linestyle="--", linewidth=1.0
-            )
+            beyond = [ratios[end], to], [forces[end], forces[end] + rise]
+            axes.plot(*beyond, color=style.color, linestyle="--", linewidth=1.0)
 
 
 def draw_curve(axes: Axes, name: str, points: FloatArray) -> None:
@@ -241,17 +238,9 @@ def _ways(axes: Axes, path: Cycle, here: Indices, style: Style, name: str) -> No
         np.concatenate([np.append(values[[max(run[0] - 1, 0), *run]], np.nan) for run in runs])
         for values in (path.penetration, path.force)
     )
-    axes.plot(
-        x,
-        y,
-        **style.line,
-        linewidth=1.8,
-        marker=style.marker,
-        markersize=5,
-        markevery=[-2] if style.marker else None,
-        label=name,
-        zorder=3 if style.marker else 2,
-    )
+    every, order = ([-2], 3) if style.marker else (None, 2)
+    marks: dict[str, Any] = {"marker": style.marker, "markersize": 5, "markevery": every}
+    axes.plot(x, y, **style.line, **marks, linewidth=1.8, label=name, zorder=order)
 
 
 def _arrow_steps(path: Cycle) -> Indices:

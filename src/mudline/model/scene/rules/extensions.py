@@ -224,7 +224,11 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     extension = scene.extensions.get("SEABED UNLOADING")
     if extension is None:
         return
-    smooth, nodal = _smoothed(scene), scene.law == LawKind.NODAL
+    smooth, nodal = np.zeros(len(scene.element_ids), dtype=np.bool_), scene.law == LawKind.NODAL
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
+
+        smooth[element_smoothing(scene).rows] = True
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
         stiffness, named = number(entry, "stiffness"), extension.of_element == index
         if stiffness <= 0.0:
@@ -240,16 +244,6 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
                 "remove one of the two"
             )
             yield Problem(EXT009, message, where=place)
-
-
-def _smoothed(scene: ResolvedDeck) -> Mask:
-    """Return a mask (m,) of the elements with a linear law that is smoothed."""
-    smoothed: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    if "SEABED CONTACT" in scene.extensions:
-        from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
-
-        smoothed[element_smoothing(scene).rows] = True
-    return smoothed
 
 
 EXT010 = Code("EXT010", "soil-conflict", Severity.ERROR)

@@ -288,7 +288,9 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
     if names.keys() >= scene.laws.referenced:
         return
-    followed: set[Where] | None = None
+    laws = scene.laws.set_laws
+    lost = [index for index, law in enumerate(laws) if law.kind is LawKind.CURVE and law.curve == NOTHING]
+    followed = {laws[index].where for index in lost if (scene.laws.of_element == index).any()}
     unused = [name for key, name in names.items() if key not in scene.laws.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
@@ -301,13 +303,4 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
         advice = advice_on(name) or number or "*SEABED STIFFNESS has no such curve"
         message = f"curve {shown(name)} is not defined{hint}: {advice}"
         problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
-        followed = _followed(scene) if followed is None else followed
         yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem
-
-
-def _followed(scene: ResolvedDeck) -> set[Where]:
-    """Return the places that name missing curves which elements follow."""
-    lost = (
-        i for i, set_law in enumerate(scene.laws.set_laws) if set_law.kind is LawKind.CURVE and set_law.curve == NOTHING
-    )
-    return {scene.laws.set_laws[index].where for index in lost if (scene.laws.of_element == index).any()}

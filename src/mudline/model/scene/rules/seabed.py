@@ -17,7 +17,7 @@ from mudline.model.scene.deck_values import file_name, missing_files, number
 from mudline.model.scene.seabed import COMPILED, SeabedKind, SeabedShape, made_seabed
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_surface import PlaneBounds, SeabedPlanes, SeabedProfile
+    from mudline.language.keywords.library.seabed_surface import SeabedPlanes, SeabedProfile
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -219,7 +219,7 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
             if abs(slope) >= _VERTICAL:
                 message = f"slope {slope!r}: it must be between -90 and 90 degrees"
                 yield Problem(EXT007, message, where=place.inside("slope"))
-            if _is_empty(plane.bounds):
+            if any(number(plane.bounds, f"{axis}_min") >= number(plane.bounds, f"{axis}_max") for axis in "yz"):
                 message = (
                     "invalid bounds: the second value must be larger than the first, the fourth larger than the third"
                 )
@@ -232,10 +232,6 @@ def _known_planes(scene: ResolvedDeck) -> bool:
         value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds)
     )
     return not any(map(math.isnan, numbers))
-
-
-def _is_empty(bounds: PlaneBounds | None) -> bool:
-    return any(number(bounds, f"{axis}_min") >= number(bounds, f"{axis}_max") for axis in "yz")
 
 
 def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
