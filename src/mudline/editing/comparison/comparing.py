@@ -359,6 +359,9 @@ def _sections(side: Side) -> EntryMap:
         block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
         values = _record(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
+        if block.keyword == "TAPER":
+            start = np.flatnonzero(table.of_element == places.index(where))
+            values |= {"first element": str(side.scene.element_ids[element]) for element in start.tolist()}
         entries.append(values)
     return EntryMap(entries, places, table.of_element)
 
