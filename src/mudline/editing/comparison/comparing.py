@@ -361,7 +361,8 @@ def _sections(side: Side) -> EntryMap:
         values.pop("option", None)  # the property line has the name of its format
         if block.keyword == "TAPER":
             start = np.flatnonzero(table.of_element == places.index(where))
-            values |= {"first element": str(side.scene.element_ids[element]) for element in start.tolist()}
+            if start.size:
+                values["first element"] = str(side.scene.element_ids[start[0]])
         entries.append(values)
     return EntryMap(entries, places, table.of_element)
 
