@@ -96,6 +96,16 @@ def test_points_of_a_profile_in_a_file(tmp_path: Path, changed: bool) -> None:
     assert brief(compare(one, other)) == expected
 
 
+def test_a_joint_that_tapers_the_other_way() -> None:
+    mesh = "*NODE\n 1, 0.0, 0.0\n 4, 3.0, 0.0\n GEN=1, 4\n*ELEMENT\n 1, 1, 2\n GEN=1, 3\n"
+    joint = "*TAPER\n SET=Foot\n 207.0E9, 79.6E9, 7850.0, 0.2, 0.3, 0.4\n"
+    deck = f"$MODEL\n{mesh}*ELEMENT SETS\n SET=Foot\n 1, 2, 3\n{joint}"
+    one, other = deck, deck.replace("1, 2, 3\n*TAPER", "3, 2, 1\n*TAPER")
+    assert differences(one, one) == []
+    changed = [(f"elements {element}/sections/first element", "1", "3") for element in (1, 2, 3)]
+    assert sorted(brief(differences(one, other))) == changed
+
+
 def test_blocks_without_a_model_compare_by_their_lines() -> None:
     text = "*DAMPER\n VESSEL=FPSO\nC a comment\n INITIAL POSITION=0, 0, 0\n"
     assert between(text, text.replace("C a comment\n", "\n").replace(" VESSEL", "  VESSEL")) == []

@@ -355,6 +355,10 @@ def _sections(side: Side) -> EntryMap:
         block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
         values = _record(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
+        if block.keyword == "TAPER":
+            start = np.flatnonzero(table.of_element == places.index(where))
+            if start.size:
+                values["first element"] = str(side.scene.element_ids[start[0]])
         entries.append(values)
     return EntryMap(entries, places, table.of_element)
 
