@@ -35,7 +35,6 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 EXCEPTIONS = {
     "editing/anonymizing.py": "what is given away; a deck that needs more has other forces, and is refused",
     "editing/comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
-    "model/scene/boundary.py": "nodes on a vessel, by the TYPE= of a boundary",
     "tools/exporting/line_model.py": "the blocks that a line of another program says",
     "tools/exporting/report.py": "says in words what becomes of a keyword in another program",
     "tools/exporting/soil.py": "says which settings of a law another program has not",

@@ -15,7 +15,6 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.rows import read_number
-from mudline.model.contact.lines import lines_of
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
@@ -149,6 +148,8 @@ class HeldLine(NamedTuple):
 
 def lines_between(scene: Scene) -> Iterator[HeldLine]:
     """Yield the lines of a scene, cut at inner nodes that are held in all directions."""
+    from mudline.model.contact.lines import lines_of  # noqa: PLC0415 - checking a deck does without it
+
     held, vessels = held_freedoms(scene)
     lines = lines_of(scene.element_nodes, np.nan_to_num(scene.length), len(scene.node_ids))
     number = 0
