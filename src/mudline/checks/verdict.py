@@ -1,4 +1,4 @@
-"""Verdict on a deck: its errors and warnings, and how much of it was read; the overview of its contents."""
+"""Verdict on a deck: its errors and warnings, and how much of it was read."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ from typing import Any, NamedTuple
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
-from mudline.checks.engine import joined_problems, of_base, unsuppressed
+from mudline.checks.engine import joined_problems, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.language.codes.contact import SBD006
 from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
-from mudline.model.results.summary import summarise
 from mudline.model.results.warnings import seabed_warnings
-from mudline.model.scene.sheet import Sheet, sheet_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,25 +135,3 @@ def _warnings(context: LintContext, problems: list[Problem], *, ok: bool) -> lis
 def _default_codes() -> frozenset[str]:
     """Return the codes of the rules that lint runs unless it is asked for others."""
     return frozenset(rule.code.code for rule in select())
-
-
-class Overview(NamedTuple):
-    """Overview of a deck.
-
-    Attributes:
-        summary: sections, keywords, counts, sets, curves, diameters and laws, as `mudline show --output-format json`.
-        sheet: `columns`, and in `rows` the values of each run of elements with the same properties, by column.
-        errors: reasons why the deck is not legal; summary and sheet may lack parts because of them.
-    """
-
-    summary: dict[str, Any]
-    sheet: Sheet
-    errors: list[Diagnostic]
-
-
-def overview(deck: Deck) -> Overview:
-    """Return the overview of a deck; never raises for its content."""
-    context = LintContext(deck)
-    scene = context.scene
-    errors = [*errors_of(all_findings(context)), *(problem for problem in scene.errors() if of_base(deck, problem))]
-    return Overview(summarise(scene), sheet_of(scene), scene.deck.diagnose(errors))
