@@ -6,8 +6,9 @@ import pytest
 
 from mudline.language.diagnostics import Severity
 from tests.faults import report
+from tests.faults.kind import KINDS
 from tests.faults.known import BURIED, MISSED
-from tests.faults.rates import KINDS, Outcome, Run, run
+from tests.faults.rates import Outcome, Run, run
 
 LEAST_FOUND, MOST_BURIED, MOST_FALSE = 0.965, 0.025, 0.02
 """Shares of the faults, and of the legal decks."""
