@@ -1,7 +1,8 @@
 """The changes of the table of kinds: `place: step then step`, done to the rows of a deck at a place.
 
 A place is a name of `PLACES`, or a keyword and one of: nothing (its first row of numbers) or the number of such a row,
-`KEY=` (the first such setting) or `KEY= -1` (the last), `line` (its own line), `equation` (its first row with one).
+`KEY=` (the first such setting) or `KEY= -1` (the last), `line` (its own line), `block` (all its lines), `end` (the last
+of these), `last` (its last data line), `equation` (its first row with one that multiplies).
 Steps are those of `STEPS`; columns count from 0, a factor may be a name of `FACTORS`.
 """
 
@@ -47,11 +48,6 @@ def stiffness(draft: Draft) -> Row:
     return row
 
 
-def equation(draft: Draft, keyword: str) -> Row:
-    """The first row of a keyword with an equation that multiplies."""
-    return draft.first(row for row in draft.data(keyword) if "=[" in row.text and "*" in row.text)
-
-
 def _surface(draft: Draft) -> Row:
     return draft.numbers("*ELASTIC SURFACE" if "*ELASTIC SURFACE" in draft.text else "*RIGID SURFACE")[0]
 
@@ -64,12 +60,15 @@ PLACES: dict[str, Callable[[Draft], Sequence[Row]]] = {
     "node": lambda draft: [node(draft)],
     "negative": lambda draft: [draft.first(row for row in draft.numbers("*NODE") if draft.field(row, 1)[:1] == "-")],
     "curve": lambda draft: draft.curve(),
+    "head": lambda draft: [draft.keyed_above(draft.curve()[0])],
     "points": lambda draft: draft.curve()[1:],
     "point": lambda draft: [point(draft)],
     "stiffness": lambda draft: [stiffness(draft)],
     "surface": lambda draft: [_surface(draft)],
 }
-_PLACE = re.compile(r"(?P<keyword>[*$][A-Z-]+(?: [A-Z-]+)*?)(?: (?P<key>[A-Z]+)=)?(?: (?P<which>-?\d+|line|equation))?")
+_PLACE = re.compile(
+    r"(?P<keyword>[*$][A-Z-]+(?: [A-Z-]+)*?)(?: (?P<key>[A-Z]+)=)?(?: (?P<which>-?\d+|line|block|end|last|equation))?"
+)
 
 
 def apply(draft: Draft, change: str) -> None:
@@ -91,10 +90,17 @@ def _rows(draft: Draft, place: str) -> Sequence[Row]:
     found = _PLACE.fullmatch(place)
     assert found, place
     keyword, key, which = found["keyword"], found["key"], found["which"]
-    if which == "line":
-        return draft.block(keyword)[:1]
-    if which == "equation":
-        return [equation(draft, keyword)]
+    match which:
+        case "line":
+            return draft.block(keyword)[:1]
+        case "block":
+            return draft.block(keyword)
+        case "end":
+            return draft.block(keyword)[-1:]
+        case "last":
+            return draft.data(keyword)[-1:]
+        case "equation":
+            return [draft.first(row for row in draft.data(keyword) if "=[" in row.text and "*" in row.text)]
     rows = draft.settings(keyword, key) if key else draft.numbers(keyword)
     return [rows[int(which or 0)]]
 
@@ -129,6 +135,13 @@ def thousands(draft: Draft, row: Row, column: str) -> None:
     draft.retyped(row, int(column), lambda old: f"{old[0]},{old[1:]}")
 
 
+def _more(draft: Draft, row: Row, by: str) -> None:
+    """A larger number at the end of GEN=, in a deck that has few of them."""
+    head, _, last = row.text.strip().rpartition(", ")
+    draft.needs(draft.text.count("GEN=") < 8)
+    draft.write(row, f"{head}, {int(last) + int(by)}")
+
+
 def _join(draft: Draft, row: Row, column: str, mark: str) -> None:
     """Another mark than a comma between a field and the next one."""
     fields, at = draft.fields(row), int(column)
@@ -159,9 +172,15 @@ def typo(draft: Draft, row: Row) -> None:
 
 
 def _also(draft: Draft, row: Row, place: str) -> None:
-    """Mark the head of a curve, or the line above or below too."""
-    at = draft.rows.index(row)
-    draft.mark(draft.keyed_above(row) if place == "head" else draft.rows[at + {"above": -1, "below": 1}[place]])
+    """Mark the line above or below too, or another place."""
+    beside = {"above": -1, "below": 1}.get(place)
+    draft.mark(*([draft.rows[draft.rows.index(row) + beside]] if beside else _rows(draft, place)))
+
+
+def cut(draft: Draft, row: Row) -> None:
+    """The file ends behind a line."""
+    del draft.rows[draft.rows.index(row) + 1 :]
+    draft.mark(row)
 
 
 STEPS: dict[str, Callable[..., object]] = {
@@ -180,6 +199,7 @@ STEPS: dict[str, Callable[..., object]] = {
     "type": _type,
     "end": lambda draft, row, column, text: draft.retyped(row, int(column), lambda field: field + text),
     "exchange": lambda draft, row, one, other: draft.exchange(row, int(one), int(other)),
+    "more": _more,
     "join": _join,
     "drop": _drop,
     "keep": lambda draft, row, count: draft.write(row, ", ".join(draft.fields(row)[: int(count)])),
@@ -190,7 +210,10 @@ STEPS: dict[str, Callable[..., object]] = {
     "add": lambda draft, row, text: draft.write(row, row.text.strip() + text),
     "typo": typo,
     # lines
-    "behind": lambda draft, row, text: draft.insert(row, text),
+    "before": lambda draft, row, text: draft.insert(draft.previous(row), text),
+    "behind": lambda draft, row, *texts: draft.insert(row, *texts),
+    "delete": lambda draft, row: draft.remove([row]),
+    "cut": cut,
     "double": lambda draft, row: draft.insert(row, row.text),
     "lose": lose,
     "also": _also,

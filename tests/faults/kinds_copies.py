@@ -93,10 +93,6 @@ def _subset(draft: Draft, name: str) -> None:
     draft.insert(head, f" SUBSET={name}")
 
 
-def set_without_elements(draft: Draft) -> None:
-    draft.insert(draft.data("*ELEMENT SETS")[-1], " SET=Hot Spot")
-
-
 def long_list(draft: Draft) -> None:
     rows = draft.data("*ELEMENT SETS")
     draft.needs(len(draft.numbers("*ELEMENT")) >= 24)
@@ -163,36 +159,28 @@ def _listed(draft: Draft, keyword: str) -> list[Row]:
     return rows
 
 
+def users(draft: Draft, label: str) -> list[Row]:
+    """Elements that use a node."""
+    return [row for row in draft.numbers("*ELEMENT") if label in draft.fields(row)[1:]]
+
+
 def node_renumbered(draft: Draft) -> None:
     row = _listed(draft, "*NODE")[6]
     label = draft.field(row, 0)
     row.text = row.text.replace(label, "907", 1)
-    draft.mark(*(each for each in draft.numbers("*ELEMENT") if label in draft.fields(each)[1:]))
+    draft.mark(*users(draft, label))
 
 
 def node_deleted(draft: Draft) -> None:
     row = _listed(draft, "*NODE")[6]
     label = draft.field(row, 0)
     draft.remove([row])
-    draft.mark(*(each for each in draft.numbers("*ELEMENT") if label in draft.fields(each)[1:]))
+    draft.mark(*users(draft, label))
 
 
 def wrong_node_in_element(draft: Draft) -> None:
     draft.retyped(draft.numbers("*ELEMENT")[-1], 2, lambda text: f"{text}0")
     draft.mark(*(row for row in draft.data("*ELEMENT") if "GEN=" in row.text))
-
-
-def count_too_large(draft: Draft) -> None:
-    row = draft.setting("*ELEMENT", "GEN")
-    head, _, count = row.text.strip().rpartition(", ")
-    draft.needs(draft.text.count("GEN=") < 8)
-    draft.write(row, f"{head}, {int(count) + 5}")
-
-
-def end_node_missing(draft: Draft) -> None:
-    row = draft.setting("*NODE", "GEN")
-    head, _, last = row.text.strip().rpartition(", ")
-    draft.write(row, f"{head}, {int(last) + 9}")
 
 
 def element_deleted(draft: Draft) -> None:
@@ -202,12 +190,6 @@ def element_deleted(draft: Draft) -> None:
     uses = [row for row in draft.data("*ELEMENT SETS") if row.text.strip().endswith(f", {label}")]
     draft.needs(uses)
     draft.mark(*uses)
-
-
-def set_beyond_the_last_element(draft: Draft) -> None:
-    row = draft.settings("*ELEMENT SETS", "GEN")[-1]
-    head, _, last = row.text.strip().rpartition(", ")
-    draft.write(row, f"{head}, {int(last) + 30}")
 
 
 def set_runs_backwards(draft: Draft) -> None:
@@ -231,7 +213,7 @@ def number_used_twice(draft: Draft) -> None:
     rows = _listed(draft, "*NODE")
     old = draft.field(rows[7], 0)
     draft.retyped(rows[7], 0, lambda _: draft.field(rows[6], 0))
-    draft.mark(*(each for each in draft.numbers("*ELEMENT") if old in draft.fields(each)[1:]))
+    draft.mark(*users(draft, old))
 
 
 def element_of_one_node(draft: Draft) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tests.faults.draft import Draft, Row
+from tests.faults.changes import cut
+from tests.faults.draft import Draft
 
 
 def model_line_missing(draft: Draft) -> None:
@@ -10,13 +11,6 @@ def model_line_missing(draft: Draft) -> None:
     draft.needs(draft.rows[0] is head)
     draft.remove([head])
     draft.mark(draft.rows[0])
-
-
-def load_case_line_missing(draft: Draft) -> None:
-    head = draft.block("$LOAD CASE")[0]
-    draft.needs(draft.rows.index(head) > 0)
-    draft.mark(draft.rows[draft.rows.index(head) + 1])
-    draft.remove([head])
 
 
 def points_before_set(draft: Draft) -> None:
@@ -49,48 +43,22 @@ def table_of_the_interface(draft: Draft) -> None:
     draft.remove(rows[:1])
 
 
-def header_line_pasted(draft: Draft) -> None:
-    first = draft.curve()[0]
-    draft.insert(draft.previous(first), " z/D, F (N/m)")
-
-
 def row_numbers_pasted(draft: Draft) -> None:
     for i, row in enumerate(draft.curve(), 1):
         draft.write(row, f"{i}, {row.text.strip()}")
 
 
-def _cut(draft: Draft, last: Row, text: str) -> None:
-    """End the file inside a line."""
-    at = draft.rows.index(last)
-    del draft.rows[at + 1 :]
-    draft.write(last, text)
-
-
 def cut_behind_comma(draft: Draft) -> None:
     row = draft.curve()[-1]
     draft.needs("$LOAD" in draft.text)
-    _cut(draft, row, f"{draft.field(row, 0)},")
-
-
-def cut_in_exponent(draft: Draft) -> None:
-    _cut(draft, draft.sections("RIGID")[0], "2.07E")
-
-
-def cut_behind_curve_line(draft: Draft) -> None:
-    row = draft.keyed_above(draft.curve()[0])
-    del draft.rows[draft.rows.index(row) + 1 :]
-    draft.mark(row)
+    draft.write(row, f"{draft.field(row, 0)},")
+    cut(draft, row)
 
 
 def cut_in_equation(draft: Draft) -> None:
     row = draft.first(each for each in draft.data("*SEABED STIFFNESS") if "=[" in each.text)
-    _cut(draft, row, row.text.partition("*")[0].strip())
-
-
-def cut_behind_keyword(draft: Draft) -> None:
-    row = draft.block("*SEABED STIFFNESS")[0]
-    del draft.rows[draft.rows.index(row) + 1 :]
-    draft.mark(row)
+    draft.write(row, row.text.partition("*")[0].strip())
+    cut(draft, row)
 
 
 def nul_bytes(draft: Draft) -> None:

@@ -2,20 +2,7 @@
 
 from __future__ import annotations
 
-from tests.faults.draft import Draft, Row, plain
-
-
-def type_left_out(draft: Draft) -> None:
-    block = draft.block("*SEABED PROPERTIES")
-    draft.remove([draft.setting("*SEABED PROPERTIES", "TYPE")])
-    draft.mark(block[0], block[2])
-
-
-def first_set_left_out(draft: Draft) -> None:
-    row = draft.setting("*SEABED PROPERTIES", "SET")
-    rows = draft.data("*SEABED PROPERTIES")
-    draft.mark(rows[rows.index(row) + 1])
-    draft.remove([row])
+from tests.faults.draft import Draft, plain
 
 
 def stiffness_left_out(draft: Draft) -> None:
@@ -58,12 +45,6 @@ def lateral_with_friction(draft: Draft) -> None:
     draft.mark(row)
 
 
-def friction_with_lateral(draft: Draft) -> None:
-    lateral = draft.setting("*SEABED PROPERTIES", "LATERAL")
-    draft.swap(draft.setting("*SEABED PROPERTIES", "FRICTION"), ", 0.0", ", 0.6")
-    draft.mark(lateral)
-
-
 def extent_without_stiffness(draft: Draft) -> None:
     row = draft.setting("*SEABED PROPERTIES", "SUCTION")
     draft.write(row, f"SUCTION=, {draft.field(row, 1)}")
@@ -84,26 +65,6 @@ def legacy_curve_in_new_deck(draft: Draft) -> None:
     factor = 0.0685 if draft.units == "imperial" else 0.001 if draft.units == "user" else 1.0
     points = [f" {ratio}, {plain(force * factor)}" for ratio, force in ((0.1, 700.0), (0.2, 900.0), (0.5, 1300.0))]
     draft.insert(block[-1], "*EMBEDMENT", f" {name}", " 0.0, 0.0", *points)
-    draft.mark(*block)
-
-
-def surface_in_new_deck(draft: Draft) -> None:
-    block = draft.block("*SEABED PROPERTIES")
-    draft.needs("TYPE=ELASTIC" in block[1].text and draft.units == "metric")
-    draft.insert(block[-1], "*ELASTIC SURFACE", " 40000.0, 0.35, 0.6")
-    draft.mark(*block)
-
-
-def rigid_surface_in_new_deck(draft: Draft) -> None:
-    block = draft.block("*SEABED PROPERTIES")
-    draft.needs("TYPE=ELASTIC" in block[1].text)
-    draft.insert(block[-1], "*RIGID SURFACE", " 0.3, 0.5")
-    draft.mark(*block)
-
-
-def both_surfaces(draft: Draft) -> None:
-    block = draft.block("*ELASTIC SURFACE")
-    draft.insert(block[-1], "*RIGID SURFACE", " 0.3, 0.5")
     draft.mark(*block)
 
 
@@ -166,13 +127,6 @@ def boundary_in_model(draft: Draft) -> None:
     draft.mark(draft.insert(head, *texts, mark=False)[0])
 
 
-def option_line_deleted(draft: Draft) -> None:
-    row = draft.setting("*GEOMETRIC SETS", "OPTION")
-    pipe = draft.sections("RIGID")[0]
-    draft.remove([row])
-    draft.mark(pipe)
-
-
 def section_of_other_option(draft: Draft) -> None:
     draft.mark(draft.sections("MOORING")[0])
     row = draft.setting("*GEOMETRIC SETS", "OPTION")
@@ -195,12 +149,6 @@ def extension_on_rigid_seabed(draft: Draft) -> None:
     draft.mark(*head, *draft.settings("*SEABED PROPERTIES", "STIFFNESS"))
 
 
-def planes_and_slope(draft: Draft) -> None:
-    block = draft.block("*SEABED PLANES")
-    draft.insert(block[-1], "*SEABED PROFILE", " TYPE=SLOPING", " SLOPE=1.0")
-    draft.mark(*block)
-
-
 def three_dimensional_rigid(draft: Draft) -> None:
     row = draft.setting("*SEABED PROFILE", "TYPE")
     draft.needs("TYPE=RIGID" in draft.text)
@@ -214,10 +162,6 @@ def ocean_deleted(draft: Draft) -> None:
     draft.needs(waves)
     draft.mark(draft.rows[0], *waves)
     draft.remove(draft.block("*OCEAN"))
-
-
-def _middle(draft: Draft) -> Row:
-    return draft.curve()[3]
 
 
 def columns_exchanged(draft: Draft) -> None:
@@ -259,22 +203,10 @@ def force_at_zero(draft: Draft) -> None:
     draft.mark(draft.keyed_above(points[0]))
 
 
-def zero_point_left_out(draft: Draft) -> None:
-    points = draft.curve()
-    draft.mark(draft.keyed_above(points[0]), points[1])
-    draft.remove([points[0]])
-
-
 def plateau_at_the_end(draft: Draft) -> None:
     points = draft.curve()
     draft.put(points[-1], 1, draft.field(points[-2], 1))
     draft.mark(points[-2])
-
-
-def ratio_without_point(draft: Draft) -> None:
-    points = draft.curve()
-    draft.put(points[3], 0, "10.0")
-    draft.mark(points[-1], draft.keyed_above(points[0]))
 
 
 def points_in_wrong_order(draft: Draft) -> None:
