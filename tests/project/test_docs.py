@@ -103,7 +103,13 @@ def test_commands_print_what_the_page_shows(path: Path) -> None:
             assert agree(command.shown, printed), f"{identity(path)}:{command.line} printed\n" + "\n".join(printed)
 
 
-@pytest.mark.parametrize("path", with_blocks("python", "pycon"), ids=identity)
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, id=identity(path), marks=pytest.mark.nightly if path.parent.name == "studies" else ())
+        for path in with_blocks("python", "pycon")
+    ],
+)
 def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path, checkout: Path) -> None:
     for language, interpreter in (("python", [sys.executable]), ("pycon", [sys.executable, "-m", "doctest"])):
         for block in Page.read(path).blocks:
