@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.helpers import tracing
-from tests.helpers.samples import ALL
+from tests.helpers.shared import ALL
 
 # Before numpy is imported: the workers share the processors, on which threads of small matrix products only wait.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -1,4 +1,4 @@
-"""What takes long to make is made by the first worker that needs it, and used by all."""
+"""How much of the suite is run, and what its workers share."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from pathlib import Path
 import pytest
 
 from tests.helpers.processes import TIMEOUT
+
+ALL = os.environ.get("MUDLINE_TESTS") == "all"
+"""Every case, and ten times as many examples: `make test-all`."""
 
 
 def shared(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
