@@ -65,7 +65,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out cases that are like others and tests of the night; where coverage is no tracer, stop it for tests that are not measured."""
+    """Leave out cases that are like others and tests of the night; stop coverage for tests that are not measured."""
     if not ALL:
         seen: set[str] = set()
         later = [
