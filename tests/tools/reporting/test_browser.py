@@ -11,6 +11,7 @@ import pytest
 
 from tests.cli.runner import run
 from tests.helpers.samples import SAMPLES
+from tests.helpers.shared import shared
 from tests.tools.reporting.browser import program, seen
 from tests.tools.reporting.pages import long_deck
 
@@ -33,9 +34,8 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    folder = tmp_path_factory.mktemp("pages")
     decks = [str(SAMPLES / name) for name in ("broken.keyxm", "scr-vessel.keyxm")]
-    run("report", *decks, "-o", str(folder), "-q")
+    folder = shared(tmp_path_factory, "pages", lambda folder: run("report", *decks, "-o", str(folder), "-q"))
     return sorted(folder.glob("*.html"))
 
 
