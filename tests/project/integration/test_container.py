@@ -6,7 +6,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 import venv
 from pathlib import Path
 
@@ -41,20 +40,11 @@ def test_what_it_installs_lints(wheels: Path, tmp_path: Path) -> None:
     (install,) = [run for run in of("RUN") if "pip install" in run]
     mount, _, command = install.partition(" ")
     assert mount == "--mount=type=bind,source=dist,target=/dist"
-    venv.create(tmp_path / "image")
-    pip = tmp_path / "image/bin/pip"
-    pip.write_text(f'#!/bin/sh\nexec {sys.executable} -m pip --python {tmp_path}/image/bin/python "$@"\n')
-    pip.chmod(0o755)
+    venv.create(tmp_path / "image", with_pip=True)
     path = f"{tmp_path / 'image/bin'}{os.pathsep}{os.environ['PATH']}"
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PIP_", "VIRTUAL"))}
-    env = {
-        **kept,
-        "PATH": path,
-        "PIP_NO_INDEX": "1",
-        "PIP_NO_COMPILE": "1",
-        "PIP_FIND_LINKS": str(wheels),
-        "HOME": str(tmp_path),
-    }
+    env = {**kept, "PATH": path, "PIP_FIND_LINKS": str(wheels), "HOME": str(tmp_path)}
+    env |= {"PIP_NO_INDEX": "1", "PIP_NO_COMPILE": "1"}
     script = command.replace("/dist/", f"{wheels}/")
     subprocess.run([BASH, "-ec", script], env=env, cwd=tmp_path, capture_output=True, timeout=TIMEOUT, check=True)
     (tmp_path / "decks").mkdir()
