@@ -161,6 +161,7 @@ def test_what_is_long_stands_in_the_appendix_behind_a_summary(tmp_path: Path) ->
     for number, part in (("02", first), ("02", appendix), ("30", appendix)):
         assert row_of(part, f"curve:Clay {number}").split(" | ")[1] == f"Zone {number}"
     assert "Clay 30" not in first
+    assert {"24 more sets", "11 more curves", "20 more rows", "10 more rows"} <= {*re.findall(r"\d+ more \w+", text)}
     assert {"#more-findings", "#more-inputs", "#more-model", "#more-curves", "#more-contact"} <= {*page.references}
 
 
