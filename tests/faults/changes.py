@@ -48,6 +48,11 @@ def stiffness(draft: Draft) -> Row:
     return row
 
 
+def elements_of(draft: Draft, label: str) -> list[Row]:
+    """Elements that use a node."""
+    return [row for row in draft.numbers("*ELEMENT") if label in draft.fields(row)[1:]]
+
+
 def _surface(draft: Draft) -> Row:
     return draft.numbers("*ELASTIC SURFACE" if "*ELASTIC SURFACE" in draft.text else "*RIGID SURFACE")[0]
 

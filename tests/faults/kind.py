@@ -10,7 +10,7 @@ from pathlib import Path
 from tests.faults import changes, kinds_copies, kinds_keywords, kinds_seabed, kinds_typing, kinds_units
 from tests.faults.draft import Draft
 
-_MODULES = (kinds_units, kinds_typing, kinds_keywords, kinds_copies, kinds_seabed)
+MODULES = (kinds_units, kinds_typing, kinds_keywords, kinds_copies, kinds_seabed)
 _CODES = {
     "STRAY": ("SYN001", "SYN002", "SYN003", "SYN004", "SYN011", "SYN015", "REF007"),
     "STRAY_LINE": ("SYN001", "SYN003", "SYN004", "SYN011"),
@@ -53,7 +53,7 @@ def _change(slug: str, change: str) -> Callable[[Draft], None]:
     if change:
         return partial(changes.apply, change=change)
     name = slug.replace("-", "_")
-    function: Callable[[Draft], None] = next(getattr(module, name) for module in _MODULES if hasattr(module, name))
+    function: Callable[[Draft], None] = next(getattr(module, name) for module in MODULES if hasattr(module, name))
     return function
 
 

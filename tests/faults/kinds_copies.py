@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.faults.changes import typo
+from tests.faults.changes import elements_of, typo
 from tests.faults.draft import Draft, Row, plain
 
 
@@ -159,23 +159,18 @@ def _listed(draft: Draft, keyword: str) -> list[Row]:
     return rows
 
 
-def users(draft: Draft, label: str) -> list[Row]:
-    """Elements that use a node."""
-    return [row for row in draft.numbers("*ELEMENT") if label in draft.fields(row)[1:]]
-
-
 def node_renumbered(draft: Draft) -> None:
     row = _listed(draft, "*NODE")[6]
     label = draft.field(row, 0)
     row.text = row.text.replace(label, "907", 1)
-    draft.mark(*users(draft, label))
+    draft.mark(*elements_of(draft, label))
 
 
 def node_deleted(draft: Draft) -> None:
     row = _listed(draft, "*NODE")[6]
     label = draft.field(row, 0)
     draft.remove([row])
-    draft.mark(*users(draft, label))
+    draft.mark(*elements_of(draft, label))
 
 
 def wrong_node_in_element(draft: Draft) -> None:
@@ -213,7 +208,7 @@ def number_used_twice(draft: Draft) -> None:
     rows = _listed(draft, "*NODE")
     old = draft.field(rows[7], 0)
     draft.retyped(rows[7], 0, lambda _: draft.field(rows[6], 0))
-    draft.mark(*users(draft, old))
+    draft.mark(*elements_of(draft, old))
 
 
 def element_of_one_node(draft: Draft) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.faults.changes import cut
+from tests.faults.changes import apply, cut
 from tests.faults.draft import Draft
 
 
@@ -66,17 +66,6 @@ def nul_bytes(draft: Draft) -> None:
     draft.write(row, row.text.strip()[:-1] + "\0")
 
 
-def without_head(draft: Draft, keyword: str, *, above: str = "") -> None:
-    """Delete the line of a keyword, which is to stand below another one; its first data line is marked."""
-    head, first, *_ = draft.block(keyword)
-    at = draft.rows.index(head)
-    draft.needs(at > 1)
-    others = [row.text for row in draft.rows[:at] if row.text.startswith("*")]
-    draft.needs(not above or (others and others[-1] == above))
-    draft.mark(first)
-    draft.remove([head])
-
-
 def parameters_line_missing(draft: Draft) -> None:
     draft.needs("=[" in draft.text)
     head = draft.block("*PARAMETERS")[0]
@@ -88,7 +77,7 @@ def surface_line_missing(draft: Draft) -> None:
     hydrodynamics = draft.block("*HYDRODYNAMIC SETS")
     draft.needs("*EMBEDMENT" in draft.text)
     draft.remove(hydrodynamics)
-    without_head(draft, "*ELASTIC SURFACE", above="*GEOMETRIC SETS")
+    apply(draft, "*ELASTIC SURFACE line: under '*GEOMETRIC SETS' then lose")
 
 
 def unloading_in_properties(draft: Draft) -> None:

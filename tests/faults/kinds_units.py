@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from tests.faults.changes import pipe
+from tests.faults.changes import elements_of, pipe
 from tests.faults.draft import Draft, Row, plain
-from tests.faults.kinds_copies import users
 
 FOOT = 0.3048
 
@@ -120,7 +119,7 @@ def coordinate_with_a_digit_more(draft: Draft) -> None:
     row, following = _along(draft)
     draft.scale(row, 2, 10.0)
     label = draft.field(row, 0)
-    draft.mark(following, *users(draft, label))
+    draft.mark(following, *elements_of(draft, label))
 
 
 def coordinate_without_point(draft: Draft) -> None:
@@ -129,7 +128,7 @@ def coordinate_without_point(draft: Draft) -> None:
     draft.needs(text.endswith(".0") or len(text.partition(".")[2]) > 1)
     draft.put(row, 2, text.replace(".", ""))
     label = draft.field(row, 0)
-    draft.mark(following, *users(draft, label))
+    draft.mark(following, *elements_of(draft, label))
 
 
 def _along(draft: Draft) -> tuple[Row, Row]:
