@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from tests.faults.changes import elements_of, pipe
+from tests.faults.changes import FACTORS, elements_of, pipe
 from tests.faults.draft import Draft, Row, plain
 
 FOOT = 0.3048
-
-
-def per_length(draft: Draft) -> float:
-    """Millimetres in a metre; inches in a foot."""
-    return 1000.0 if draft.units == "metric" else 12.0
 
 
 def depth_and_density_exchanged(draft: Draft) -> None:
@@ -48,7 +43,7 @@ def curve_in_millimetres(draft: Draft) -> None:
     diameter = draft.value(draft.sections("RIGID")[0], 2)
     draft.needs(diameter < 3.0)
     for row in points[1:]:
-        draft.scale(row, 0, diameter * per_length(draft))
+        draft.scale(row, 0, diameter * FACTORS["millimetres"][draft.units != "metric"])
 
 
 def curve_in_metres(draft: Draft) -> None:
