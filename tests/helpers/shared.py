@@ -23,7 +23,7 @@ def shared(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], ob
     try:
         folder.mkdir()
     except FileExistsError:
-        end = time.monotonic() + TIMEOUT
+        end = time.monotonic() + 2 * TIMEOUT
         while not outcome.exists() and time.monotonic() < end:
             time.sleep(0.1)
     else:
