@@ -11,13 +11,12 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.helpers import tracing
+from tests.helpers.shared import ALL
 
 # Before numpy is imported: the workers share the processors, on which threads of small matrix products only wait.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # A loaded machine draws examples slowly; that says nothing about the code under test.
-ALL = os.environ.get("MUDLINE_TESTS") == "all"
-"""Every case, and ten times as many examples: `make test-all`."""
 settings.register_profile(
     "mudline", max_examples=200 if ALL else 20, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
@@ -66,10 +65,14 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out cases that are like others; where coverage is no tracer, stop it for tests that are not measured."""
+    """Leave out cases that are like others and tests of the night; stop coverage for tests that are not measured."""
     if not ALL:
         seen: set[str] = set()
-        later = [item for item in items if item.get_closest_marker("alike") and not _is_first(item, seen)]
+        later = [
+            item
+            for item in items
+            if item.get_closest_marker("nightly") or (item.get_closest_marker("alike") and not _is_first(item, seen))
+        ]
         config.hook.pytest_deselected(items=later)
         items[:] = [item for item in items if item not in set(later)]
     if tracing.is_measured() and not config.pluginmanager.has_plugin(tracing.NAME):

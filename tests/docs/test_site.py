@@ -21,6 +21,7 @@ from hatch_build import description
 from mudline.cli.main import COMMANDS
 from tests.docs.make import ROOT
 from tests.helpers.processes import TIMEOUT
+from tests.helpers.shared import shared
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -52,9 +53,13 @@ _ANCHOR = re.compile(r'\s(?:id|name)="([^"]+)"')
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for module in ("mkdocs", "material", "mkdocstrings", "latex2mathml"):
         pytest.importorskip(module)
+    return shared(tmp_path_factory, "site", build_site)
+
+
+def build_site(folder: Path) -> None:
     from tests.docs.site import write  # noqa: PLC0415 - needs what builds the site
 
-    folder, source = tmp_path_factory.mktemp("site"), tmp_path_factory.mktemp("source")
+    source = folder.with_name("source")
     write(source)
     # Beside what is said of a page, MkDocs prints a note of its theme's makers on the future of both.
     environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
@@ -62,7 +67,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     build = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", *settings]
     ran = subprocess.run(build, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=False)
     assert (ran.returncode, ran.stdout + ran.stderr) == (0, "")
-    return folder
 
 
 @pytest.fixture(scope="module")

@@ -59,6 +59,7 @@ C {hidden}
 BEDS = (
     "",
     "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=2.0\n",
+    "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=180.0\n SLOPE=-2.0\n",
     "*SEABED PLANES\n PLANE={hidden} plane\n POINT=0.0, {y}, {z}\n SLOPE=1.0\n",
 )
 NAMES = st.text("qwzx", min_size=4, max_size=8)

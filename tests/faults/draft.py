@@ -49,6 +49,13 @@ class Draft:
 
     # ------------------------------------------------------------------------------------------------------- finding
 
+    def first(self, rows: Iterable[Row]) -> Row:
+        """The first of some lines, if any."""
+        row = next(iter(rows), None)
+        if row is None:
+            raise NotHere
+        return row
+
     def block(self, keyword: str, which: int = 0) -> list[Row]:
         """Keyword line and data lines of a block."""
         heads = [i for i, row in enumerate(self.rows) if row.text == keyword]

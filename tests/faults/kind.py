@@ -1,83 +1,60 @@
-"""A kind of fault: what an engineer does, which finding must say so, and how it is done to a deck."""
+"""The kinds of faults: the rows of kinds.txt, each with the change or the function that does it to a deck."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from inspect import cleandoc
+from functools import partial
+from pathlib import Path
 
-from tests.faults.draft import Draft, Row
+from tests.faults import changes, kinds_copies, kinds_keywords, kinds_seabed, kinds_typing, kinds_units
+from tests.faults.draft import Draft
 
-Damage = Callable[[Draft], None]
+MODULES = (kinds_units, kinds_typing, kinds_keywords, kinds_copies, kinds_seabed)
+_CODES = {
+    "STRAY": ("SYN001", "SYN002", "SYN003", "SYN004", "SYN011", "SYN015", "REF007"),
+    "STRAY_LINE": ("SYN001", "SYN003", "SYN004", "SYN011"),
+    "UNREADABLE": ("SYN001", "SYN002", "SYN003", "SYN015", "SYN016", "STY004"),
+}
+"""Names in the table. STRAY: a row under a keyword that is not its own is not read, or reads as something else."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind: its slug, its group, what was done, and the codes of which one is expected at a marked line.
-
-    A finding of severity info counts only where `info` says that no more is asked for.
-    """
+    """One kind: its slug, its group, what was done, and the codes of which one is expected at a marked line."""
 
     slug: str
     group: str
     did: str
     codes: tuple[str, ...]
-    damage: Damage
-    info: bool
+    units: str
+    change: Callable[[Draft], None]
+
+    def damage(self, draft: Draft) -> None:
+        """Do the fault to a deck; raises NotHere where it cannot happen."""
+        draft.needs(not self.units or draft.units in self.units.split())
+        self.change(draft)
 
 
-class Group:
-    """Kinds of one origin, in the order in which they are written down."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self.kinds: list[Kind] = []
-
-    def kind(self, *codes: str, info: bool = False) -> Callable[[Damage], Damage]:
-        """Make a kind of the function below: its name is the slug, its docstring says what the engineer did."""
-
-        def register(damage: Damage) -> Damage:
-            did = cleandoc(damage.__doc__ or "").replace("\n", " ")
-            self.kinds.append(Kind(damage.__name__.replace("_", "-"), self.name, did, codes, damage, info))
-            return damage
-
-        return register
-
-    def row(self, slug: str, codes: str | tuple[str, ...], did: str, damage: Damage, units: str = "") -> None:
-        """Make a kind of a change that one expression says; `units` are those of the decks that it is done to."""
-
-        def in_units(draft: Draft) -> None:
-            draft.needs(not units or draft.units in units.split())
-            damage(draft)
-
-        said = tuple(codes.split()) if isinstance(codes, str) else codes
-        self.kinds.append(Kind(slug, self.name, did, said, in_units, info=False))
+def _kinds() -> list[Kind]:
+    kinds: list[Kind] = []
+    group = ""
+    for line in Path(__file__).with_name("kinds.txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("## "):
+            group = line[3:]
+        elif line and not line.startswith("#"):
+            slug, codes, units, change, did = (cell.strip() for cell in line.split("|"))
+            expected = tuple(code for word in codes.split() for code in _CODES.get(word, (word,)))
+            kinds.append(Kind(slug, group, did, expected, units, _change(slug, change)))
+    return kinds
 
 
-def put(row: Callable[[Draft], Row], column: int, text: str) -> Damage:
-    """Another field in a column of a row."""
-    return lambda draft: draft.put(row(draft), column, text)
+def _change(slug: str, change: str) -> Callable[[Draft], None]:
+    if change:
+        return partial(changes.apply, change=change)
+    name = slug.replace("-", "_")
+    function: Callable[[Draft], None] = next(getattr(module, name) for module in MODULES if hasattr(module, name))
+    return function
 
 
-def scale(row: Callable[[Draft], Row], column: int, factor: float) -> Damage:
-    """The number in a column of a row multiplied."""
-    return lambda draft: draft.scale(row(draft), column, factor)
-
-
-def head(keyword: str, typed: str) -> Damage:
-    """Another line for that of a keyword."""
-    return lambda draft: draft.write(draft.block(keyword)[0], typed)
-
-
-def comment(keyword: str, text: str) -> Damage:
-    """A line put behind that of a keyword."""
-
-    def insert(draft: Draft) -> None:
-        draft.insert(draft.block(keyword)[0], text)
-
-    return insert
-
-
-def swap(keyword: str, key: str, old: str, new: str) -> Damage:
-    """Another text for a part of a setting."""
-    return lambda draft: draft.swap(draft.setting(keyword, key), old, new)
+KINDS = _kinds()

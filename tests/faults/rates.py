@@ -14,20 +14,8 @@ from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
 from mudline.language.diagnostics import Diagnostic, Severity
 from tests.faults.draft import Draft, NotHere
-from tests.faults.kind import Kind
-from tests.faults.kinds_copies import COPIES, NUMBERS
-from tests.faults.kinds_curves import CURVES
-from tests.faults.kinds_keywords import KEYWORDS
-from tests.faults.kinds_lengths import LENGTHS
-from tests.faults.kinds_lines import LINES
-from tests.faults.kinds_seabed import SEABED
-from tests.faults.kinds_typing import TYPING
-from tests.faults.kinds_units import UNITS
+from tests.faults.kind import KINDS, Kind
 from tests.faults.legal import LegalDeck, legal_decks
-
-KINDS: list[Kind] = [
-    kind for group in (UNITS, LENGTHS, TYPING, KEYWORDS, COPIES, NUMBERS, CURVES, SEABED, LINES) for kind in group.kinds
-]
 
 PER_KIND = 4
 """Decks that a fault of one kind is done to, of different units where there are such decks."""
@@ -115,5 +103,5 @@ def _outcome(fault: Fault, found: list[Diagnostic], own: Counter[str]) -> Outcom
 
 
 def _says(fault: Fault, finding: Diagnostic) -> bool:
-    severe = fault.kind.info or finding.severity is not Severity.INFO
+    severe = finding.severity is not Severity.INFO
     return severe and finding.code in fault.kind.codes and finding.line in fault.lines

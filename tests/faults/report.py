@@ -8,8 +8,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.language.diagnostics import Severity
+from tests.faults.kind import KINDS
 from tests.faults.known import BURIED, MISSED
-from tests.faults.rates import KINDS, Outcome, Run
+from tests.faults.rates import Outcome, Run
 
 PAGE = Path(__file__).parents[2] / "docs" / "linting.md"
 _BEGIN, _END = "<!-- Rates of faults: made by `make docs` -->\n", "<!-- End of the rates -->\n"

@@ -6,8 +6,9 @@ import pytest
 
 from mudline.language.diagnostics import Severity
 from tests.faults import report
+from tests.faults.kind import KINDS, MODULES
 from tests.faults.known import BURIED, MISSED
-from tests.faults.rates import KINDS, Outcome, Run, run
+from tests.faults.rates import Outcome, Run, run
 
 LEAST_FOUND, MOST_BURIED, MOST_FALSE = 0.965, 0.025, 0.02
 """Shares of the faults, and of the legal decks."""
@@ -16,6 +17,13 @@ LEAST_FOUND, MOST_BURIED, MOST_FALSE = 0.965, 0.025, 0.02
 def test_every_kind_says_what_was_done_and_what_is_expected() -> None:
     assert len(KINDS) == len({kind.slug for kind in KINDS}) >= 60
     assert all(kind.did.endswith(".") and kind.codes for kind in KINDS)
+    functions = {
+        name.replace("_", "-")
+        for module in MODULES
+        for name, found in vars(module).items()
+        if getattr(found, "__module__", "") == module.__name__ and not name.startswith("_")
+    }
+    assert functions < {kind.slug for kind in KINDS}, "a function without its row in kinds.txt"
 
 
 @pytest.mark.slow

@@ -20,12 +20,14 @@ from tests.docs.commands import output, run
 from tests.docs.make import BY_HAND, ROOT, documents, made_files, pages
 from tests.docs.refresh import copy_of_files
 from tests.helpers.processes import TIMEOUT
+from tests.helpers.shared import ALL
 
+DECKS = sorted(path.name for path in (ROOT / "samples").glob("*.keyx?"))[:: 1 if ALL else 5]
 JSON = {
     "lint": ("lint samples", "lint samples/flowline-gen.keyxm", "lint samples/missing.yaml"),
     "validate": ("validate samples",),
-    "show": tuple(f"show samples/{deck.name}" for deck in (ROOT / "samples").glob("*.keyx?")),
-    "sheet": tuple(f"show --sheet samples/{deck.name}" for deck in (ROOT / "samples").glob("*.keyx?")),
+    "show": tuple(f"show samples/{name}" for name in DECKS),
+    "sheet": tuple(f"show --sheet samples/{name}" for name in DECKS),
     "curves": (
         "curves samples/legacy-flowline.keyxm --at -1 --at 0.2 --at 3 --weight 400",
         "curves samples/flowline-gen.keyxm",
@@ -103,7 +105,13 @@ def test_commands_print_what_the_page_shows(path: Path) -> None:
             assert agree(command.shown, printed), f"{identity(path)}:{command.line} printed\n" + "\n".join(printed)
 
 
-@pytest.mark.parametrize("path", with_blocks("python", "pycon"), ids=identity)
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, id=identity(path), marks=pytest.mark.nightly if path.parent.name == "studies" else ())
+        for path in with_blocks("python", "pycon")
+    ],
+)
 def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path, checkout: Path) -> None:
     for language, interpreter in (("python", [sys.executable]), ("pycon", [sys.executable, "-m", "doctest"])):
         for block in Page.read(path).blocks:

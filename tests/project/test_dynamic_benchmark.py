@@ -39,6 +39,7 @@ def test_decks_have_no_findings_but_that_suction_softens() -> None:
         assert {finding.code for finding in mudline.lint(deck)} <= {"STB001", "TIM005", "GEO010"}
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize(("name", "steps"), [("newmark", 1), ("rk4", 4)])
 def test_a_run_comes_out_as_it_is_in_the_table(name: str, steps: int) -> None:
     found = dict(zip(RUNS, row(name, steps, *measure(name, steps), Truth.of(kept_rows("path"))), strict=True))
@@ -49,6 +50,7 @@ def test_a_run_comes_out_as_it_is_in_the_table(name: str, steps: int) -> None:
         assert found[heading] == pytest.approx(float(kept[heading]), rel=1e-3, abs=1e-9), heading
 
 
+@pytest.mark.nightly
 def test_the_reference_comes_out_as_it_is_in_the_table() -> None:
     system, times, kept = lifting(), MOMENTS[:11], kept_rows("path")[:11]
     path = Reference(system, Tolerance(1e-6, 4e-3)).run(times)
@@ -113,6 +115,7 @@ def test_what_the_page_says_of_the_chain_holds_in_its_tables() -> None:
         assert missing == pytest.approx(taken["catenary"] - taken["mudline"], rel=0.1)
 
 
+@pytest.mark.nightly
 def test_a_chain_comes_out_as_it_is_in_the_table() -> None:
     case = CASES[1]
     kept = [
@@ -123,6 +126,7 @@ def test_a_chain_comes_out_as_it_is_in_the_table() -> None:
         assert found[4:] == pytest.approx([float(one[heading]) for heading in CHAINS[4:]], rel=1e-6)
 
 
+@pytest.mark.nightly
 def test_the_bouncing_beam_comes_out_as_it_is_in_the_table() -> None:
     moments = TIMES[:36]
     beam, path = fall(Tolerance(1e-6, 4e-3), moments)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import subprocess
-import sys
 import tarfile
 import tomllib
 import zipfile
@@ -13,9 +12,8 @@ from pathlib import Path
 import pytest
 
 from hatch_build import description
-from tests.helpers.checkout import copy_of_checkout
+from tests.helpers.checkout import build
 from tests.helpers.lowest import constraints
-from tests.helpers.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
@@ -25,44 +23,29 @@ TABLES = ("deck.tables", "blocks.tables", "expression.tables")
 LONGEST_FILE = 450
 
 
-def built(kind: str, of: Path, into: Path) -> Path:
-    """The wheel or the source archive of a folder."""
-    build = [sys.executable, "-m", "hatchling", "build", "-t", kind, "-d", str(into)]
-    subprocess.run(build, cwd=of, capture_output=True, timeout=TIMEOUT, check=True)
-    (made,) = into.glob("*.whl" if kind == "wheel" else "*.tar.gz")
-    return made
-
-
-def contents(wheel: Path) -> dict[str, bytes]:
+def contents(folder: Path) -> dict[str, bytes]:
+    """The files in the wheel of a folder."""
+    (wheel,) = folder.glob("*.whl")
     with zipfile.ZipFile(wheel) as archive:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
-@pytest.fixture(scope="module")
-def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return copy_of_checkout(tmp_path_factory.mktemp("checkout"))
+@pytest.fixture
+def wheel_names(packages: Path) -> set[str]:
+    return set(contents(packages))
 
 
 @pytest.mark.slow
-def test_the_source_archive_makes_the_same_wheel(checkout: Path, tmp_path: Path) -> None:
-    with tarfile.open(built("sdist", checkout, tmp_path / "source")) as archive:
+def test_the_source_archive_makes_the_same_wheel(packages: Path, tmp_path: Path) -> None:
+    (source,) = packages.glob("*.tar.gz")
+    with tarfile.open(source) as archive:
         archive.extractall(tmp_path / "unpacked", filter="data")
     (unpacked,) = (tmp_path / "unpacked").iterdir()
-    one = contents(built("wheel", checkout, tmp_path / "checkout"))
-    other = contents(built("wheel", unpacked, tmp_path / "archive"))
+    build(unpacked, tmp_path / "archive", "wheel")
+    one, other = contents(packages), contents(tmp_path / "archive")
     assert list(one) == list(other)
     differ = {Path(name).name for name, data in one.items() if data != other[name]}
     assert differ <= {"RECORD", *TABLES}  # lark numbers the states of a parser in another order each time
-
-
-@pytest.fixture(scope="module")
-def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return built("wheel", checkout, tmp_path_factory.mktemp("dist"))
-
-
-@pytest.fixture(scope="module")
-def wheel_names(wheel: Path) -> set[str]:
-    return set(contents(wheel))
 
 
 def test_wheel_holds_every_module(wheel_names: set[str]) -> None:

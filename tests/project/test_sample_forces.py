@@ -49,23 +49,6 @@ def test_riser_by_hand(riser: Evaluated) -> None:
     assert riser.scene.law_names[160] == "none"
 
 
-def test_touchdown_moves_with_heave(riser: Evaluated) -> None:
-    scene = riser.scene
-    positions = read_positions(SAMPLES / "positions.csv", scene.nodes)
-    assert positions.time is not None
-    assert positions.time.tolist() == [1.5 * step for step in range(8)]
-    assert scene.node_ids[positions.present].tolist() == list(range(71, 132))
-    result = scene.contact().evaluate(positions.whole, present=positions.present)
-    assert int(result.evaluated.sum()) == 60
-    last = [int(scene.element_ids[np.flatnonzero(step)[-1]]) for step in result.contact]
-    assert last == [97, 95, 94, 95, 97, 99, 100, 99]
-    total = np.nansum(result.normal_force, axis=1)
-    assert np.argsort(total)[[0, -1]].tolist() == [2, 6]
-    still = riser.result.force[result.evaluated]
-    assert result.force[0, result.evaluated] == pytest.approx(still, rel=1e-12)
-    assert result.force[4, result.evaluated] == pytest.approx(still, abs=5.0)
-
-
 # ----------------------------------------------------------------------------------------------- the other decks
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 
@@ -69,14 +70,13 @@ def sets(count: int) -> str:
 
 
 @pytest.mark.untraced
-@pytest.mark.parametrize("text", [parameters, keywords, settings, sets])
+@pytest.mark.parametrize(("text", "count"), [(parameters, 125), (keywords, 62), (settings, 125), (sets, 125)])
 def test_misspelt_names_cost_as_much_as_they_are_many(
-    text: object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    text: Callable[[int], str], count: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """An eighth of the names that would cost too much, with a 64th of the effort."""
-    monkeypatch.setattr(Effort.__init__, "__defaults__", (Effort().left // 64,))
-    assert callable(text)
-    paths = [tmp_path / f"{count}.keyxm" for count in (125, 250)]
+    """A fraction of the names that would cost too much, and as much less effort."""
+    monkeypatch.setattr(Effort.__init__, "__defaults__", (Effort().left * count // 8000,))
+    paths = [tmp_path / f"{number}.keyxm" for number in (count, 2 * count)]
     for path in paths:
-        path.write_text(str(text(int(path.stem))), encoding="utf-8")
+        path.write_text(text(int(path.stem)), encoding="utf-8")
     assert call_growth(lambda path: list(mudline.lint(path)), *paths) < TWOFOLD

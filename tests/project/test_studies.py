@@ -29,6 +29,7 @@ def test_the_tables_of_a_page_are_those_of_its_files(page: str) -> None:
     assert pictures == set(re.findall(r"\]\((\S+\.png)\)", text))
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("name", ["velocity-verlet", "newmark", "rk4"])
 def test_the_largest_steps_meet_their_goal_and_the_next_ones_do_not(name: str) -> None:
     rows = {(row["case"], row["scheme"]): row for row in load(NAME)}

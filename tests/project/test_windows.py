@@ -1,17 +1,15 @@
-"""What Windows has and this system need not: drives, consoles of a byte a character, CRLF. They run everywhere."""
+"""What Windows has and this system need not: drives, and consoles of a byte a character. They run everywhere."""
 
 from __future__ import annotations
 
 import ntpath
 from collections import Counter
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
-from tests.cli.runner import ROOT, SAMPLES, run
+from tests.cli.runner import ROOT, run
 
-DECKS = sorted(SAMPLES.glob("*.keyx?"))
 PROMISED = ("cp1252", "cp850", "cp437")
 """The consoles of western Europe and America."""
 
@@ -42,6 +40,7 @@ def test_an_archive_holds_decks_of_another_drive(windows: SimpleNamespace, monke
     assert archive._gone == [gone]
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("encoding", PROMISED)
 @pytest.mark.parametrize(
     "words",
@@ -66,22 +65,3 @@ def test_a_console_of_one_byte_a_character_shows_everything(
     assert outcome.output
     assert b"\\u" not in outcome.output + outcome.errors
     assert b"\\x" not in outcome.output + outcome.errors
-
-
-@pytest.mark.alike
-@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.name)
-def test_line_ends_of_windows_change_no_finding_and_no_force(
-    deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    data = deck.read_bytes().replace(b"\r\n", b"\n")
-    answers = []
-    for folder, text in (("lf", data), ("crlf", data.replace(b"\n", b"\r\n"))):
-        (tmp_path / folder).mkdir()
-        monkeypatch.chdir(tmp_path / folder)
-        for beside in (path for path in SAMPLES.iterdir() if path.is_file() and path != deck):
-            (tmp_path / folder / beside.name).write_bytes(beside.read_bytes())
-        (tmp_path / folder / deck.name).write_bytes(text)
-        lint = run("lint", deck.name, "--output-format", "concise", "--no-cache")
-        evaluated = run("evaluate", deck.name, "--output-format", "csv", "-q")
-        answers.append((lint.code, lint.out, evaluated.code, evaluated.out))
-    assert answers[0] == answers[1]

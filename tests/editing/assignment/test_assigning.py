@@ -14,6 +14,7 @@ from tests.helpers.builders.decks import CLEAN
 
 TIMES = CLEAN + "$LOAD CASE\n*TIME\n STEP=FIXED\n 0.0, 10.0,  0.05, 2.0\nC the end\n"
 TWO_SETS = CLEAN.replace("*SEABED STIFFNESS", " SET=Rest\n STIFFNESS=5000\n FRICTION=0.3, 0.5\n*SEABED STIFFNESS")
+BOUNDARY = CLEAN + "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n GEN=1, 3, 2\n"
 COLUMNS = CLEAN.replace(" 0.1, 1000.0\n 0.5, 3000.0\n", " 0.1 ,  1000.0\n 0.25,  3000.0\nC a comment\n 0.50, 12000.0\n")
 
 
@@ -77,6 +78,7 @@ def test_a_deck_may_have_no_such_value(text: str) -> None:
             r"DYNAMIC, TIME DOMAIN, FREQUENCY DOMAIN \(did you mean DYNAMIC\?\)",
         ),
         (CLEAN, "NODE[node=2].node=2.5", "expected a whole number"),
+        (BOUNDARY, "BOUNDARY.generate.start=1.5", "expected a whole number"),
         (CLEAN, "OCEAN.depth=-1", "must be greater than 0"),
         (TIMES, "TIME.step=0", "must be greater than 0"),
         (CLEAN, "GEOMETRIC SETS.Do=0.4", "would have a new error"),

@@ -105,11 +105,6 @@ def test_what_conversion_writes_is_canonical(path: Path, form: str) -> None:
     assert formatted(data, f"deck.{form}") == data
 
 
-@given(deck_texts(), st.booleans())
-def test_decks(text: str, bom: bool) -> None:
-    check((BOM if bom else b"") + text.encode())
-
-
 _sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES if path.suffix.startswith(".key")])
 
 

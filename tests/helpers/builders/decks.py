@@ -4,37 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
+
+
+def _text(name: str) -> str:
+    """A deck of the folder beside this file."""
+    return Path(__file__).with_name("texts").joinpath(name).read_text(encoding="utf-8")
+
 
 # ---------------------------------------------------------------------------------------------- two elements, by hand
 
-CLEAN = """\
-$MODEL
-*OCEAN
- 100.0, 1025.0, 9.81
-*NODE
- 1, -0.1, 0.0
- 2, -0.1, 10.0
- 3, 0.3, 20.0
-*ELEMENT
- 1, 1, 2
- 2, 2, 3
-*ELEMENT SETS
- SET=Pipe
- 1, 2
-*GEOMETRIC SETS
- OPTION=RIGID
- SET=Pipe
- 207.0E9, 79.6E9, 0.5, 0.46, 7850.0
-*SEABED PROPERTIES
- TYPE=ELASTIC
- SET=Pipe
- STIFFNESS=Clay
-*SEABED STIFFNESS
- CURVE=Clay
- 0.0, 0.0
- 0.1, 1000.0
- 0.5, 3000.0
-"""
+CLEAN = _text("clean.keyxm")
 """Element 1 lies 0.1 deep: ratio 0.2, force 1500 per length over 10; element 2 is 0.1 above the bed."""
 
 CLEAN_WARNING = (
@@ -96,29 +76,7 @@ CLAY = """\
  0.5, 4000.0
 """
 
-PIPE_WITH_SETS = """\
-$MODEL
-*NODE
- 1, -0.05, 0.0
- 13, -0.05, 120.0
- GEN=1, 13
-*ELEMENT
- 1, 1, 2
- GEN=1, 12
-*ELEMENT SETS
- SET=West
- GEN=1, 6
- SET=East Bank
- GEN=5, 10
- SET=7
- 3, 9
-*GEOMETRIC SETS
- OPTION=RIGID
- SET=ALL
- 207.0E9, 79.6E9, 0.25, 0.22, 7850.0
- SET=West
- 207.0E9, 79.6E9, 0.3, 0.27, 7850.0
-"""
+PIPE_WITH_SETS = _text("pipe-with-sets.keyxm")
 """Twelve elements of 10 m; West and East Bank overlap, 7 lies in both; two diameters."""
 
 LINEAR_BED = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000\n"
@@ -246,35 +204,9 @@ def ordered_deck(order: Callable[[list[str]], list[str]] = list) -> str:
 
 # ------------------------------------------------------------------------------------------- decks that describe others
 
-VARIED_MODEL = """\
-$MODEL
-*OCEAN
- =[Depth], 1025.0, 9.81
-*NODE
- 1, -0.1, 0.0
- 2, -0.1, 10.0
-*ELEMENT
- 1, 1, 2
-C behind the elements
-$LOAD CASE
-*TOP TENSION
- =[Offset]
-C waves
-*WAVE-REGULAR
- 1.0, =[Period], 0.0
-"""
+VARIED_MODEL = _text("varied-model.keyxm")
 
-VARIED_PARAMETERS = """\
-$PREPROCESSOR
-*PARAMETERS
- Depth, 100.0
- Offset, -50
-C in seconds
- Period , 08
- Folder, "Near side"
- Twice, =[2*Depth]
- Point, /X:11, Y:22/
-"""
+VARIED_PARAMETERS = _text("varied-parameters.keyxm")
 
 
 def varied_deck(variations: str, combinations: str) -> str:

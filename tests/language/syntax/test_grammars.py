@@ -71,6 +71,7 @@ def test_tables_are_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(parse(Source("", "$MODEL\n*NODE\n 1, 2\n")).sections) == 1
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("at", [0, 1, 2])
 def test_tables_of_another_lark_class_or_grammar_are_not_read(folder: Path, at: int) -> None:
     saved = [*pickle.loads(grammars.save_tables("blocks").read_bytes())]  # noqa: S301 - made by the line itself

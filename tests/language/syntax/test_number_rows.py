@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable
-from unittest.mock import patch
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import mudline
 from mudline.language.diagnostics import DeckError, Span
-from mudline.language.syntax import rows
 from mudline.language.syntax.rows import line_spans, read_number, read_rows, read_rows_slow, row_starts
 from mudline.language.syntax.source import Source
-from tests.language.syntax.test_rows import STRANGE, is_same
+from tests.language.syntax.test_rows import is_same
 
 RNG = np.random.default_rng(20)
 MANY = 10_000
@@ -68,56 +65,6 @@ def test_many_numbers_of_a_spelling(name: str, comma: str) -> None:
     expected = np.array([read_number(word) for word in given_words], dtype=np.float64)
     assert found.values.ravel().tobytes() == expected.tobytes()
     assert found.words == {}
-
-
-ODD_SPELLINGS = [
-    *STRANGE,
-    *("1D3", "1d-3", "1.5D+03", ".5", "5.", "-.5", "+1", "+.5", "1.e5", "-0.0", "0e999", "007", "1e05", "1E+05"),
-    *("'1'", "\\1", "#1", "x", "1\t", "\t1", " 1 ", "1;2", "1,", "0" * 500, "1" * 390 + ".5"),
-    *("0." + "3" * 398, "0." + "3" * 399, "1e" + "0" * 399 + "1", "1" * 200 + "." + "1" * 200),
-]
-
-
-def bits(value: int) -> str:
-    """The shortest spelling of a finite double of any bits."""
-    number = struct.unpack("<d", struct.pack("<Q", value))[0]
-    return repr(number) if np.isfinite(number) else "0"
-
-
-PLAIN = st.one_of(
-    st.integers(0, 2**64 - 1).map(bits),
-    st.integers(-(10**20), 10**20).map(str),
-    st.builds("{}{}{}{}".format, st.sampled_from(["", "-"]), st.integers(0, 10**25), st.sampled_from(["", ".", ".50"]),
-              st.one_of(st.just(""), st.integers(-330, 310).map("e{}".format), st.integers(0, 310).map("E+{}".format))),
-)  # fmt: skip
-
-
-def holds_the_slow_rows(text: str, columns: int) -> None:
-    span = Span(0, len(text))
-    slow = read_rows_slow(text, span, columns)
-    for piece in (1, 40, rows.PIECE):
-        with patch.multiple(rows, PIECE=piece, _SMALLEST=2):
-            assert is_same(read_rows(text, span, columns), slow)
-
-
-@given(
-    st.lists(
-        st.lists(st.one_of(PLAIN, st.sampled_from(ODD_SPELLINGS)), min_size=1, max_size=4), min_size=1, max_size=8
-    ),
-    st.sampled_from([", ", ",", " ", "\t,", " ,\t"]),
-    st.sampled_from(["\n", "\r\n", " \n", "\n\n", "\n \n", "\n\t\r\n"]),
-    st.integers(1, 4),
-)
-def test_rows_of_any_fields(fields: list[list[str]], comma: str, end: str, columns: int) -> None:
-    holds_the_slow_rows(end.join(comma.join(row) for row in fields), columns)
-
-
-@given(st.text(st.sampled_from("1.5e+-, \t\n\r\0\x0b\ufeff\"'"), max_size=60))
-@example("1,2\r3,4\n")
-@example("\ufeff1,2\n3,4\n")
-@example("1,2\n\n3,4\n")
-def test_any_text(text: str) -> None:
-    holds_the_slow_rows(text.replace("\r", "\r\n"), 2)
 
 
 BAD = {

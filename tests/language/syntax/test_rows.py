@@ -19,7 +19,7 @@ from tests.helpers.builders.spellings import ODD_NUMBERS, numbers
 NO_NUMBERS = [
     *("", " ", "1 ", " 1", "e5", "1e", "1e+", ".", "+", "-", "--1", "+-1", "1.2.3", "1,5", "0x10", "1_000", "1f"),
     *("1\n", "1e400", "-1e400", "1D400", "9" * 309, "1" * 401, "nan", "NaN", "inf", "-Infinity", "true"),
-    *("\u0661\u0662", "1\xa0", "\uff11"),
+    *("\u0661\u0662", "1\xa0", "\uff11", "'1'", "\\1", "#1", "x", "1;2"),
 ]
 """What looks like a number."""
 STRANGE = [
@@ -99,6 +99,8 @@ def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
 @example("1. .5\n-.5 +2.D1\n", 2)
 @example("1 - 2\n", 3)
 @example("1..2\n", 2)
+@example("1,2\n \n3,4\n", 2)
+@example("\ufeff1,2\n3,4\n", 2)
 @example(f"0.{'1' * 500}\n", 1)
 def test_any_text_of_the_fast_alphabet(text: str, columns: int) -> None:
     compared(text, columns)

@@ -6,8 +6,8 @@ import base64
 import hashlib
 import os
 import re
+import shutil
 import subprocess
-import sys
 import venv
 import zipfile
 from importlib import metadata
@@ -17,8 +17,8 @@ import pytest
 import yaml
 
 import mudline
-from tests.helpers.checkout import copy_of_checkout
 from tests.helpers.processes import TIMEOUT
+from tests.helpers.shared import shared
 from tests.project.integration.recipes import BASH
 
 ROOT = Path(__file__).parents[3]
@@ -62,22 +62,22 @@ def packed(name: str, folder: Path) -> None:
         wheel.writestr(f"{info}/RECORD", "".join([*record, f'"{info}/RECORD",,\n']))
 
 
-@pytest.fixture(scope="module")
-def wheels(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="session")
+def wheels(packages: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with wheel and source archive of mudline, and wheels of what installing them needs."""
-    folder = tmp_path_factory.mktemp("wheels")
-    build = [sys.executable, "-m", BUILD, "build", "-d", str(folder)]
-    checkout = copy_of_checkout(tmp_path_factory.mktemp("checkout"))
-    subprocess.run(build, cwd=checkout, capture_output=True, timeout=TIMEOUT, check=True)
-    core = {re.match(r"[a-z0-9-]+", line)[0] for line in metadata.requires("mudline") or [] if "extra" not in line}  # type: ignore[index]
-    for name in needed({*core, BUILD, "typing-extensions"}):
-        packed(name, folder)
-    return folder
+
+    def pack(folder: Path) -> None:
+        shutil.copytree(packages, folder, dirs_exist_ok=True)
+        core = {re.match(r"[a-z0-9-]+", line)[0] for line in metadata.requires("mudline") or [] if "extra" not in line}  # type: ignore[index]
+        for name in needed({*core, BUILD, "typing-extensions"}):
+            packed(name, folder)
+
+    return shared(tmp_path_factory, "wheels", pack)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_it_installs_without_a_network(wheels: Path, tmp_path: Path) -> None:
-    """From the source archive, of which a wheel is built on the way."""
+    """From the source archive, of which a wheel is built on the way; a wheel is installed for the container."""
     (archive,) = wheels.glob("mudline-*.tar.gz")
     home = tmp_path / "empty"
     venv.create(home, with_pip=True)

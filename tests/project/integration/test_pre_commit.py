@@ -54,6 +54,7 @@ def test_there_are_hooks_to_lint_and_to_format() -> None:
     assert sorted(HOOKS) == ["mudline-format", "mudline-lint"]
 
 
+@pytest.mark.nightly
 def test_format_rewrites_a_deck_and_then_passes(repository: Path) -> None:
     first = run(repository, "mudline-format", deck__keyxm=CLEAN.replace("*OCEAN\n ", "*ocean\n    "))
     assert (first.returncode, "files were modified" in first.stdout) == (1, True), first.stdout + first.stderr

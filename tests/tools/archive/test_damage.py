@@ -54,6 +54,7 @@ def archive(decks: Path) -> Path:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.alike
 @pytest.mark.parametrize(("move", "done"), [(3, False), (9, True), (14, True)])
 def test_a_killed_run_leaves_the_archive_before_or_behind_it(archive: Path, decks: Path, move: int, done: bool) -> None:
     """Killed while it writes the third table, and while it moves the written ones to their places."""

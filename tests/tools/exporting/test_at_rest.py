@@ -24,6 +24,7 @@ COARSE = {"reaction": 0.03, "touchdown": 0.6, "penetration": 0.08}
 """Of a riser whose elements of 10 ft are longer than its bending length at touchdown, sqrt(EI/T), of some 7 ft."""
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("name", DECKS)
 def test_reaction_touchdown_and_penetration_agree(name: str, tmp_path: Path) -> None:
     bounds = COARSE if name == "imperial-riser.keyxi" else CLOSE

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 import mudline
 from mudline.language.diagnostics import DeckError
@@ -31,6 +32,21 @@ def hills(columns: int, rows: int, seed: int, height: float = 3.0) -> Floats:
         a, b, size = chance.uniform(0, 5.0 * columns), chance.uniform(0, 5.0 * rows), chance.uniform(5.0, 60.0)
         level += height * chance.normal() * np.exp(-((x - a) ** 2 + (y - b) ** 2) / size**2)
     return np.column_stack([level.ravel(), x.ravel(), y.ravel()])
+
+
+def picture(path: Path, level: NDArray[np.generic], *, crs: str = "EPSG:32631", **band: tuple[object]) -> Path:
+    """A GeoTIFF of cells of 5 m, with attributes of its one band."""
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    form = {"driver": "GTiff", "height": level.shape[0], "width": level.shape[1], "count": 1, "dtype": level.dtype}
+    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
+    with rasterio.open(path, "w", transform=place, crs=crs, **form) as target:
+        target.write(level, 1)
+        for name, value in band.items():
+            setattr(target, name, value)
+    return path
+
+
+ONES = np.ones((3, 4), dtype=np.float32)
 
 
 def test_cells_of_esri_asc_are_at_their_middles_from_the_north(tmp_path: Path) -> None:
@@ -114,12 +130,7 @@ def test_a_geotiff_becomes_a_deck_that_is_evaluated(tmp_path: Path) -> None:
 
 
 def test_degrees_are_refused(tmp_path: Path) -> None:
-    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
-    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:4326"}
-    with rasterio.open(
-        tmp_path / "bed.tif", "w", transform=rasterio.Affine(0.1, 0.0, 2.0, 0.0, -0.1, 58.0), **form
-    ) as target:
-        target.write(np.ones((3, 4), dtype=np.float32), 1)
+    picture(tmp_path / "bed.tif", ONES, crs="EPSG:4326")
     outcome = run("convert", str(tmp_path / "bed.tif"), "-o", str(tmp_path / "bed.keyxm"), "--within", "1")
     assert outcome.code == 1
     assert "its coordinates are not in metres: project it" in outcome.err
@@ -167,22 +178,13 @@ def test_points_above_the_sea_are_told(tmp_path: Path) -> None:
     [(0.1, 0.0, "", -10.0), (0.01, -5.0, "metre", -6.0), (1.0, 0.0, "ft", -30.48), (1.0, 0.0, "cm", -1.0)],
 )
 def test_scale_offset_and_unit_of_a_band(scale: float, offset: float, unit: str, first: float, tmp_path: Path) -> None:
-    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
-    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "int16", "crs": "EPSG:32631"}
-    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
-    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
-        target.write(np.full((3, 4), -100, dtype=np.int16), 1)
-        target.scales, target.offsets, target.units = (scale,), (offset,), (unit,)
+    level = np.full((3, 4), -100, dtype=np.int16)
+    picture(tmp_path / "bed.tif", level, scales=(scale,), offsets=(offset,), units=(unit,))
     assert read_bed(tmp_path / "bed.tif", "geotiff")[:, 0] == pytest.approx([first] * 12, rel=1e-12)
 
 
 def test_an_unknown_unit_of_a_band_is_refused(tmp_path: Path) -> None:
-    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
-    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:32631"}
-    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
-    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
-        target.write(np.ones((3, 4), dtype=np.float32), 1)
-        target.units = ("furlong",)
+    picture(tmp_path / "bed.tif", ONES, units=("furlong",))
     with pytest.raises(DeckError, match="its elevations are in 'furlong': convert them to metres"):
         read_bed(tmp_path / "bed.tif", "geotiff")
 
@@ -209,11 +211,7 @@ def test_wrong_usage(arguments: tuple[str, ...], message: str, tmp_path: Path, m
 
 
 def test_a_picture_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
-    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:32631"}
-    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
-    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
-        target.write(np.ones((3, 4), dtype=np.float32), 1)
+    picture(tmp_path / "bed.tif", ONES)
     monkeypatch.setattr("mudline.tools.exporting.bathymetry.MOST_CELLS", 11)
     with pytest.raises(DeckError, match="cut out what lies around the line"):
         read_bed(tmp_path / "bed.tif", "geotiff")

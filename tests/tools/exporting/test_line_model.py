@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from types import ModuleType
 
 import numpy as np
@@ -23,13 +22,6 @@ CURVE = (
     "*SEABED STIFFNESS\n CURVE=Soft\n 0.0, 0.0\n 0.1, 200.0\n 0.3, 600.0\n 0.5, 700.0\n"
     "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Soft\n"
 )
-
-
-def refused(deck: str, name: str = "deck.keyxm") -> str:
-    with pytest.raises(DeckError) as caught:
-        model_of(deck, name)
-    (found,) = caught.value.diagnostics
-    return f"{found.line}: {found.message}"
 
 
 def test_a_line_has_the_lengths_places_and_ends_of_the_deck() -> None:
@@ -122,11 +114,6 @@ def test_curves_of_stiffness_have_their_slope_at_0() -> None:
     assert {flowline.buoyancy, straked.buoyancy, touchdown.diameter} == {0.27305}
 
 
-def test_the_imperial_sample_has_the_bending_stiffness_of_its_curve() -> None:
-    riser = sample("imperial-riser.keyxi").sections[0]
-    assert riser.bending == pytest.approx(264_482.12)  # 3200 lbf ft at 0.005 1/ft
-
-
 def test_a_curve_is_its_secant_where_it_carries_the_weight() -> None:
     (soil,) = model_of(text(bed=CURVE)).soils
     ratio = 0.1 + (WEIGHT - 200.0) / 2000.0
@@ -173,38 +160,32 @@ def test_springs_below_friction_are_those_of_the_mobilisation_lengths_or_of_the_
     assert (soil.axial, soil.lateral, soil.axial_spring, soil.lateral_spring) == (0.2, 0.4, 2000.0, 2000.0)
 
 
+FLEXIBLE = " OPTION=FLEXIBLE\n SET=ALL\n , , , , 50.0, 0.1, 0.0, 0.1, 0.1\n"
+HALF = "*ELEMENT SETS\n SET=Half\n GEN=1, 5\n"
+OF_LINES = "$MODEL\n*OCEAN\n 100.0\n*LINES\n LINE=A\n SECTION=B, 5.0\n"
+RING = text().replace("*GEOMETRIC", "*NODE\n 12, 0.0, 25.0, 20.0\n*ELEMENT\n 11, 11, 12\n 12, 12, 1\n*GEOMETRIC")
+
+
 @pytest.mark.parametrize(
-    ("deck", "message"),
+    ("deck", "units", "message"),
     [
-        (text(held=" 1, 1\n"), "6: node 11 ends a line, and nothing in *BOUNDARY holds it"),
-        (text(held=" 1, 4\n 11, 1\n"), "5: node 1 ends a line"),
-        (text().partition("$LOAD CASE")[0], "5: node 1 ends a line"),
-        (
-            text(sections=" OPTION=FLEXIBLE\n SET=ALL\n , , , , 50.0, 0.1, 0.0, 0.1, 0.1\n"),
-            "12: the section has no axial",
-        ),
-        (text().replace("*OCEAN\n 100.0, 1000.0, 10.0\n", ""), "1: a model for another program needs *OCEAN"),
-        (
-            text(sets="*ELEMENT SETS\n SET=Half\n GEN=1, 5\n", sections=PIPE.replace("ALL", "Half")),
-            "10: the element has no section",
-        ),
-        (
-            "$MODEL\n*OCEAN\n 100.0\n*LINES\n LINE=A\n SECTION=B, 5.0\n",
-            "4: the deck has no elements to export: those of *LINES",
-        ),
+        (text(held=" 1, 1\n"), "m", "6: node 11 ends a line, and nothing in *BOUNDARY holds it"),
+        (text(held=" 1, 4\n 11, 1\n"), "m", "5: node 1 ends a line"),
+        (text().partition("$LOAD CASE")[0], "m", "5: node 1 ends a line"),
+        (text(sections=FLEXIBLE), "m", "12: the section has no axial"),
+        (text().replace("*OCEAN\n 100.0, 1000.0, 10.0\n", ""), "m", "1: a model for another program needs *OCEAN"),
+        (text(sets=HALF, sections=PIPE.replace("ALL", "Half")), "m", "10: the element has no section"),
+        (OF_LINES, "m", "4: the deck has no elements to export: those of *LINES"),
+        (text().replace("10.0\n", "7.0\n"), "", "give --units metric"),
+        (RING, "m", "the line of this node is closed"),
+        (text(sections=PIPE.replace("1.0E8", "1.0E308")), "i", "not finite in SI units"),
     ],
 )
-def test_what_no_target_can_hold_is_refused_with_its_line(deck: str, message: str) -> None:
-    assert message in refused(deck)
-
-
-def test_a_deck_in_units_of_its_own_is_refused() -> None:
-    assert "give --units metric" in refused(text().replace("10.0\n", "7.0\n"), name="deck.keyx")
-
-
-def test_a_closed_line_is_refused() -> None:
-    ring = text().replace("*GEOMETRIC", "*NODE\n 12, 0.0, 25.0, 20.0\n*ELEMENT\n 11, 11, 12\n 12, 12, 1\n*GEOMETRIC")
-    assert "the line of this node is closed" in refused(ring)
+def test_what_no_target_can_hold_is_refused_with_its_line(deck: str, units: str, message: str) -> None:
+    with pytest.raises(DeckError) as caught:
+        model_of(deck, f"deck.keyx{units}")
+    (found,) = caught.value.diagnostics
+    assert message in f"{found.line}: {found.message}"
 
 
 def test_an_inner_node_that_is_held_divides_the_line() -> None:
@@ -260,14 +241,6 @@ def test_settings_beside_stiffness_and_friction_are_listed() -> None:
         for keyword in ("*SEABED PROPERTIES LATERAL=", "*SEABED PROPERTIES SUCTION=", "*SEABED UNLOADING"):
             assert lost[keyword] is Outcome.LEFT_OUT
         assert lost["*BOUNDARY displacement 0.5"] is Outcome.LEFT_OUT
-
-
-def test_all_targets_are_modules_of_the_package() -> None:
-    assert {import_module(f"mudline.tools.exporting.{name}") for name in ("moordyn", "orcaflex")} == set(TARGETS)
-
-
-def test_numbers_beyond_a_double_in_si_units_are_refused() -> None:
-    assert "not finite in SI units" in refused(text(sections=PIPE.replace("1.0E8", "1.0E308")), name="deck.keyxi")
 
 
 def test_a_motion_of_another_type_holds_and_is_listed() -> None:

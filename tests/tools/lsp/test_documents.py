@@ -64,7 +64,7 @@ def test_changes_keep_lines_and_text(text: str, changes: list[tuple[int, int, st
         range_ = made.range(Span(start, end))
         start, end = made.offset(range_.start), made.offset(range_.end)
         expected = made.text[:start] + new + made.text[end:]
-        made.change(range_, new)
+        made.change(types.Range(range_.end, range_.start) if first > last else range_, new)
         assert made.text == expected
         assert made.starts.tolist() == document(expected).starts.tolist()
 

@@ -15,43 +15,7 @@ from tests.helpers.samples import SAMPLES
 NO_STUDY = "verdict,findings,inputs,model,curves,contact,plan"
 ACTING = {"script", "iframe", "object", "embed", "base", "form", "link", "a:http"}
 CSP = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
-ON_SOIL = """$MODEL
-*NODE
- 1, -0.01, 0, 0
- 2, -0.01, 5, 0
- 3, -0.01, 10, 0
- 4, 7.0, 15, 0
-*ELEMENT
- 1, 1, 2
- GEN=1, 2
- 11, 3, 4
-*ELEMENT SETS
- SET=Laid
- 1, 2
- SET=Free
- 11
-*GEOMETRIC SETS
- OPTION=RIGID
- SET=ALL
- 2.07E11, 7.96E10, 0.3, 0.27, 7850
-*SEABED PROPERTIES
- TYPE=ELASTIC
- SET=Laid
- STIFFNESS=Clay
- SET=Free
- STIFFNESS=Clay
-*SEABED STIFFNESS
- CURVE=Clay
- 0, 0
- 0.5, 900
-*SEABED FRICTION
- SET=Laid
- COEFFICIENTS=0.4, 0.7
- STIFFNESS=40000, 60000
- LATERAL=PEAK-RESIDUAL
- PEAK=1.3, 0.03
- RESIDUAL=0.6, 0.5
-"""
+ON_SOIL = Path(__file__).with_name("on-soil.keyxm").read_text(encoding="utf-8")
 
 
 def long_deck() -> str:
