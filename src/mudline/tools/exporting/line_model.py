@@ -311,10 +311,12 @@ def _report_water(model: LineModel, target: str) -> None:
         )
         if any(section.axial_drag for section in model.sections):
             effects += ["drag along as it is written, on an area that the manual does not show"]
-        if any(section.assumed for section in model.sections):
-            effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
         status = Outcome.APPROXIMATED if effects else Outcome.CARRIED
         model.report.add(where, status, f"Cd, Ca of each {target}", "; ".join(effects))
+    for section in model.sections:
+        if section.assumed:
+            effect = f"drag {_DRAG:g} and added mass {_ADDED:g}, as the deck has none: give *HYDRODYNAMIC SETS"
+            model.report.add(section.where, Outcome.APPROXIMATED, f"Cd, Ca of the {target}", effect)
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
         effect = "its mass at rest; pressure and flow are not written"
         model.report.add(where, Outcome.APPROXIMATED, f"mass of each {target}", effect)

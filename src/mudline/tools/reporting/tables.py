@@ -166,7 +166,7 @@ def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
         text("law", lambda row: cut(row["law"], LONGEST_NAME)),
         text("set", lambda row: cut(row["set"], LONGEST_NAME)),
         number("elements", elements_of),
-        text("values", lambda row: _values(row["values"])),
+        text("values", "words"),
         text("deck line", lambda row: f"line {row['line']} of {row['file']}"),
     )
     note = OPEN if any(row["open"] for row in content["laws"]) else ""
@@ -189,19 +189,6 @@ def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTab
             anchor=f"curve-{place}"
         )
     yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
-
-
-def _values(values: dict[str, Any]) -> str:
-    return "; ".join(f"{name.replace('_', ' ')} {_value(value)}" for name, value in values.items())
-
-
-def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
-    if isinstance(value, dict):
-        return ", ".join(_value(item) for item in value.values())
-    if isinstance(value, list):
-        between = " / " if any(isinstance(item, list) for item in value) else ", "
-        return between.join("-" if item is None else _value(item) for item in value)
-    return shown(value) if isinstance(value, float) else str(value)
 
 
 def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:

@@ -20,7 +20,11 @@ class PointMass(Record):
     mass: Annotated[
         Real,
         about(
-            "mass, or rotary inertia", unit="M", at_least=0, usual=Usual(high=1e7, why="heavier is a hull", remark=True)
+            "mass, or rotary inertia",
+            unit="M",
+            at_least=0,
+            usual=Usual(high=1e7, why="heavier is a hull", remark=True),
+            written_in=("M", "ML2"),
         ),
     ]
     type_: Annotated[
