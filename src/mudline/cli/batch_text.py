@@ -22,6 +22,8 @@ _OF_FORCES = (
     "largest_uplift_element",
     "reaction",
     "submerged_weight",
+    "empty_weight",
+    "contents_case",
     "ratio",
 )
 _LARGE = 1e7

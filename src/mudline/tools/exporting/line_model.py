@@ -27,6 +27,7 @@ from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.pipe import Pipe, pipe_of
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
+from mudline.model.scene.weights import contents_case
 from mudline.tools.exporting.held import End, read_held, report_inside
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
@@ -318,7 +319,8 @@ def _report_water(model: LineModel, target: str) -> None:
             effect = f"drag {_DRAG:g} and added mass {_ADDED:g}, as the deck has none: give *HYDRODYNAMIC SETS"
             model.report.add(section.where, Outcome.APPROXIMATED, f"Cd, Ca of the {target}", effect)
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
-        effect = "its mass at rest; pressure and flow are not written"
+        case = contents_case(model.scene)
+        effect = f"its mass at rest{f' in load case {case}' if case else ''}; pressure and flow are not written"
         model.report.add(where, Outcome.APPROXIMATED, f"mass of each {target}", effect)
 
 

@@ -181,6 +181,7 @@ def _figures(content: PageContent, contact: dict[str, Any] | None, missing: str)
         "ratio": contact["ratio"],
         "positions": contact["positions"],
         "weights_without": contact["weights_without"],
+        "contents_case": contact["contents_case"],
         "warnings": sorted({warning["code"] for warning in contact["warnings"]}),
         "missing": "",
     }
@@ -323,7 +324,9 @@ def _titles(codes: Collection[str]) -> dict[str, str]:
 def _model(scene: Scene) -> dict[str, Any]:
     summary = summarise(scene)
     names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions")
-    return {name: summary[name] for name in (*names, "weights_without")} | {"keywords": summary["sections"]}
+    return {name: summary[name] for name in (*names, "weights_without", "contents_case")} | {
+        "keywords": summary["sections"]
+    }
 
 
 def _curves(scene: Scene) -> dict[str, Any]:
@@ -406,6 +409,7 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "empty_weight": None if watch.balance is None else finite(watch.balance.empty),
         "weights_without": evaluation.weights_without,
+        "contents_case": evaluation.contents_case,
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
         "positions": evaluation.source,

@@ -92,7 +92,7 @@ def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
     doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
     notes = filter(
         None,
-        [f"at {_SHAPES[content['positions']]}; no load case is solved", weight_note(content["weights_without"]), doubt],
+        [f"at {_SHAPES[content['positions']]}; no load case is solved", _weight_note(content), doubt],
     )
     columns = (
         number("touchdown at arc length", lambda _: words, names.length),
@@ -135,7 +135,7 @@ def _model(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     rows = sorted(
         content["static_embedment"], key=lambda row: int(row["element"])
     )  # empty and with contents side by side
-    yield on_page(static_table(rows, names, content["weights_without"], first=False))
+    yield on_page(static_table(rows, names, content["weights_without"], content["contents_case"], first=False))
 
 
 def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
@@ -191,6 +191,10 @@ def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTab
     yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
 
 
+def _weight_note(content: dict[str, Any]) -> str:
+    return weight_note(content["weights_without"], content["contents_case"])
+
+
 def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     figures = [
@@ -205,7 +209,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     if deepest := content["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    notes = [weight_note(content["weights_without"]), *content["notes"]]
+    notes = [_weight_note(content), *content["notes"]]
     yield on_page(
         DisplayTable(
             f"Equilibrium of {_SHAPES[content['positions']]}", _FIGURES, figures, "; ".join(filter(None, notes))
@@ -223,7 +227,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
     ]
-    touchdown = DisplayTable("Touchdown", columns, content["lines"], weight_note(content["weights_without"]))
+    touchdown = DisplayTable("Touchdown", columns, content["lines"], _weight_note(content))
     yield on_page(touchdown)
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = content["warnings"][:SHOWN_ROWS]
