@@ -123,3 +123,14 @@ def test_every_value_has_its_own_unit(tmp_path: Path) -> None:
     words = Page(made(tmp_path, str(imperial), sections="inputs,curves", code=1)).text
     for told in ("mass 8 slug ft2", "stiffness 30 lbf ft/deg", "pitch 1.1 deg/ft", "COHESION=2000 lbf/ft2"):
         assert told in words
+
+
+def test_warnings_of_the_deck_are_told_from_those_of_the_numbers_and_curves_without_a_law(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    bare = ON_SOIL.partition("*SEABED PROPERTIES")[0]
+    deck.write_text(bare + "*MOMENT-CURVATURE\n CURVE=Bend\n 0.0, 0.0\n 4.0, 1.0\n", encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert re.search(r"\d+ warnings? in the deck\.", Page(text).text)
+    assert (
+        'The deck gives no law of the seabed; its other curves are <a href="#more-curves">in the appendix</a>.' in text
+    )
