@@ -84,8 +84,11 @@ def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:
     assert found.ratio == pytest.approx(single.ratio, rel=1e-14)  # numpy adds up weights in another order
     assert found.submerged_weight == pytest.approx(single.submerged_weight, rel=1e-14)
     assert found.empty_weight == pytest.approx(single.empty_weight, rel=1e-14)
-    rounded = dict.fromkeys(("ratio", "submerged_weight", "empty_weight"))
-    assert replace(found, **rounded) == replace(single, **rounded)
+    whole, apart = (
+        replace(row, ratio=None, submerged_weight=None, empty_weight=None)
+        for row in (found, single)  # sums of parts
+    )
+    assert whole == apart
 
 
 def test_a_name_that_is_not_utf_8_is_escaped_in_parquet() -> None:
