@@ -9,7 +9,8 @@ import pytest
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.tools.exporting.decks import ELASTIC, text
 
-PLAIN = text(bed=ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", ""))
+WATER = "*HYDRODYNAMIC SETS\n SET=ALL\n 1.5, 0.0, 2.0, 0.8\n"
+PLAIN = text(bed=ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", "") + WATER)
 
 
 @pytest.mark.parametrize("target", ["moordyn", "orcaflex"])

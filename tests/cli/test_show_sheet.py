@@ -63,7 +63,8 @@ def test_an_imperial_riser_by_hand() -> None:
     assert (riser["mass"], riser["bending"], riser["axial"]) == (3.6, 640_000.0, 1.2e8)
     assert riser["empty_weight"] == pytest.approx(60.419398, rel=1e-7)  # (3.6 - 1.9888 pi / 4 1.05^2) 32.174
     assert stiffener["empty_weight"] == pytest.approx(73.533687, rel=1e-7)  # (5.8 - 1.9888 pi / 4 1.5^2) 32.174
-    assert riser["diameter_over_wall"] == pytest.approx(5.4787373, rel=1e-7)
+    assert riser["diameter_over_wall"] is None  # it is a flexible pipe that gives no Do
+    assert (stiffener["outer_diameter"], stiffener["buoyancy_diameter"]) == (1.9, 1.5)
     assert (riser["contents"], riser["filled_weight"]) == (0.0, riser["empty_weight"])
 
 
@@ -150,3 +151,42 @@ def test_csv_and_workbook_have_the_same_values(tmp_path: Path) -> None:
     assert dict(zip(head, units, strict=True))["empty_weight"] == "[N/m]"
     assert [float(row["filled_weight"]) for row in table] == [row[head.index("filled_weight")] for row in cells]
     assert cells[2][head.index("law")] is None
+
+
+def test_the_load_case_of_the_contents_is_named_where_others_have_others(place: Place) -> None:
+    """Case 2 floods the pipe, case 3 fills one half with oil only up to the mudline: the other half keeps its water."""
+    deck = place(HALVES + FILLED)
+    text = run("show", deck, "--sheet").out
+    assert text.count("load case 3") == 3  # contents, mass and weight
+    for command in ("evaluate", "show", "report"):
+        options = ("-o", "out.html", "--sections", "model,contact") if command == "report" else ()
+        outcome = run(command, deck, *options)
+        words = Path("out.html").read_text(encoding="utf-8") if options else outcome.out
+        assert "weights with the contents of load case 3" in words
+    assert run("evaluate", deck, "--output-format", "json").json()["contents_case"] == 3
+    assert run("batch", deck, "-o", "out", "--output-format", "json").json()[0]["contents_case"] == 3
+
+
+def test_contents_that_are_not_read_are_not_zero(place: Place) -> None:
+    (row,) = rows(place(CLEAN + "$LOAD CASE\n*DRILLING MUD\n 525.0, 1400.0\n"))
+    assert (row["contents"], row["filled_mass"], row["filled_weight"]) == (None, None, None)
+    text = run("show", "deck.keyxm", "--sheet").out
+    assert "not read" in text
+    assert "unknown" in text
+
+
+def test_diameters_of_drag_and_buoyancy_where_they_differ(place: Place) -> None:
+    rigid = "207.0E9, 79.6E9, 0.5, 0.46, 7850.0"
+    assert rigid in CLEAN
+    (row,) = rows(place(CLEAN.replace(rigid, rigid + ", , , , 0.7, 0.5")))
+    assert (row["drag_diameter"], row["buoyancy_diameter"]) == (0.7, None)
+    assert row["diameter_over_wall"] == pytest.approx(0.5 / 0.02)
+    flexible = CLEAN.replace("OPTION=RIGID", "OPTION=FLEXIBLE").replace(
+        rigid, "1.0E5, 1.0E5, 1.0E5, 5.0E8, 150.0, 0.5, 0.2, 0.35, 0.32"
+    )
+    (row,) = rows(place(flexible))
+    assert (row["outer_diameter"], row["buoyancy_diameter"], row["diameter_over_wall"]) == (0.35, 0.32, None)
+    oil = "$LOAD CASE\n*INTERNAL FLUID\n SET=ALL\n 50.0, 900.0\n"
+    (row,) = rows(place(CLEAN.replace("OPTION=RIGID", "OPTION=MOORING").replace(rigid, "5.0E8, 180.0, 0.2") + oil))
+    assert row["contents"] is None  # it has no bore
+    assert row["filled_weight"] == row["empty_weight"]

@@ -65,7 +65,7 @@ def _fields(slots: Iterable[FieldSpec], *, named: bool = True) -> Iterator[str]:
         names = (f"`{slot.label}`", f"`{slot.json}`") if named else (f"`{slot.label}`",)
         default = "mandatory" if slot.required else slot.about.default
         ranges = range_text(slot.about), usual_text(slot.about)
-        cells = (*names, _takes(slot), _unit(slot.about.unit), default, *ranges, _meaning(slot.about))
+        cells = (*names, _takes(slot), _unit(slot.about), default, *ranges, _meaning(slot.about))
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 
@@ -80,7 +80,11 @@ def _meaning(about: FieldInfo) -> str:
     return marked(about.meaning) + (" ([inferred](#certain-and-inferred))" if about.inferred else "")
 
 
-def _unit(unit: str) -> str:
-    """F/L2 as `N/m2 / lbf/ft2`; what is no dimension as it is."""
+def _unit(about: FieldInfo) -> str:
+    """F/L2 as `N/m2 / lbf/ft2`; what is no dimension as it is; a unit of translations before that of rotations."""
+    return " or ".join(map(_system_units, about.written_in or (about.unit,)))
+
+
+def _system_units(unit: str) -> str:
     found = [unit_text(unit, system) for system in ("metric", "imperial")]
     return unit if found[0] == unit else " / ".join(found)

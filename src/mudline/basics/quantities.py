@@ -187,7 +187,7 @@ LINES = _by_name(
     Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
     Quantity("reaction", "total normal force on its nodes; `null` on a rigid seabed", "force"),
     Quantity("submerged_weight", "of its elements in contact, with contents and masses at nodes", "force"),
-    Quantity("empty_weight", "the same without contents and masses", "force"),
+    Quantity("empty_weight", "the same without contents", "force"),
     Quantity("ratio", "reaction / submerged weight"),
 )
 """Columns of lines, in order; a value that does not exist is `null`."""
@@ -241,6 +241,12 @@ CASES = _by_name(
         label="total\nreaction",
     ),
     Quantity("submerged_weight", "of the elements in contact at that step", "force", label="subm.\nweight"),
+    Quantity("empty_weight", "the same without contents", "force", label="weight,\nempty"),
+    Quantity(
+        "contents_case",
+        "load case, from 1, whose contents the weight has; `null` if all have the same",
+        label="contents of\nload case",
+    ),
     Quantity("ratio", "this reaction / this weight", label="ratio"),
     Quantity("warnings", "number of warnings about the results", label="warn-\nings"),
     Quantity("warning_codes", "their codes, separated by spaces"),

@@ -317,7 +317,10 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
     ]
     left = len(evaluation.lines) * evaluation.steps - len(rows)
     if rows:
-        notes = [f"{left} {_MORE_LINES}" if left else "", weight_note(evaluation.weights_without)]
+        notes = [
+            f"{left} {_MORE_LINES}" if left else "",
+            weight_note(evaluation.weights_without, evaluation.contents_case),
+        ]
         printer.table(DisplayTable("Touchdown", columns, rows, "; ".join(filter(None, notes))))
 
 

@@ -97,7 +97,7 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
         "laws": _laws,
         "bed": _resistance,
         "extensions": _extensions,
-        "static_embedment": partial(_static, left_out=summary["weights_without"]),
+        "static_embedment": partial(_static, left_out=summary["weights_without"], case=summary["contents_case"]),
     }
     for key, table in tables.items():
         if rows := summary[key]:
@@ -223,7 +223,7 @@ def _extensions(blocks: Rows, _: UnitNames) -> DisplayTable:
     return DisplayTable("Extensions", columns, blocks)
 
 
-def _static(rows: Rows, names: UnitNames, left_out: Sequence[str]) -> DisplayTable:
+def _static(rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None) -> DisplayTable:
     alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
-    table = static_table(rows, names, left_out, first=alike)
+    table = static_table(rows, names, left_out, case, first=alike)
     return replace(table, columns=[*table.columns, text("extrapolated", "extrapolated", optional=True)])

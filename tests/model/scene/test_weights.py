@@ -10,7 +10,7 @@ import pytest
 
 from mudline.language.deck.loading import load_path
 from mudline.model.scene.model import resolve
-from mudline.model.scene.weights import attached, contents, left_out, operating_weight
+from mudline.model.scene.weights import attached, contents, contents_case, empty_weight, left_out, operating_weight
 from tests.helpers.builders.decks import CLEAN
 from tests.helpers.builders.scenes import scene_of
 
@@ -27,6 +27,8 @@ def test_what_a_load_case_fills_stays_full_until_it_is_filled_anew() -> None:
     scene = scene_of(CLEAN.replace(" 1, 2\n*GEO", " 1, 2\n SET=Half\n 2\n*GEO") + still + OIL + still + half)
     found = contents(scene)
     assert [one.number for one in found] == [1, 2, 3, 4]
+    assert contents_case(scene) == 4
+    assert contents_case(scene_of(CLEAN + OIL + OIL)) is None
     assert [one.density.tolist() for one in found] == [[0.0, 0.0], [800.0, 800.0], [800.0, 800.0], [800.0, 100.0]]
     np.testing.assert_allclose(found[3].mass, [800.0 * BORE, 100.0 * BORE])
     np.testing.assert_allclose(operating_weight(scene), EMPTY + 9.81 * BORE * np.array([800.0, 100.0]))
@@ -47,6 +49,7 @@ def test_masses_weigh_by_the_lengths_of_the_elements_at_their_nodes() -> None:
     np.testing.assert_allclose(found.weighing, [5.0, 50.0 / math.hypot(10.0, 0.4)])
     np.testing.assert_allclose(found.mass * scene.length, [50.0, 90.0])
     np.testing.assert_allclose(operating_weight(scene) - scene.submerged_weight, found.weighing * 9.81)
+    np.testing.assert_array_equal(empty_weight(scene), operating_weight(scene))  # nothing fills it, the masses stay
 
 
 @pytest.mark.parametrize(

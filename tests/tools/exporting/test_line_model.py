@@ -65,6 +65,16 @@ def test_drag_and_added_mass_are_those_of_the_deck() -> None:
     )
 
 
+def test_coefficients_that_the_deck_does_not_give_are_listed_with_their_section() -> None:
+    half = "*ELEMENT SETS\n SET=Left\n GEN=1, 5\n"
+    for water in ("", "*HYDRODYNAMIC SETS\n SET=Left\n 1.5, , 2.0\n"):
+        for target in TARGETS:
+            model = model_of(text(sets=half, bed=ELASTIC + water))
+            target.write(model, "a.txt")
+            (entry,) = (entry for entry in model.report.lost if "drag 1.2 and added mass 1" in entry.effect)
+            assert (entry.keyword, entry.target) == ("*GEOMETRIC SETS", "Cd, Ca of the line type")
+
+
 def test_the_mass_and_the_weight_on_the_seabed_have_the_contents() -> None:
     wall = " OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.2, 0.16, 7850.0\n"
     empty, full = (
@@ -227,7 +237,8 @@ def test_every_block_of_every_sample_is_in_the_report(name: str, target: ModuleT
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.__name__.rpartition(".")[2])
 def test_what_is_carried_whole_is_exact(target: ModuleType) -> None:
     frictionless = ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", "")
-    model = model_of(text(bed=frictionless))
+    water = "*HYDRODYNAMIC SETS\n SET=ALL\n 1.5, 0.0, 2.0, 0.8\n"
+    model = model_of(text(bed=frictionless + water))
     target.write(model, "out.txt")
     assert [entry for entry in model.report.lost if entry.keyword != "*ELEMENT lengths"] == []
 

@@ -59,7 +59,10 @@ def test_the_content_is_what_the_other_commands_say() -> None:
 def test_values_are_written_for_people(tmp_path: Path) -> None:
     (tmp_path / "deck.keyxm").write_text(ON_SOIL, encoding="utf-8")
     text = made(tmp_path, str(tmp_path / "deck.keyxm"))
-    law = "coefficients 0.4, 0.7; stiffness 40000, 60000; lateral PEAK-RESIDUAL; peak 1.3, 0.03; residual 0.6, 0.5"
+    law = (
+        "COEFFICIENTS=first 0.4, second 0.7; STIFFNESS=first 40000 N/m, second 60000 N/m; LATERAL=PEAK-RESIDUAL; "
+        "PEAK=factor 1.3, displacement 0.03 m; RESIDUAL=factor 0.6, displacement 0.5 m"
+    )
     assert row_of(text, "*SEABED FRICTION").startswith(f"*SEABED FRICTION | Laid | 2 | {law} | line 31")
     assert ">force [N/m]</th>" in text
     assert ">slope to the next [N/m]</th>" in text

@@ -84,3 +84,42 @@ def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
     weights = text[text.index("Sheet: mass and submerged weight") :]
     assert row_of(weights, "41 to 110") == "41 to 110 | 155.1 | 820 | 186.9 |  | 932.7 | 1245"
     assert '<td class="gap">none</td>' in text
+
+
+def test_every_value_has_its_own_unit(tmp_path: Path) -> None:
+    springs = "*NODE SPRING\n 1, 2, 500.0\n 1, 4, 30.0\n*MASS\n 1, 7.0\n 1, 8.0, TYPE=ROTARY INERTIA\n"
+    case = (
+        "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n GEN=1, 3, 1, 4, 0.5\n 2, 4, 1.5\n 2, 1, 1.5\n"
+        "*DRIFT\n VESSEL=F, TYPE=SINUSOIDAL\n 6, 4.0, 0.0, 120.0\n"
+        "*RAO\n VESSEL=F\n HEADING=0.0\n 0.1\n 0.9, 0.4, 0.0, 0.0, 0.0, 1.1\n 10.0, 90.0, 0.0, 0.0, 0.0, -80.0\n"
+    )
+    bed = "*SEABED SUCTION\n SET=ALL\n COHESION=2000.0\n"
+    metric, imperial = tmp_path / "a.keyxm", tmp_path / "a.keyxi"
+    for deck in (metric, imperial):
+        deck.write_text(ON_SOIL + springs + bed + case, encoding="utf-8")
+    words = Page(made(tmp_path, str(metric), sections="inputs,curves", code=1)).text
+    for told in (
+        "stiffness 500 N/m; ",
+        "stiffness 30 N m/deg",
+        "mass 7 kg; node 1, mass 8 kg m2, TYPE=ROTARY INERTIA",
+        "(GEN=1, 3, 1, 4, 0.5), (node 2, dof 4, value 1.5 deg), (node 2, dof 1, value 1.5 m)",
+        "amplitude 4 deg",
+        "heave 0.9 m/m",
+        "pitch 1.1 deg/m",
+        "COHESION=2000 N/m2",
+    ):
+        assert told in words
+    words = Page(made(tmp_path, str(imperial), sections="inputs,curves", code=1)).text
+    for told in ("mass 8 slug ft2", "stiffness 30 lbf ft/deg", "pitch 1.1 deg/ft", "COHESION=2000 lbf/ft2"):
+        assert told in words
+
+
+def test_warnings_of_the_deck_are_told_from_those_of_the_numbers_and_curves_without_a_law(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    bare = ON_SOIL.partition("*SEABED PROPERTIES")[0]
+    deck.write_text(bare + "*MOMENT-CURVATURE\n CURVE=Bend\n 0.0, 0.0\n 4.0, 1.0\n", encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert re.search(r"\d+ warnings? in the deck\.", Page(text).text)
+    assert (
+        'The deck gives no law of the seabed; its other curves are <a href="#more-curves">in the appendix</a>.' in text
+    )

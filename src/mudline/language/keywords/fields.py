@@ -56,6 +56,8 @@ class FieldInfo:
         opaque: values of a setting that are followed by lines of an unpublished form, which a record keeps; so do
             unknown values. None: the form of the following lines does not depend on the value.
         usual: usual values.
+        written_in: unit for people where `unit` does not hold for every value; a second one is that of degrees of
+            freedom 4 to 6 and of rotary inertia.
         older: True, or words of a choice, if only decks of an older program (files ending in .das) have them.
     """
 
@@ -74,6 +76,7 @@ class FieldInfo:
     unique: bool = False
     opaque: tuple[str, ...] | None = None
     usual: Expected = ()
+    written_in: tuple[str, ...] = ()
     older: bool | tuple[str, ...] = False
 
     @property

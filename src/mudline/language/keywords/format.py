@@ -102,10 +102,10 @@ _UNITS = {
 
 def unit_text(unit: str, system: str) -> str:
     """Return the unit of a field in a unit system (F/L2 as N/m2, 1/L as 1/m); text that is not a dimension stays."""
-    if not re.fullmatch(r"(?:[FLMT]\d?|1/|/)+", unit):
+    if not re.fullmatch(r"(?:[FLMT]\d?|deg|1/|/)+", unit):
         return unit
-    names = _UNITS[system]
-    sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
+    names = _UNITS[system] | {"deg": "deg"}
+    sides = [re.findall(r"([FLMT]|deg)(\d?)", side) for side in unit.split("/")]
     return "/".join(" ".join(names[letter] + power for letter, power in side) or "1" for side in sides)
 
 

@@ -169,7 +169,7 @@ class ContactInput:
         tension: "keep" a curve's negative force, or "cut" force and stiffness to 0 there.
         seabed: shape of the seabed; None for a flat seabed at X = 0.
         weight: (m,) submerged weights per unit length, NaN where unknown; None if all are. Forces do not need them.
-        empty_weight: (m,) weights without contents and without masses at nodes; None if these equal `weight`.
+        empty_weight: (m,) weights without contents, with masses at nodes; None if these equal `weight`.
         left_out: reasons, by stage of the plan, why a law of the scene is not evaluated.
         names: names of laws and sets, and the unit system; None if unknown.
 

@@ -164,7 +164,7 @@ class LineSummary:
             whose force is not known.
         submerged_weight: weight of its elements in contact that have a law, with contents and masses at nodes; None if
             unknown.
-        empty_weight: that weight without contents and masses at nodes.
+        empty_weight: that weight without contents.
         ratio: reaction / submerged weight; None if the weight is not above 0.
     """
 

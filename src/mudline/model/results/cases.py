@@ -39,6 +39,8 @@ class CaseSummary:
     largest_uplift_time: float | None = None
     reaction: float | None = None
     submerged_weight: float | None = None
+    empty_weight: float | None = None
+    contents_case: int | None = None
     ratio: float | None = None
     warnings: int | None = None
     warning_codes: str | None = None
@@ -70,7 +72,7 @@ def case_summary(
     """Return the row of the deck `deck` with the result file `result`, from its table "case"."""
     evaluation, times = series.evaluation, series.evaluation.time
     pushed, pulled = series.of("case", "largest_force").largest.peak(), series.of("case", "largest_uplift").least.peak()
-    reaction = series.of("case", "reaction").largest.peak()
+    reaction, of_empty = (series.of("case", name).largest.peak() for name in ("reaction", "reaction_empty"))
     return CaseSummary(
         deck=deck,
         verdict="evaluated",
@@ -90,6 +92,8 @@ def case_summary(
         largest_uplift_time=None if pulled is None or times is None else float(times[pulled.step]),
         reaction=_value(reaction),
         submerged_weight=None if reaction is None else finite(reaction.at),
+        empty_weight=None if of_empty is None else finite(of_empty.at),
+        contents_case=evaluation.contents_case,
         ratio=finite(reaction.value / reaction.at) if reaction is not None and reaction.at > 0.0 else None,
         warnings=len(warnings),
         warning_codes=" ".join(sorted({warning.diagnostic.code for warning in warnings})),

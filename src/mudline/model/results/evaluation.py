@@ -22,7 +22,7 @@ from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-from mudline.model.scene.weights import left_out
+from mudline.model.scene.weights import contents_case, left_out
 
 Tension = Literal["keep", "cut"]
 PositionSource = Literal["deck", "file", "rest shape"]
@@ -97,6 +97,11 @@ class Evaluation:
     def weights_without(self) -> list[str]:
         """Weights in the deck that the weights here leave out; a resting shape leaves out masses at nodes."""
         return left_out(self.scene, with_masses=self.source != "rest shape")
+
+    @cached_property
+    def contents_case(self) -> int | None:
+        """Number of the load case whose contents the weights have; None if all load cases have the same."""
+        return contents_case(self.scene)
 
     @cached_property
     def nodes(self) -> Indices:

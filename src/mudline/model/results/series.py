@@ -91,17 +91,19 @@ def _of_case(evaluation: Evaluation, part: ResultPart) -> Figures:
     if not lines:
         return figures
     with np.errstate(over="ignore", invalid="ignore"):
-        length, reaction, weight = (
+        length, reaction, weight, empty = (
             _side_by_side(lines, name, part).sum(axis=1, keepdims=True)
-            for name in ("contact_length", "reaction", "weight")
+            for name in ("contact_length", "reaction", "weight", "empty")
         )
+    known = np.where(np.isnan(reaction), np.inf, reaction)  # an unknown one stays unknown
     return figures | {
         "touchdown_from": StepValues(_side_by_side(lines, "first", part)),
         "touchdown_to": StepValues(_side_by_side(lines, "last", part)),
         "contact_length": StepValues(length),
         "largest_force": StepValues(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
         "largest_uplift": StepValues(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
-        "reaction": StepValues(np.where(np.isnan(reaction), np.inf, reaction), weight),  # an unknown one stays unknown
+        "reaction": StepValues(known, weight),
+        "reaction_empty": StepValues(known, empty),
     }
 
 

@@ -23,13 +23,18 @@ _WORDS = {"section", "law"}
 
 def sheet_tables(sheet: Sheet, units: str) -> list[DisplayTable]:
     """Return the sheet for people: pipe, weights, surroundings, and other load cases if any."""
-    spare = [column for column in sheet.columns if column not in (*RUN, *PIPE, *WEIGHTS, *AROUND)]
+    of_key = {column.key: column for column in sheet.columns}
     parts = {
-        "pipe": PIPE,
-        "mass and submerged weight": WEIGHTS,
-        "stiffness, water and seabed": AROUND,
-        "other load cases": spare,
+        title: [of_key.pop(column.key) for column in columns]
+        for title, columns in (
+            ("", RUN),
+            ("pipe", PIPE),
+            ("mass and submerged weight", WEIGHTS),
+            ("stiffness, water and seabed", AROUND),
+        )
     }
+    del parts[""]
+    parts["other load cases"] = list(of_key.values())
     tables = []
     for title, part in parts.items():
         columns = [text("elements", _elements), *(_sheet_column(column, units) for column in part)]
@@ -47,9 +52,11 @@ def _elements(row: dict[str, Any]) -> str:
 def _sheet_column(column: SheetColumn, units: str) -> DisplayColumn:
     def cell(row: dict[str, Any]) -> Cell:
         value: Cell = row[column.key]
+        if column.key == "contents" and value is None and row["inner_diameter"]:
+            return "not read", "bold yellow"
         return (_GAPS[column.key], "bold yellow") if value is None and column.key in _GAPS else value
 
-    is_bare = column.key in {"masses_at_nodes", "stiffness"}
+    is_bare = column.key in {"drag_diameter", "buoyancy_diameter", "masses_at_nodes", "stiffness"}
     return DisplayColumn(column.heading, cell, column.unit(units), left=column.key in _WORDS, optional=is_bare)
 
 

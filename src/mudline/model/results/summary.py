@@ -22,7 +22,7 @@ from mudline.model.scene.numbering import Floats, Indices, summed
 from mudline.model.scene.resolved import LawArrays
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.sheet import sheet_of
-from mudline.model.scene.weights import contents
+from mudline.model.scene.weights import contents, contents_case
 
 CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
 """Side of a curve on which a value is extrapolated; None between its points."""
@@ -54,6 +54,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "static_embedment": static_embedment(scene),
         "sheet": list(sheet.rows),
         "weights_without": list(sheet.left_out),
+        "contents_case": contents_case(scene),
     }
 
 

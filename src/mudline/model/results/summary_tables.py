@@ -36,10 +36,13 @@ def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> Disp
     return DisplayTable("External diameters", columns, diameters)
 
 
-def static_table(rows: Rows, names: UnitNames, left_out: Sequence[str], *, first: bool) -> DisplayTable:
+def static_table(
+    rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None, *, first: bool
+) -> DisplayTable:
     """Return the table of static embedment; `first` adds the first element of a row.
 
-    `left_out` are weights not included. The stiffness of springs of nodes is that of a node, and has no unit here.
+    `left_out` are weights not included, `case` is the load case of the contents if they differ.
+    The stiffness of springs of nodes is that of a node, and has no unit here.
     """
     several = any(row["filled"] for row in rows)
     unit = "" if any(row["law"] == "nodal" for row in rows) else names.stiffness
@@ -53,7 +56,7 @@ def static_table(rows: Rows, names: UnitNames, left_out: Sequence[str], *, first
         number("penetration", "penetration", names.length),
         number("stiffness", "stiffness", unit),
     )
-    return DisplayTable("Static embedment", columns, rows, weight_note(left_out))
+    return DisplayTable("Static embedment", columns, rows, weight_note(left_out, case))
 
 
 def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> DisplayTable:
@@ -69,6 +72,7 @@ def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> Disp
     return DisplayTable(title, columns, totals)
 
 
-def weight_note(left_out: Sequence[str]) -> str:
-    """Return a note about the weights that a table leaves out, "" for none."""
-    return f"weights without {', '.join(left_out)}" if left_out else ""
+def weight_note(left_out: Sequence[str], case: int | None = None) -> str:
+    """Return a note about the load case of the contents if they differ, and about weights that are left out."""
+    notes = [f"weights with the contents of load case {case}"] if case else []
+    return "; ".join(notes + ([f"weights without {', '.join(left_out)}"] if left_out else []))

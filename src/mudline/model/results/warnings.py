@@ -33,7 +33,15 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
-from mudline.model.scene.weights import PipeContents, attached, contents, left_out, operating_weight
+from mudline.model.scene.weights import (
+    PipeContents,
+    attached,
+    contents,
+    contents_case,
+    empty_weight,
+    left_out,
+    operating_weight,
+)
 
 BALANCED = (1.0 / 3.0, 3.0)
 """Range of total reaction over submerged weight outside of which positions are far from equilibrium."""
@@ -41,8 +49,6 @@ BALANCED = (1.0 / 3.0, 3.0)
 NEAR = (0.9, 1.1)
 """Range of the same ratio outside of which a resting shape is suggested."""
 
-_ADDED = {"INTERNAL FLUID": "contents", "MASS": "masses"}
-"""Keywords that add to the weight of the sections."""
 _TOUCHING = 1e-3
 """Clearance over diameter up to which a line touches the seabed: its datum is right."""
 _CAPTION = 90
@@ -130,7 +136,7 @@ def caption(warnings: Sequence[ContactWarning]) -> str:
 class _Balance(NamedTuple):
     """Total reaction and submerged weight (NaN if unknown) of the elements (indices) in contact with a law.
 
-    `empty` is the weight without contents and masses at nodes. Over several steps they are sums; `elements` are then in
+    `empty` is the weight without contents. Over several steps they are sums; `elements` are then in
     contact at one of the steps.
     """
 
@@ -251,7 +257,7 @@ class ContactWatch:
         times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
         times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
-            weight, empty = (float((times * per[here]).sum()) for per in (self._weight, scene.submerged_weight))
+            weight, empty = (float((times * per[here]).sum()) for per in (self._weight, empty_weight(scene)))
             reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[:, self._columns].sum())
             balance = _Balance(reaction, weight, empty, here, len(contact))
             if before is None:
@@ -387,9 +393,12 @@ class ContactWatch:
         carried = f"total reaction {total} on {elements} in contact"
         if math.isnan(weight):
             return f"{carried}, whose submerged weight is not known"
-        keywords = self._scene.deck.keywords() | self._scene.deck.keywords("LOAD CASE")
-        what = " and ".join(word for name, word in _ADDED.items() if name in keywords)
-        more = "" if weight == empty else f" with {what} ({shown(empty)}{behind} empty)"
+        case, filled = contents_case(self._scene), weight != empty
+        added = [f"contents{f' of load case {case}' if case else ''}"] * filled
+        added += ["masses"] * ("MASS" in self._scene.deck.keywords())
+        more = (f" with {' and '.join(added)}" if added else "") + (
+            f" ({shown(empty)}{behind} empty)" if filled else ""
+        )
         more += f" without {', '.join(self._left_out)}" if self._left_out else ""
         ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
         return f"{carried}, their submerged weight {shown(weight)}{behind}{more}{ratio}"

@@ -14,7 +14,7 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, picked
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.sections import stiffnesses
-from mudline.model.scene.weights import attached, contents, left_out, pipe_of
+from mudline.model.scene.weights import NOT_READ, attached, contents, contents_case, left_out, pipe_of
 
 Value = str | int | float | None
 
@@ -45,8 +45,10 @@ PIPE = (
     SheetColumn("outer_diameter", "outer\ndiameter", "L"),
     SheetColumn("inner_diameter", "inner\ndiameter", "L"),
     SheetColumn("diameter_over_wall", "D/t"),
+    SheetColumn("drag_diameter", "drag\ndiameter", "L"),
+    SheetColumn("buoyancy_diameter", "buoyancy\ndiameter", "L"),
 )
-"""Columns of the sheet about the pipe."""
+"""Columns of the sheet about the pipe; diameters of drag and buoyancy only where they differ from the outer one."""
 WEIGHTS = (
     SheetColumn("mass", "mass,\nempty", "M/L"),
     SheetColumn("contents", "contents", "M/L3"),
@@ -55,7 +57,7 @@ WEIGHTS = (
     SheetColumn("empty_weight", "weight,\nempty", "F/L"),
     SheetColumn("filled_weight", "weight,\nfilled", "F/L"),
 )
-"""Columns about mass and submerged weight; contents are those of the last load case."""
+"""Columns about mass and submerged weight; contents are those of the last load case, and are only given with a bore."""
 AROUND = (
     SheetColumn("bending", "EI", "FL2"),
     SheetColumn("axial", "EA", "F"),
@@ -75,11 +77,14 @@ RUN = (
 """Columns of each run: the elements at its ends, and their number."""
 
 
+_OF_CASE = {"contents", "filled_mass", "filled_weight"}
+
+
 def sheet_of(scene: ResolvedDeck) -> Sheet:
     """Return the sheet of a deck, in its units, in the order of its elements.
 
     A run ends where a value changes, and where an element is not joined to the one before. Each load case whose
-    contents differ from the last one adds two columns.
+    contents differ from the last one adds two columns, and the headings then name the last case too.
     """
     table = scene.section_table
     with np.errstate(all="ignore"):  # values of a deck may overflow, which is no value
@@ -101,7 +106,12 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
                 }
                 | {key: finite(float(values[first])) for key, values in numbers.items()}
             )
-    columns = [*RUN, *PIPE, *WEIGHTS, *AROUND, *others]
+    case = contents_case(scene)
+    weights = [
+        column._replace(heading=f"{column.heading},\nload case {case}") if case and column.key in _OF_CASE else column
+        for column in WEIGHTS
+    ]
+    columns = [*RUN, *PIPE, *weights, *AROUND, *others]
     ordered = [{column.key: row[column.key] for column in columns} for row in rows]
     return Sheet(columns, ordered, left_out(scene))
 
@@ -117,15 +127,21 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
         given = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
         friction = np.where((extension.of_element >= 0)[:, None], np.column_stack(given), friction)
     last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
+    not_read = (last == 0.0) if set(NOT_READ) & set(left_out(scene)) else np.zeros(len(last), np.bool_)
+    outer, drag_diameter, buoyancy = (
+        picked((number(each, name) for each in entries), table.of_element) for name in ("do", "dd", "db")
+    )
     values_by_column = {
         "outer_diameter": scene.diameter,
         "inner_diameter": inner,
-        "diameter_over_wall": 2.0 * scene.diameter / (scene.diameter - inner),
+        "diameter_over_wall": 2.0 * outer / (outer - inner),
+        "drag_diameter": np.where(drag_diameter == scene.diameter, np.nan, drag_diameter),
+        "buoyancy_diameter": np.where(buoyancy == scene.diameter, np.nan, buoyancy),
         "mass": scene.mass_per_length,
         "empty_weight": scene.submerged_weight,
-        "contents": last,
-        "filled_mass": scene.mass_per_length + pipe.contents,
-        "filled_weight": pipe.weight,
+        "contents": np.where(not_read | ~(inner > 0.0), np.nan, last),
+        "filled_mass": np.where(not_read, np.nan, scene.mass_per_length + pipe.contents),
+        "filled_weight": np.where(not_read, np.nan, pipe.weight),
         "bending": picked((each.bending for each in own), table.of_element),
         "axial": picked((each.axial for each in own), table.of_element),
         "drag": np.where(pipe.has_coefficients, pipe.drag_coefficient, np.nan),

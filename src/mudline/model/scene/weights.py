@@ -67,6 +67,13 @@ def contents(scene: ResolvedDeck) -> list[PipeContents]:
     return filled
 
 
+def contents_case(scene: ResolvedDeck) -> int | None:
+    """Return the number of the load case whose contents the weights have; None if all load cases have the same."""
+    filled = contents(scene)
+    differ = any((case.density != filled[-1].density).any() for case in filled)
+    return filled[-1].number if differ else None
+
+
 class Attached(NamedTuple):
     """Masses of `*MASS` at the nodes of elements (m,), per length; `weighing` excludes those without weight."""
 
@@ -104,8 +111,17 @@ def operating_weight(scene: ResolvedDeck) -> Floats:
 
     It is in the deck's units; NaN where it is not known.
     """
+    return _with_masses(scene, contents(scene)[-1:])
+
+
+def empty_weight(scene: ResolvedDeck) -> Floats:
+    """Return the same without contents, but with masses at nodes: a valve stays on an empty line."""
+    return _with_masses(scene, [])
+
+
+def _with_masses(scene: ResolvedDeck, cases: list[PipeContents]) -> Floats:
     mass = attached(scene).weighing
-    for filled in contents(scene)[-1:]:
+    for filled in cases:
         mass = mass + filled.mass
     with np.errstate(over="ignore", invalid="ignore"):
         return scene.submerged_weight + mass * scene.surroundings.gravity if mass.any() else scene.submerged_weight
@@ -113,6 +129,10 @@ def operating_weight(scene: ResolvedDeck) -> Floats:
 
 _WEIGHING = ("COATINGS", "POINT BUOY", "DRAG CHAIN", "PIP SECTION", "DRILLING MUD", "SLUGS", "STIFFENER")
 """Keywords whose weight or lift is left out; the lines of most of them have no public form."""
+
+
+NOT_READ = ("*DRILLING MUD", "*SLUGS", "*INTERNAL FLUID (in part)", "*INTERNAL FLUID of the deck that it continues")
+"""Parts of `left_out` that are contents."""
 
 
 def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:

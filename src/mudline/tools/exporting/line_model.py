@@ -25,7 +25,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
-from mudline.model.scene.weights import Pipe, pipe_of
+from mudline.model.scene.weights import Pipe, contents_case, pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
@@ -312,12 +312,15 @@ def _report_water(model: LineModel) -> None:
         effects = [] if plain and given.option is None else ["no drag lift, no types but CONSTANT"]
         if any(section.axial_drag for section in model.sections):
             effects += ["drag along as it is written, on an area that the manual does not show"]
-        if any(section.assumed for section in model.sections):
-            effects += [f"drag {_DRAG:g} and added mass {_ADDED:g} where the deck has none"]
         status = Outcome.APPROXIMATED if effects else Outcome.CARRIED
         model.report.add(where, status, "Cd, Ca of each line type", "; ".join(effects))
+    for section in model.sections:
+        if section.assumed:
+            effect = f"drag {_DRAG:g} and added mass {_ADDED:g}, as the deck has none: give *HYDRODYNAMIC SETS"
+            model.report.add(section.where, Outcome.APPROXIMATED, "Cd, Ca of the line type", effect)
     for where, _ in deck.blocks("INTERNAL FLUID", "LOAD CASE"):
-        effect = "its mass at rest; pressure and flow are not written"
+        case = contents_case(model.scene)
+        effect = f"its mass at rest{f' in load case {case}' if case else ''}; pressure and flow are not written"
         model.report.add(where, Outcome.APPROXIMATED, "mass of each line type", effect)
 
 

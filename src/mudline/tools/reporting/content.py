@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import as_json, finite
+from mudline.basics.quantities import as_json, finite, shown, unit_names
 from mudline.basics.version import __version__
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, joined_problems, named_causes
@@ -41,7 +41,7 @@ from mudline.model.results.warnings import ContactWatch, caption
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sheet import Sheet, sheet_of
-from mudline.tools.reporting.inputs import inferences, inputs_of
+from mudline.tools.reporting.inputs import inferences, inputs_of, values_in_words
 from mudline.tools.touchdown_study.rest_shape import rest_shape
 from mudline.tools.touchdown_study.study import Study, study
 
@@ -180,6 +180,7 @@ def _figures(content: PageContent, contact: dict[str, Any] | None, missing: str)
         "ratio": contact["ratio"],
         "positions": contact["positions"],
         "weights_without": contact["weights_without"],
+        "contents_case": contact["contents_case"],
         "warnings": sorted({warning["code"] for warning in contact["warnings"]}),
         "missing": "",
     }
@@ -320,39 +321,52 @@ def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[i
 def _model(scene: Scene) -> dict[str, Any]:
     summary = summarise(scene)
     names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions")
-    return {name: summary[name] for name in (*names, "weights_without")} | {"keywords": summary["sections"]}
+    return {name: summary[name] for name in (*names, "weights_without", "contents_case")} | {
+        "keywords": summary["sections"]
+    }
 
 
 def _curves(scene: Scene) -> dict[str, Any]:
     """Return every curve as evaluated, and the laws of each set of elements with their lines in the deck."""
-    laws = []
+    laws, keeps_it = [], scene.replacing < 0  # other elements have nodal springs or soil
+    stiffness_unit = unit_names(scene.units).behind("stiffness")
     for index, grant in enumerate(scene.laws.set_laws):
         values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
+        words = f"stiffness {shown(grant.stiffness)}{stiffness_unit}" if values else ""
+        follow = (scene.laws.of_element == index) & keeps_it
         laws.append(
-            _law(scene, scene.law_name(grant), grant.set_.name, values, scene.laws.of_element == index, grant.where)
+            _law(scene, scene.law_name(grant), grant.set_.name, follow, grant.where)
+            | {"values": values, "words": words}
         )
     for index, (resistance, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
         values = {key.replace("_", " "): read for key, value in resistance._asdict().items() if (read := _given(value))}
         entry: Any = scene.deck.sections[where.section].blocks[where.block]
-        name: str | None = entry.sets[where.path[1]].set_name if where.path[0] == "sets" else None
+        part = entry.sets[where.path[1]] if where.path[0] == "sets" else entry.properties
         if values:
-            laws.append(_law(scene, "resistance", name, values, scene.resistance.of_element == index, where))
+            words = "; ".join(values_in_words(part, scene.units, ("set", "stiffness")))
+            name: str | None = getattr(part, "set_name", None)
+            laws.append(
+                _law(scene, "resistance", name, scene.resistance.of_element == index, where)
+                | {"values": values, "words": words}
+            )
     for keyword, extension in scene.extensions.items():
         for index, (record, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
             values = record.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_defaults=True)
             of_set = values.pop("set", None)
-            laws.append(_law(scene, f"*{keyword}", of_set, values, extension.of_element == index, where))
+            words = "; ".join(values_in_words(record, scene.units, ("set",)))
+            laws.append(
+                _law(scene, f"*{keyword}", of_set, extension.of_element == index, where)
+                | {"values": values, "words": words}
+            )
     return {"curves": curve_rows(scene, (), None), "laws": laws}
 
 
-def _law(
-    scene: Scene, law: str, set_name: str | None, values: dict[str, Any], follow: Mask, where: Where
-) -> dict[str, Any]:
+def _law(scene: Scene, law: str, set_name: str | None, follow: Mask, where: Where) -> dict[str, Any]:
     (place,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
     name = set_name or "ALL"
     known = scene.set_table.find(name)
     counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
-    return {"law": law, "set": name} | counts | {"values": values, "file": place.file, "line": place.line}
+    return {"law": law, "set": name} | counts | {"file": place.file, "line": place.line}
 
 
 def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction
@@ -391,6 +405,7 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "empty_weight": None if watch.balance is None else finite(watch.balance.empty),
         "weights_without": evaluation.weights_without,
+        "contents_case": evaluation.contents_case,
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
         "positions": evaluation.source,

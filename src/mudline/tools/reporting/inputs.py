@@ -5,7 +5,7 @@ It also lists deductions in the declarations of a deck's keywords: statements th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 from mudline.basics.quantities import labelled, shown
@@ -14,8 +14,9 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import unit_text
-from mudline.language.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, record_schema
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.writer import field_text
 from mudline.model.scene.model import Scene
 
 _MODEL = ("OCEAN", "MASS", "DRAG CHAIN", "NODE SPRING")
@@ -37,29 +38,35 @@ def inputs_of(scene: Scene) -> list[dict[str, Any]]:
             subjects = (entry.subject for entry in catalogue.entries(block.keyword) if section.name in entry.sections)
             if section.name == "LOAD CASE" or block.keyword in _MODEL or "vessels" in subjects:
                 (place,) = scene.deck.diagnose([Problem(SBD025, "", where=Where(index, number))])
-                values = "; ".join(filter(None, _values(block, scene.units)))
+                values = "; ".join(filter(None, values_in_words(block, scene.units)))
                 row = {"section": name, "keyword": block.keyword, "values": values}
                 rows.append(row | {"file": place.file, "line": place.line})
     return rows
 
 
-def _values(part: Part, units: str) -> Iterator[str]:
-    """Yield the values of a block or part in words, with labels and units; unread lines are unchanged."""
+def values_in_words(part: Part, units: str, without: Collection[str] = ()) -> Iterator[str]:
+    """Yield the values of a block or part in words, with labels and units; unread lines are unchanged.
+
+    `without` are fields that are left out, by their names in JSON.
+    """
     if isinstance(part, Opaque):
         yield from _not_read(part.lines)
         return
     for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name)
+        value = None if slot.json in without else getattr(part, slot.name)
         if isinstance(value, Table):
             yield f"{slot.label}: {_table(slot, value, units)}"
+        elif isinstance(value, ListRow):  # its values mean different things, as the deck writes them
+            given = [getattr(value, own.name) for own in record_schema(type(value)).slots]
+            yield slot.label + ", ".join(field_text(each) for each in given if each is not None)
         elif isinstance(value, Part):
-            yield (slot.label if slot.key else "") + ", ".join(_values(value, units))
+            yield (slot.label if slot.key else "") + ", ".join(values_in_words(value, units))
         elif isinstance(value, list):
-            texts = [", ".join(_values(each, units)) for each in value[:_MOST] if isinstance(each, Part)]
+            texts = [", ".join(values_in_words(each, units)) for each in value[:_MOST] if isinstance(each, Part)]
             yield from texts if isinstance(part, Block) else (f"({text})" for text in texts)
             yield from [f"{len(value) - _MOST} more"] if len(value) > _MOST else []
         elif value is not None:
-            yield f"{slot.label}{'' if slot.key else ' '}{_value(value, slot, units)}"
+            yield f"{slot.label}{'' if slot.key else ' '}{_value(value, _unit(slot, units, part))}"
     yield from _not_read([line.text for line in getattr(part, "unread", ())])
 
 
@@ -69,14 +76,15 @@ def _not_read(lines: Sequence[str]) -> Iterator[str]:
         yield f"not read: {' / '.join(data[:_MOST])}" + (f", {len(data) - _MOST} more" if len(data) > _MOST else "")
 
 
-def _value(value: object, slot: FieldSpec, units: str) -> str:
+def _value(value: object, unit: str) -> str:
     text = shown(value) if isinstance(value, float) else str(value)
-    unit = _unit(slot, units)
-    return f"{text} {unit}" if unit else text
+    return f"{text} {unit}" if unit and isinstance(value, float | int) else text
 
 
-def _unit(slot: FieldSpec, units: str) -> str:
-    dimension = "" if slot.about.unit == "-" else slot.about.unit
+def _unit(slot: FieldSpec, units: str, part: Part | None = None) -> str:
+    """Return the unit of a field in a part, or of a column."""
+    rotates = getattr(part, "dof", 0) in (4, 5, 6) or getattr(part, "type_", None) == "ROTARY INERTIA"
+    dimension = (slot.about.written_in or (slot.about.unit,))[-1 if rotates else 0].strip("-")
     return unit_text(dimension, units) if dimension and units != "user" else ""
 
 

@@ -91,7 +91,7 @@ def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
     words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
     doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
     shape = f"at {_SHAPES[content['positions']]}; no load case is solved"
-    notes = filter(None, [shape, weight_note(content["weights_without"]), doubt])
+    notes = filter(None, [shape, _weight_note(content), doubt])
     columns = (
         number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
@@ -128,7 +128,7 @@ def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units:
 def _model(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     # empty and with contents side by side
     rows = sorted(content["static_embedment"], key=lambda row: int(row["element"]))
-    yield on_page(static_table(rows, names, content["weights_without"], first=False))
+    yield on_page(static_table(rows, names, content["weights_without"], content["contents_case"], first=False))
 
 
 def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
@@ -155,7 +155,7 @@ def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
         text("law", lambda row: cut(row["law"], LONGEST_NAME)),
         text("set", lambda row: cut(row["set"], LONGEST_NAME)),
         number("elements", elements_of),
-        text("values", lambda row: _values(row["values"])),
+        text("values", "words"),
         text("deck line", lambda row: f"line {row['line']} of {row['file']}"),
     )
     note = OPEN if any(row["open"] for row in content["laws"]) else ""
@@ -179,17 +179,8 @@ def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTab
     yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
 
 
-def _values(values: dict[str, Any]) -> str:
-    return "; ".join(f"{name.replace('_', ' ')} {_value(value)}" for name, value in values.items())
-
-
-def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
-    if isinstance(value, dict):
-        return ", ".join(_value(item) for item in value.values())
-    if isinstance(value, list):
-        between = " / " if any(isinstance(item, list) for item in value) else ", "
-        return between.join("-" if item is None else _value(item) for item in value)
-    return shown(value) if isinstance(value, float) else str(value)
+def _weight_note(content: dict[str, Any]) -> str:
+    return weight_note(content["weights_without"], content["contents_case"])
 
 
 def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
@@ -204,7 +195,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     if deepest := content["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    notes = [weight_note(content["weights_without"]), *content["notes"]]
+    notes = [_weight_note(content), *content["notes"]]
     title = f"Equilibrium of {_SHAPES[content['positions']]}"
     yield on_page(DisplayTable(title, _FIGURES, figures, "; ".join(filter(None, notes))))
     yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
@@ -219,7 +210,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
     ]
-    yield on_page(DisplayTable("Touchdown", columns, content["lines"], weight_note(content["weights_without"])))
+    yield on_page(DisplayTable("Touchdown", columns, content["lines"], _weight_note(content)))
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = content["warnings"][:SHOWN_ROWS]
     yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)

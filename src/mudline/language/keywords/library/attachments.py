@@ -25,6 +25,7 @@ class PointMass(Record):
             unit="M",
             at_least=0,
             usual=Usual(1.0, 1e7, "1 kg is nothing, a hull more", remark=True),
+            written_in=("M", "ML2"),
         ),
     ]
     type_: Annotated[

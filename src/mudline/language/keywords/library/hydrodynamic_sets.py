@@ -116,9 +116,7 @@ class LiftCurve(Record):
 
     rule = "lift_curve"
     curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS", defines=Names.DRAG_LIFT)]
-    points: Annotated[
-        Table, curve_points(LiftPoint, "points in any order", "drag lift curve", abscissa="ratio", ends="slope")
-    ]
+    points: Annotated[Table, curve_points(LiftPoint, "points in any order", "drag lift curve", abscissa="ratio")]
 
 
 class DragLift(Block):

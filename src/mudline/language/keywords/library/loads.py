@@ -54,7 +54,7 @@ class FixedNode(Record):
     rule = "fixed_node"
     node: Annotated[Ident, about("node number, or its label", names=Names.NODE)]
     dof: Annotated[Whole, about(_DOF, usual=OF_A_KIND)]
-    value: Annotated[Real | None, about(_VALUE, default="0", usual=OF_A_KIND)] = None
+    value: Annotated[Real | None, about(_VALUE, default="0", usual=OF_A_KIND, written_in=("L", "deg"))] = None
     fixation: Fixation = None
 
 

@@ -33,7 +33,6 @@ class MomentCurvatureCurve(Record):
             "points in any order; at least two",
             "moment-curvature curve",
             abscissa="curvature",
-            ends="slope",
             usual=(EI_CURVE, BENT),
         ),
     ]
@@ -75,7 +74,6 @@ class TorqueTwistCurve(Record):
             "two points or more, in any order",
             "torque-twist curve",
             abscissa="twist",
-            ends="slope",
             usual=EI_CURVE,
         ),
     ]
@@ -115,7 +113,6 @@ class ForceStrainCurve(Record):
             "two points or more, in any order",
             "force-strain curve",
             abscissa="strain",
-            ends="slope",
             usual=EA_CURVE,
         ),
     ]
@@ -157,7 +154,6 @@ class StressStrainCurve(Record):
             "points in any order; at least two; without negative strains it is taken to be symmetric",
             "stress-strain curve",
             abscissa="strain",
-            ends="slope",
             usual=E_CURVE,
         ),
     ]

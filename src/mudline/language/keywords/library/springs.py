@@ -74,7 +74,13 @@ class NodeSpring(Record):
     node: Node
     dof: Freedom
     stiffness: Annotated[
-        Real, about("stiffness: force per length, of a rotation moment per degree", at_least=0, usual=OF_A_KIND)
+        Real,
+        about(
+            "stiffness: force per length, of a rotation moment per degree",
+            at_least=0,
+            usual=OF_A_KIND,
+            written_in=("F/L", "FL/deg"),
+        ),
     ]
 
 

@@ -132,7 +132,9 @@ class Sinusoid(Row):
     """Drift in one degree of freedom."""
 
     dof: Freedom
-    amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees", usual=OF_A_KIND)]
+    amplitude: Annotated[
+        Real, about("amplitude: a length, of a rotation degrees", usual=OF_A_KIND, written_in=("L", "deg"))
+    ]
     phase: Annotated[Real, about("phase", unit="deg", usual=DIRECTION)]
     period: Annotated[Real, about("period", unit="T", above=0, usual=DRIFT_PERIOD)]
 
@@ -185,12 +187,12 @@ class Drift(Block):
 class Six(Row):
     """Amplitudes of six motions for a wave of amplitude 1: lengths, and degrees for rotations."""
 
-    heave: Annotated[Real, about("amplitude of heave", usual=SHIFT_RAO)]
-    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
-    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
-    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
-    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
-    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
+    heave: Annotated[Real, about("amplitude of heave", usual=SHIFT_RAO, written_in=("L/L",))]
+    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO, written_in=("L/L",))]
+    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO, written_in=("L/L",))]
+    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO, written_in=("deg/L",))]
+    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO, written_in=("deg/L",))]
+    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO, written_in=("deg/L",))]
 
 
 class SixPhases(Row):
@@ -241,17 +243,17 @@ class RaoLine(Row):
     frequency: Annotated[
         Real, about("wave frequency", at_least=0, usual=Usual(high=20.0, why="a frequency in Hz or rad/s", remark=True))
     ]
-    heave: Annotated[Real, about("amplitude of heave", usual=(SHIFT_RAO, LONG_WAVE))]
+    heave: Annotated[Real, about("amplitude of heave", usual=(SHIFT_RAO, LONG_WAVE), written_in=("L/L",))]
     heave_phase: Annotated[Real, about("phase of heave", unit="deg", usual=DIRECTION)]
-    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO)]
+    surge: Annotated[Real, about("amplitude of surge", usual=SHIFT_RAO, written_in=("L/L",))]
     surge_phase: Annotated[Real, about("phase of surge", unit="deg", usual=DIRECTION)]
-    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO)]
+    sway: Annotated[Real, about("amplitude of sway", usual=SHIFT_RAO, written_in=("L/L",))]
     sway_phase: Annotated[Real, about("phase of sway", unit="deg", usual=DIRECTION)]
-    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO)]
+    yaw: Annotated[Real, about("amplitude of yaw", usual=TURN_RAO, written_in=("deg/L",))]
     yaw_phase: Annotated[Real, about("phase of yaw", unit="deg", usual=DIRECTION)]
-    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO)]
+    roll: Annotated[Real, about("amplitude of roll", usual=TURN_RAO, written_in=("deg/L",))]
     roll_phase: Annotated[Real, about("phase of roll", unit="deg", usual=DIRECTION)]
-    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO)]
+    pitch: Annotated[Real, about("amplitude of pitch", usual=TURN_RAO, written_in=("deg/L",))]
     pitch_phase: Annotated[Real, about("phase of pitch", unit="deg", usual=DIRECTION)]
 
 

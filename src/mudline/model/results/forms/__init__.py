@@ -159,6 +159,7 @@ class Sink:
             more: dict[str, object] = {
                 "summary": [row.row() for row in self._lines.rows],
                 "positions": self._evaluation.source,
+                "contents_case": self._evaluation.contents_case,
                 "warnings": [warning.row() for warning in warnings],
             }
             self._writer.finish(more if comparison is None else more | {"against": comparison.summary()})

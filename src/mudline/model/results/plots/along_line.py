@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
 
 from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
 from mudline.model.results.plot_data import Chosen, Extents, PlotData
@@ -340,5 +341,7 @@ def _soil(axes: Axes, chosen: Chosen, drawn_line: DrawnLine) -> None:
     bottom = min(lowest, least - 0.12 * (highest - least))
     if is_number(bottom, highest):
         axes.fill_between(drawn_line.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
-        margin = 0.1 if len(axes.texts) > 1 else 0.04  # for the labels of touchdown points at the top
+        upper = highest - 0.1 * (highest - bottom)
+        labelled_above = any(isinstance(text, Annotation) and text.xy[1] > upper for text in axes.texts)
+        margin = 0.16 if labelled_above else 0.04  # a label has its place below the legend
         axes.set_ylim(bottom, highest + margin * (highest - bottom))

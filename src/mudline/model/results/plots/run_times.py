@@ -32,7 +32,8 @@ def draw_run_times(axes: Axes, run_times: Floats, errors: Floats, marked: Mask, 
         look, values = style_of(at), _PERCENT * np.maximum(errors[:, at], _LEAST)
         axes.plot(times, values, label=name, color=look.color, marker=look.marker, linewidth=1.5)
         axes.plot(times[marked], values[marked], "*", color=look.color, **_STAR)
-    axes.plot([], [], "*", color="0.6", label="the deck's own step", **_STAR)
+    if marked.any():
+        axes.plot([], [], "*", color="0.6", label="the deck's own step", **_STAR)
     axes.set_xscale("log")
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
