@@ -133,7 +133,7 @@ class Bench:
         return Job([sys.executable, "-m", "mudline", *words], codes=frozenset(codes), environment=place)
 
     def grow(self, panel: str, sizes: Sequence[int], makers: Mapping[str, Maker]) -> None:
-        """Measure jobs of growing sizes for the picture: least processor time of two runs.
+        """Measure jobs of growing sizes: least processor time of two runs.
 
         What takes long is run once, and left out at the sizes where it would take minutes.
         """

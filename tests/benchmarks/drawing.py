@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +12,6 @@ from matplotlib.figure import Figure
 
 from tests.benchmarks.tables import FOLDER
 
-_COLORS = ("#332288", "#cc6677", "#117733", "#999933", "#882255", "#88ccee", "#44aa99", "#aa4499", "#ddcc77", "#777777")
-"""Other colours than those of the schemes; colour-blind readers can distinguish them."""
-_MARKERS = "os^DvPX<>*"
 _SCHEMES = {
     "central difference": ("#0072b2", "o", "-"),
     "velocity Verlet": ("#56b4e9", "s", "--"),
@@ -31,16 +28,10 @@ _SCHEMES = {
 LineStyle = dict[str, Any]
 
 
-def style(name: str, index: int = 0) -> LineStyle:
-    """The style of a scheme by its title, else that of this number."""
-    color, marker, dash = _SCHEMES.get(name) or (_COLORS[index % len(_COLORS)], _MARKERS[index % len(_MARKERS)], "-")
+def style(title: str) -> LineStyle:
+    """The style of a scheme."""
+    color, marker, dash = _SCHEMES[title]
     return {"color": color, "marker": marker, "linestyle": dash, "markersize": 5, "linewidth": 1.4}
-
-
-def lines(axes: Axes, points: Mapping[str, Sequence[tuple[float, float]]]) -> None:
-    """A line through points for each name of the legend, on logarithmic axes."""
-    for index, (name, part) in enumerate(points.items()):
-        axes.loglog([x for x, _ in part], [y for _, y in part], label=name, **style(name, index))
 
 
 def label(axes: Axes, title: str, x: str, y: str) -> None:
@@ -51,9 +42,9 @@ def label(axes: Axes, title: str, x: str, y: str) -> None:
     axes.grid(visible=True, which="major", alpha=0.35)
 
 
-def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
+def panels(figure: Figure, count: int, across: int) -> list[Axes]:
     """Return `count` axes, `across` of them in a row."""
-    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False, sharey=sharey).flat)
+    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False).flat)
     for axes in found[count:]:
         axes.remove()
     return found[:count]

@@ -19,7 +19,7 @@ from tests.benchmarks.peers import Environment
 from tests.benchmarks.runner import ROOT, Figure
 from tests.benchmarks.tables import inserted, table
 
-PAGE, PICTURE = ROOT / "docs" / "benchmarks.md", "images/benchmarks.svg"
+PAGE = ROOT / "docs" / "benchmarks.md"
 _OURS = ("mudline", "numpy", "pydantic", "lark", "pyyaml", "pyarrow", "numba")
 
 QUICK = "a quick run"
@@ -129,10 +129,6 @@ def _short(value: float) -> str:
 
 
 def write(results: Results, environments: Mapping[str, Environment], folder: Path) -> None:
-    """Write the page, and its picture if matplotlib is there."""
-    from tests.benchmarks.picture import draw  # noqa: PLC0415 large, and not before all is measured
-
-    (folder / PICTURE).parent.mkdir(parents=True, exist_ok=True)
+    """Write the page."""
+    folder.mkdir(parents=True, exist_ok=True)
     (folder / "benchmarks.md").write_text(page(results, environments.values()), encoding="utf-8", newline="\n")
-    if results.series:
-        draw(results.series, folder / PICTURE)

@@ -27,7 +27,7 @@ def run(bench: Bench) -> None:
 
 
 def growth(bench: Bench) -> None:
-    """Measure files of growing sizes, for the picture."""
+    """Measure files of growing sizes."""
     sizes = SIZES[:2] if bench.quick else SIZES
     for panel, kinds in (("rows of a curve", CURVE), ("nodes", NODES)):
         bench.grow(panel, sizes, readers(bench, kinds))

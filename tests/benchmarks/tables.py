@@ -69,19 +69,6 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
 
 
-def pivot(
-    rows: Sequence[Row], down: str, across: str, cell: Callable[[Row], str], head: Callable[[str], str] = str
-) -> str:
-    """A table with a row for each value of one column, a column for each of another, in the order of the rows."""
-    found: dict[str, dict[str, str]] = {}
-    for row in rows:
-        found.setdefault(row[down], {})[row[across]] = cell(row)
-    heads = list(dict.fromkeys(row[across] for row in rows))
-    return table(
-        [down, *map(head, heads)], [[name, *(cells.get(one, "") for one in heads)] for name, cells in found.items()]
-    )
-
-
 def digits(value: str | float | None, most: int = 3) -> str:
     """A number with this many digits, in thousands by blanks; empty for none, "-" for an infinite one."""
     if value in {"", None}:

@@ -1,8 +1,7 @@
 """A mooring chain at three depths: equilibrium with the evaluator's forces, the elastic catenary, and MoorDyn.
 
 The chain is made of straight elastic elements with their weight at the nodes, as MoorDyn's is. Its equilibrium is found
-by Newton's method with the evaluator's consistent tangent, first without friction; then the fairlead is pulled away
-from the anchor in small moves with friction, each from the history of the one before.
+by Newton's method with the evaluator's consistent tangent, without friction.
 """
 
 from __future__ import annotations
@@ -21,13 +20,10 @@ from mudline.model.contact.tables import ContactState
 from mudline.model.scene.model import resolve
 from tests.benchmarks.dynamics.beam import DECKS, in_line_order
 
-PULLS = {50: 3.0, 200: 15.0, 600: 40.0}
-"""Metres by which the fairlead is pulled away from the anchor: so far that all that lies on the seabed slips."""
 STANDARD_GRAVITY = 9.80665
 """m/s2; MoorDyn takes it if none is given."""
 VOLUME, LINK = 1.80, 3.35
 """Diameters of a studless chain over that of its bar: of a rod of the same volume, and around its links."""
-_MOVES = 20
 _CLOSE = 1e-3
 """Newtons at the worst node: equilibrium."""
 
@@ -62,7 +58,6 @@ class Chain:
         length: (n - 1,) unstretched lengths, m.
         axial: EA, N.
         weight: submerged, N/m.
-        friction: the coefficient along the line.
         mass, diameter: kg/m, m.
         gravity: m/s2.
     """
@@ -71,7 +66,6 @@ class Chain:
     length: FloatArray
     axial: float
     weight: float
-    friction: float
     mass: float
     diameter: float
     gravity: float
@@ -86,17 +80,6 @@ class Chain:
         """How deep the line lies under its weight, m."""
         return self.weight / self.spring
 
-    @property
-    def share(self) -> FloatArray:
-        """The length (n,) that each node has of the elements."""
-        return np.convolve(self.length, [0.5, 0.5])
-
-    def smooth(self) -> Chain:
-        """The same chain on a seabed without friction."""
-        given = self.contact.input
-        kept = tuple(law for law in given.laws if law.law != "friction")
-        return replace(self, contact=ContactModel(replace(given, laws=kept)))
-
 
 def read_chain(case: Case) -> Chain:
     """The chain of a deck, with one section, `OPTION=MOORING`."""
@@ -104,14 +87,14 @@ def read_chain(case: Case) -> Chain:
     section = scene.section_table.sections[0].entry.mooring
     if section is None:
         raise ValueError(f"{case.deck} has no mooring section")
-    contact = in_line_order(scene.contact())
-    friction = float(contact.input.assigned["friction"].parameters["axial_coefficient"][0])
+    given = scene.contact().input
+    kept = tuple(law for law in given.laws if law.law != "friction")
+    contact = in_line_order(ContactModel(replace(given, laws=kept)))
     return Chain(
         contact,
         contact.input.length,
         float(section.ea),
         float(scene.submerged_weight[0]),
-        friction,
         float(scene.mass_per_length[0]),
         float(contact.input.diameter[0]),
         scene.surroundings.gravity,
@@ -125,32 +108,27 @@ class Tensions(NamedTuple):
     anchor: float
 
 
-def catenary(chain: Chain, height: float, distance: float, friction: float) -> Tensions:
-    """The elastic catenary with a part on a rigid seabed, and Coulomb friction of all of that part towards the anchor.
+def catenary(chain: Chain, height: float, distance: float) -> Tensions:
+    """The elastic catenary with a part on a rigid seabed without friction.
 
-    Horizontal force H and vertical force V at the fairlead, with L the length, w the weight, l = L - V / w what lies on
-    the seabed, and f = friction (Jonkman 2007, equations 2-37 and 2-38).
+    Horizontal force H and vertical force V at the fairlead, with L the length, w the weight, and l = L - V / w what
+    lies on the seabed (Jonkman 2007, equations 2-37 and 2-38).
     """
     whole, w, axial = float(chain.length.sum()), chain.weight, chain.axial
 
     def misses(force: FloatArray) -> list[float]:
         h, v = (float(value) for value in force)
-        lies = whole - v / w
-        held = 0.0
-        if friction:
-            free = lies - h / (friction * w)
-            held = friction * w / (2.0 * axial) * (free * max(free, 0.0) - lies * lies)
-        across = lies + h / w * asinh(v / h) + h * whole / axial + held - distance
+        across = whole - v / w + h / w * asinh(v / h) + h * whole / axial - distance
         return [across, h / w * (sqrt(1.0 + (v / h) ** 2) - 1.0) + v * v / (2.0 * axial * w) - height]
 
     h, v = (float(value) for value in fsolve(misses, [7e3 * height, 2.2 * w * height], xtol=1e-12))
-    return Tensions(hypot(h, v) / 1e3, max(h - friction * w * (whole - v / w), 0.0) / 1e3)
+    return Tensions(hypot(h, v) / 1e3, h / 1e3)
 
 
 def lowered(chain: Chain, height: float, distance: float) -> Tensions:
     """The catenary of a chain that lies on its links, under standard gravity."""
     lighter = replace(chain, weight=chain.weight * STANDARD_GRAVITY / chain.gravity)
-    return catenary(lighter, height - lies_higher(chain), distance, 0.0)
+    return catenary(lighter, height - lies_higher(chain), distance)
 
 
 def lies_higher(chain: Chain) -> float:
@@ -166,7 +144,7 @@ def on_springs(chain: Chain, height: float, distance: float) -> Tensions:
     leaves the mudline, s = w / k, b = root(H / k). There its slope is s / b and its curvature w / H: it goes on as a
     catenary whose lowest point is s / 2 below the mudline. And the tension of the last element is that of its middle.
     """
-    high = catenary(chain, height + 0.5 * chain.sinks, distance, 0.0)
+    high = catenary(chain, height + 0.5 * chain.sinks, distance)
     vertical = sqrt(high.fairlead**2 - high.anchor**2) / high.fairlead
     return Tensions(high.fairlead - 0.5e-3 * chain.weight * float(chain.length[-1]) * vertical, high.anchor)
 
@@ -178,7 +156,6 @@ class Equilibrium:
     chain: Chain
     places: FloatArray
     state: ContactState
-    iterations: int = 0
 
     @classmethod
     def hanging(cls, chain: Chain, height: float, distance: float) -> Equilibrium:
@@ -201,7 +178,6 @@ class Equilibrium:
         keep = np.tile([True, True, False], len(self.places))[free]
         for _ in range(500):
             left, state = self._forces(self.places)
-            self.iterations += 1
             worst = float(np.abs(left.ravel()[free][keep]).max())
             if worst < _CLOSE:
                 self.state = state
@@ -256,22 +232,3 @@ class Equilibrium:
         stretched = np.linalg.norm(np.diff(self.places, axis=0), axis=1)
         tension = self.chain.axial * (stretched / self.chain.length - 1.0) / 1e3
         return Tensions(float(tension[-1]), float(tension[0]))
-
-    def pressing(self) -> FloatArray:
-        """The normal force of each node (n,), as a share of the weight that it has."""
-        result, _ = self.chain.contact.step(self.places, None, self.state)
-        found: FloatArray = result.normal_force / (self.chain.weight * self.chain.share)
-        return found
-
-    def with_friction(self, chain: Chain) -> Equilibrium:
-        """The same places on the seabed of `chain`: its stick points are where the nodes are."""
-        found = Equilibrium(chain, self.places.copy(), chain.contact.initial_state())
-        found.settle()
-        return found
-
-    def pull(self, distance: float, moves: int = _MOVES) -> None:
-        """Pull the fairlead away from the anchor, in so many moves."""
-        for _ in range(moves):
-            self.places = self.places.copy()
-            self.places[-1, 1] += distance / moves
-            self.settle()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tests.benchmarks.dynamics.peers import CORRECTED, LOWERED, REST
+from tests.benchmarks.dynamics.peers import CORRECTED, LOWERED
 from tests.benchmarks.tables import Row, load, table
 
 CLOSE = 0.01
@@ -62,9 +62,9 @@ def _enough() -> str:
 
 
 def _chains_at_rest() -> str:
-    """Tensions of both ends in each depth, by source, without friction."""
+    """Tensions of both ends in each depth, by source."""
     sources = ("published", LOWERED, "catenary", CORRECTED, "mudline", "MoorDyn")
-    chains = [row for row in load("benchmark-chains") if row["when"] == REST]
+    chains = load("benchmark-chains")
 
     def tension(depth: str, source: str, end: str) -> str:
         row = next(one for one in chains if one["depth [m]"] == depth and one["source"].startswith(source))

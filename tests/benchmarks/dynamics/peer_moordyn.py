@@ -1,7 +1,6 @@
 """Run by the interpreter that has MoorDyn: a chain from JSON on standard input, its tensions as JSON in the last line.
 
-MoorDyn finds its own static shape by dynamic relaxation; then the fairlead is pulled away from the anchor on a half
-cosine, and held. Z is up there, the fairlead is at the origin.
+MoorDyn finds its own static shape by dynamic relaxation. Z is up there, the fairlead is at the origin.
 """
 
 from __future__ import annotations
@@ -11,16 +10,12 @@ import sys
 import tempfile
 from importlib import import_module
 from importlib.metadata import version
-from math import cos, pi, sin
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeAlias
 
 System: TypeAlias = Any
 """MoorDyn ships no types."""
-
-_STEP = 0.5
-"""Seconds between two places of the fairlead; MoorDyn interpolates and takes its own steps."""
 
 _DECK = """A chain from the anchor to the fairlead
 --- LINE TYPES
@@ -38,7 +33,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 1 chain 1 2 {length} {segments} -
 --- OPTIONS
 0 writeLog
-{step} dtM
+0.001 dtM
 {seabed} kBot
 {seabed_damping} cBot
 1025.0 WtrDnsty
@@ -47,8 +42,6 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 400.0 TmaxIC
 4.0 CdScaleIC
 1.0e-5 threshIC
-{friction} FrictionCoefficient
-{friction_damping} FricDamp
 {gravity} g
 ---
 """
@@ -66,7 +59,7 @@ def tensions(system: System, moordyn: ModuleType) -> list[float]:
 
 
 def main() -> None:
-    """At rest, at the end of the pull, and after the hold."""
+    """The tensions at rest."""
     given, moordyn = json.load(sys.stdin), import_module("moordyn")
     with tempfile.TemporaryDirectory() as folder:
         deck = Path(folder) / "chain.txt"
@@ -74,15 +67,7 @@ def main() -> None:
         system = moordyn.Create(str(deck))
         if moordyn.Init(system, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]):
             sys.exit("MoorDyn did not start")
-        found = [tensions(system, moordyn)]
-        pull, over, time = given["pull"], given["over"], 0.0
-        for until in (over, over + given["hold"]):
-            while time < until - 0.5 * _STEP:
-                share = pi * min(time / over, 1.0)
-                place, speed = -0.5 * pull * (1.0 - cos(share)), -0.5 * pull * pi / over * sin(share)
-                moordyn.Step(system, [place, 0.0, 0.0], [speed, 0.0, 0.0], time, _STEP)
-                time += _STEP
-            found.append(tensions(system, moordyn))
+        found = tensions(system, moordyn)
         moordyn.Close(system)
     print("\n" + json.dumps({"program": f"MoorDyn {version('moordyn')}", "tensions": found}))
 

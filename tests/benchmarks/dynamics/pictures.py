@@ -58,20 +58,7 @@ def draw_schemes(figure: Figure) -> None:
     legend_below(figure, axes, columns=3)
 
 
-def draw_bounces(figure: Figure) -> None:
-    """The last node of the bouncing beam by both programs."""
-    rows = load("benchmark-bouncing-path")
-    time = column(rows, "time [s]")
-    (axes,) = panels(figure, 1, 1)
-    axes.plot(time, column(rows, "last node [m]"), color="#000000", linewidth=2.5, label="mudline, reference")
-    axes.plot(time, column(rows, "Exudyn, last node [m]"), "--", color="#56b4e9", label="Exudyn")
-    axes.axhline(0.0, color="#8c6d31", linewidth=0.8)
-    axes.legend(fontsize="small")
-    label(axes, "Height of the last node above the seabed", "time [s]", "[m]")
-
-
 def run() -> None:
     """Write all pictures."""
     draw("benchmark-path", draw_path, (9.0, 8.0))
     draw("benchmark-schemes", draw_schemes, (9.0, 8.0))
-    draw("benchmark-bouncing", draw_bounces, (9.0, 4.5))

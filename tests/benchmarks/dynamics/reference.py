@@ -58,7 +58,6 @@ class Path:
         hoist: (s, 2) its force, N.
         gaps: (s, n) m.
         events: how many were located.
-        evaluations: of the forces.
     """
 
     displacements: FloatArray
@@ -67,7 +66,6 @@ class Path:
     hoist: FloatArray
     gaps: FloatArray
     events: int = 0
-    evaluations: int = 0
 
     @classmethod
     def blank(cls, moments: int, nodes: int) -> Path:
@@ -83,7 +81,6 @@ class Reference:
     lifting: Lifting
     tolerance: Tolerance
     state: ContactState = field(init=False)
-    evaluations: int = 0
     events: int = 0
 
     def __post_init__(self) -> None:
@@ -117,7 +114,7 @@ class Reference:
             else:
                 mode = self._mode(end, now)
                 self._commit(end, now)
-        found.events, found.evaluations = self.events, self.evaluations
+        found.events = self.events
         return found
 
     def _solver(self, time: float, values: FloatArray, end: float) -> DOP853:
@@ -134,7 +131,6 @@ class Reference:
 
     def _at(self, time: float, values: FloatArray) -> Forces:
         size = 2 * self.lifting.beam.nodes
-        self.evaluations += 1
         return self.lifting.forces(time, values[:size], values[size : 2 * size], self.state)
 
     def _rates(self, time: float, values: FloatArray) -> FloatArray:
@@ -166,10 +162,9 @@ class Reference:
         beam, size = self.lifting.beam, 2 * self.lifting.beam.nodes
         forces = self._at(time, values)
         rates, acceleration = values[size : 2 * size], forces.total / beam.mass
-        springs = forces.result.gap < 0.0 if beam.contact.input.has("nodal") else forces.result.contact
         return np.concatenate(
             [
-                springs,
+                forces.result.contact,
                 self._suction_mode(forces, rates[: beam.nodes], acceleration[: beam.nodes]),
                 self._friction_mode(time, values, acceleration, forces),
             ]

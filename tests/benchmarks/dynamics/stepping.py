@@ -136,7 +136,7 @@ def run(scheme: Scheme, lifting: Lifting, times: FloatArray, steps: int) -> Run:
                     motion, iterations = implicit_step(scheme, system, motion, dt)
                     most = max(most, iterations)
                 else:
-                    motion = scheme.step(system, motion, dt).motion
+                    motion = scheme.step(system, motion, dt)
                 now = _powers(lifting, motion)
                 works = works + _work(before, now)
                 before = now

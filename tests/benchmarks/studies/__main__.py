@@ -8,20 +8,12 @@ from __future__ import annotations
 import argparse
 import sys
 
-from tests.benchmarks.studies import critical, curves, extremes, friction, landings, pruning, steps
+from tests.benchmarks.studies import curves, landings, release
 from tests.benchmarks.tables import FOLDER, rewrite
 
-PARTS = {
-    "curves": curves,
-    "steps": steps,
-    "critical": critical,
-    "landings": landings,
-    "friction": friction,
-    "extremes": extremes,
-    "pruning": pruning,
-}
-TABLES = {**curves.TABLES, **steps.TABLES, **landings.TABLES, **friction.TABLES, **pruning.TABLES}
-PAGES = ("precision", "stability", "pruning")
+PARTS = {"curves": curves, "landings": landings, "release": release}
+TABLES = {**curves.TABLES, **landings.TABLES, **release.TABLES}
+PAGES = ("precision", "stability")
 
 
 def main() -> None:

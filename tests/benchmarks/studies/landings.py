@@ -8,26 +8,20 @@ the forces of both ends of a step.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from mudline.model.contact.arrays import BoolArray, FloatArray
-from tests.benchmarks.drawing import draw, label, legend_below, lines
-from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, CurveLaw, Falling, Law, LinearLaw
+from tests.benchmarks.studies.laws import CLAY, DIAMETER, JUMPING, MASS, CurveLaw, Falling, Law, LinearLaw
 from tests.benchmarks.studies.motion import Motion, Scheme, march
-from tests.benchmarks.studies.motions import JUMPING
 from tests.benchmarks.studies.schemes import STABLE
 from tests.benchmarks.tables import digits, load, save, table
 
-LANDINGS, LIMITS = "stability-landings", "stability-landing-limits"
+LIMITS = "stability-landing-limits"
 SCHEMES = {name: scheme for name, scheme in STABLE.items() if name != "central-difference"}
 """On springs the central difference is velocity Verlet."""
-PHASES: FloatArray = (np.arange(400) + 0.5) / 400
-OMEGA_DTS = (0.0316, 0.0588, 0.1, 0.5, 1.0, 1.5, 1.9, 1.99, 4.4721, 10.0, 100.0)
 ALLOWED = 0.01
 """Gain, or gain and loss, that a limit allows."""
 TRIED: FloatArray = np.unique(
@@ -42,7 +36,7 @@ TRIED: FloatArray = np.unique(
 
 The outcome depends on pi / (omega dt) too, the steps of a landing: the values are dense where limits are expected.
 """
-_FEW_PHASES: FloatArray = (np.arange(64) + 0.5) / 64
+PHASES: FloatArray = (np.arange(64) + 0.5) / 64
 _SETTLING = 64
 """Steps after those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration of the
 generalised-alpha scheme is halved in each."""
@@ -77,13 +71,13 @@ def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArra
     flight, when the acceleration that a scheme carries along has died away.
     """
     dt = np.repeat(omega_dt / fall.omega, len(phases))
-    system = Falling(np.full(len(dt), fall.mass), fall.law, weight=0.0)
+    system = Falling(np.full(len(dt), fall.mass), fall.law)
     high = np.tile(phases, len(omega_dt)) * dt * fall.speed
     start = Motion.start(system, high, np.full(len(dt), -fall.speed))
     steps = math.ceil(2.0 * math.pi * fall.depth / fall.speed * fall.omega / float(omega_dt.min())) + _SETTLING
-    run = march(scheme, system, start, dt, steps)
-    left = (run.position[-1] > 0.0) & (run.velocity[-1] > 0.0) & np.repeat(omega_dt <= scheme.limit, len(phases))
-    return np.where(left, run.velocity[-1] / fall.speed, np.nan).reshape(len(omega_dt), -1)
+    end = march(scheme, system, start, dt, steps)
+    left = (end.position > 0.0) & (end.velocity > 0.0) & np.repeat(omega_dt <= scheme.limit, len(phases))
+    return np.where(left, end.velocity / fall.speed, np.nan).reshape(len(omega_dt), -1)
 
 
 class Envelope(NamedTuple):
@@ -97,7 +91,7 @@ class Envelope(NamedTuple):
     def of(cls, scheme: Scheme, fall: Fall) -> Envelope:
         """At all of `TRIED` below the critical step of a scheme; few of them at a time have about as many steps."""
         omega_dt = TRIED[scheme.limit > TRIED]
-        speeds = np.concatenate([rebounds(scheme, fall, part, _FEW_PHASES) for part in np.array_split(omega_dt, 16)])
+        speeds = np.concatenate([rebounds(scheme, fall, part, PHASES) for part in np.array_split(omega_dt, 16)])
         return cls(omega_dt, np.nanmin(speeds, axis=1), np.nanmax(speeds, axis=1))
 
     def up_to(self, good: BoolArray) -> float | None:
@@ -107,16 +101,9 @@ class Envelope(NamedTuple):
 
 
 def run(progress: Callable[[str], None]) -> None:
-    """Write tables and pictures."""
+    """Write the table."""
     progress("landings")
-    rows = []
-    for scheme in SCHEMES.values():
-        for omega_dt in OMEGA_DTS:
-            if omega_dt <= scheme.limit:
-                speeds = rebounds(scheme, LINEAR, np.array([omega_dt]), PHASES)
-                rows.append([scheme.title, omega_dt, speeds.min(), speeds.mean(), speeds.max()])
-    save(LANDINGS, ("scheme", "omega dt [-]", "least [-]", "mean [-]", "largest [-]"), rows)
-    limits, gains = [], {}
+    limits = []
     for seabed, fall in SEABEDS.items():
         for scheme in SCHEMES.values():
             progress(f"landings on {seabed}: {scheme.title}")
@@ -125,28 +112,9 @@ def run(progress: Callable[[str], None]) -> None:
             best = int(np.argmax(found.largest))
             extreme = [float(found.largest[best]), float(found.omega_dt[best]), float(found.least.min())]
             limits.append([seabed, scheme.title, found.up_to(low), found.up_to(low & high), *extreme])
-            if fall is LINEAR:
-                gains[scheme.title] = list(
-                    zip(found.omega_dt.tolist(), np.maximum.accumulate(found.largest - 1.0).tolist(), strict=True)
-                )
     heads = ("seabed", "scheme", "below 1.01 up to [-]", "within 1 % up to [-]", "largest [-]", "at omega dt [-]",
              "least [-]")  # fmt: skip
     save(LIMITS, heads, limits)
-    draw("stability-landing-gain", partial(_draw_gain, gains))
-
-
-def _draw_gain(gains: Mapping[str, Sequence[tuple[float, float]]], figure: Figure) -> None:
-    """The largest gain up to each step, which never falls; backward Euler has none."""
-    axes = figure.subplots()
-    lines(axes, {title: points for title, points in gains.items() if points[-1][1] > 0.0})
-    label(
-        axes, "Largest gain of speed in landings with a step up to this one", "omega dt [-]", "speed after / before - 1"
-    )
-    axes.axhline(ALLOWED, color="0.3", linewidth=1.2)
-    axes.set_ylim(1e-5, 5.0)
-    for line in axes.get_lines():
-        line.set_markevery(0.08)
-    legend_below(figure, axes)
 
 
 def _limits() -> str:

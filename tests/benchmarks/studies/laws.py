@@ -1,4 +1,4 @@
-"""Elastic normal laws of a mass on the seabed, with the work that they store."""
+"""Elastic normal laws of a mass on the seabed."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ CLAY = ForceCurve(
     name="soft clay",
 )
 """N/m over the embedment ratio: made up for these studies, as steep at the mudline as measured ones."""
-DIAMETER, MASS, WEIGHT = 0.3, 169.5, 953.0
-"""Of the pipe on it: m, kg/m, and N/m in water."""
+JUMPING = ForceCurve([(0.0, 300.0), *zip(CLAY.ratios.tolist()[1:], CLAY.forces.tolist()[1:], strict=True)])
+"""The same with a force at ratio 0, where it begins."""
+DIAMETER, MASS = 0.3, 169.5
+"""Of the pipe on it: m, kg/m."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,10 +31,6 @@ class LinearLaw:
         """Force and d force / d z at penetrations (k,)."""
         below = z > 0.0
         return np.where(below, self.stiffness * z, 0.0), np.where(below, self.stiffness, 0.0)
-
-    def work(self, z: FloatArray) -> FloatArray:
-        """Work from the mudline to z, exactly; 0 above it."""
-        return 0.5 * self.stiffness * np.maximum(z, 0.0) ** 2
 
     @property
     def steepest(self) -> float:
@@ -53,17 +51,6 @@ class CurveLaw:
         force, slope = self.curve.evaluate(np.where(below, z, 0.0) / self.diameter)
         return np.where(below, force, 0.0), np.where(below, slope / self.diameter, 0.0)
 
-    def work(self, z: FloatArray) -> FloatArray:
-        """See `LinearLaw`: sums of trapezoids, which are exact between points."""
-        at = np.maximum(z, 0.0) / self.diameter
-        knots = np.concatenate([[0.0], self.curve.ratios[self.curve.ratios > 0.0]])
-        forces = self.curve.evaluate(knots)[0]
-        sums = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(knots) * (forces[1:] + forces[:-1]))])
-        left = np.searchsorted(knots[1:], at, side="right")
-        rest = 0.5 * (at - knots[left]) * (forces[left] + self.curve.evaluate(at)[0])
-        work: FloatArray = (sums[left] + rest) * self.diameter
-        return work
-
     @property
     def steepest(self) -> float:
         """See `LinearLaw`."""
@@ -75,13 +62,12 @@ Law = LinearLaw | CurveLaw
 
 @dataclass(frozen=True, slots=True)
 class Falling:
-    """Masses (k,) on the seabed of a law, under a weight in water."""
+    """Masses (k,) on the seabed of a law, without weight."""
 
     mass: FloatArray
     law: Law
-    weight: float
 
     def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
         """See `System`."""
         force, slope = self.law.spring(-position)
-        return Forces(force - self.weight, -slope, np.zeros(velocity.shape), history)
+        return Forces(force, -slope, np.zeros(velocity.shape), history)

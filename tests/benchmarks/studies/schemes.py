@@ -17,27 +17,23 @@ Implicit, `OneStep`:
 * `generalised_alpha`, of Chung and Hulbert: second order, with chosen damping of what is not resolved;
 * backward Euler: first order, damps strongly, never gains energy in contact: v1 = v0 + dt a1, x1 = x0 + dt v1.
 
-Implicit schemes solve k equations of one unknown side by side by `Newton`.
+Implicit schemes solve k equations of one unknown side by side by Newton's method in a bracket.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+import math
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from tests.benchmarks.studies.motion import Forces, Motion, Scheme, Step, System
-from tests.benchmarks.studies.newton import Newton
+from tests.benchmarks.studies.motion import Forces, Motion, Scheme, System
+from tests.benchmarks.studies.newton import solve
 
 Pair = tuple[float, float]
 """Shares of the old and of the new value."""
-
-
-def _explicit(motion: Motion, evaluations: int) -> Step:
-    none = np.zeros(motion.position.shape, np.intp)
-    return Step(motion, none + evaluations, np.zeros(motion.position.shape))
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,14 +51,19 @@ class KickDrift(Scheme):
 
     ahead: float
 
-    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
+    @property
+    def limit(self) -> float:
+        """See `Scheme`."""
+        return 2.0
+
+    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Motion:
         """See `Scheme`."""
         kicked = motion.velocity + 0.5 * dt * motion.acceleration
         position = motion.position + dt * kicked
         forces = system.forces(position, kicked + self.ahead * dt * motion.acceleration, motion.history)
         acceleration = forces.force / system.mass
         velocity = kicked + 0.5 * dt * acceleration
-        return _explicit(Motion(position, velocity, acceleration, forces.force, forces.history), 1)
+        return Motion(position, velocity, acceleration, forces.force, forces.history)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +80,12 @@ class RungeKutta(Scheme):
     stages: tuple[tuple[float, ...], ...]
     weights: tuple[float, ...]
 
-    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
+    @property
+    def limit(self) -> float:
+        """See `Scheme`."""
+        return 2.0 * math.sqrt(2.0) if self.name == "rk4" else 0.0
+
+    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Motion:
         """See `Scheme`. The acceleration of the step before is the rate of the first stage."""
         speeds, accelerations = [motion.velocity], [motion.acceleration]
         for row in self.stages:
@@ -91,8 +97,7 @@ class RungeKutta(Scheme):
         position = motion.position + dt * _mixed(self.weights, speeds)
         velocity = motion.velocity + dt * _mixed(self.weights, accelerations)
         end = system.forces(position, velocity, motion.history)
-        after = Motion(position, velocity, end.force / system.mass, end.force, end.history)
-        return _explicit(after, len(self.stages) + 1)
+        return Motion(position, velocity, end.force / system.mass, end.force, end.history)
 
 
 def _mixed(weights: tuple[float, ...], rates: list[FloatArray]) -> FloatArray:
@@ -120,24 +125,26 @@ class OneStep(Scheme):
         velocity: q0, q1.
         inertia: i0, i1.
         load: g0, g1.
-        newton: how a step is solved; in a bracket, so that a run shows the scheme and not its solver.
     """
 
     position: Pair
     velocity: Pair
     inertia: Pair = (0.0, 1.0)
     load: Pair = (0.0, 1.0)
-    newton: Newton = field(default=Newton(most=100, least=1, bracketed=True))
     explicit: ClassVar[bool] = False
 
-    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
+    @property
+    def limit(self) -> float:
+        """See `Scheme`."""
+        return math.inf
+
+    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Motion:
         """See `Scheme`. Newton's method starts from the acceleration of the step before."""
         balance = _Balance(self, system, motion, dt)
-        solution = self.newton.solve(balance, motion.acceleration)
+        solution = solve(balance, motion.acceleration)
         forces = balance.forces
         force = np.where(solution.jumps, balance.balancing(solution.root), forces.force)
-        end = Motion(*balance.at(solution.root), solution.root, force, forces.history)
-        return Step(end, solution.evaluations, solution.residual)
+        return Motion(*balance.at(solution.root), solution.root, force, forces.history)
 
 
 class _Balance:
@@ -215,9 +222,6 @@ _ALL: tuple[Scheme, ...] = (
 )
 
 SCHEMES: dict[str, Scheme] = {scheme.name: scheme for scheme in _ALL}
-"""In the order in which tables show them; the last two are unstable on every undamped oscillator.
-
-To add a scheme: its row here and, if it is explicit, its critical step in `limits.py`.
-"""
+"""In the order in which tables show them; the last two are unstable on every undamped oscillator."""
 STABLE = {name: scheme for name, scheme in SCHEMES.items() if scheme.limit > 0.0}
 """Those that are stable on an oscillator at some step."""
