@@ -27,19 +27,6 @@ def lateral(inputs: ContactInput, offset: float, depth: float = 0.02) -> FloatAr
 
 
 @pytest.mark.parametrize(
-    ("offset", "share"), [(0.1, 0.0), (0.25, 0.0), (0.4, 0.5), (0.55, 1.0), (0.7, 0.5), (0.85, 0.0), (1.2, 0.0)]
-)
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_trench_adds_its_peak_outwards(offset: float, share: float, side: float) -> None:
-    contact = ContactModel(chain([LINEAR], friction(2, (0.5, MU), 1e5), trench(1, 0.5, 1.7, 600.0)))
-    path = drawn([(0.0, side * place) for place in (0.0, offset - 0.05, offset, offset + 1e-6, offset - 0.02)])
-    result = contact.evaluate(path)
-    assert result.reaction[3, :, 2] == pytest.approx([-side * (400.0 + 600.0 * share)] * 2, abs=0.01)
-    assert result.reaction[4, :, 2] == pytest.approx([side * 400.0] * 2)  # back inwards the walls do nothing
-    assert result.reaction[..., 0] == pytest.approx(np.full((5, 2), 1000.0))  # the seabed is not lowered
-
-
-@pytest.mark.parametrize(
     ("offset", "on_the_wall"), [(0.1, False), (0.24, False), (0.26, True), (0.55, True), (0.84, True), (0.86, False)]
 )
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -56,20 +43,6 @@ def test_a_wall_holds_more_the_harder_the_node_presses(offset: float, on_the_wal
 
 
 TABLE = np.array([[0.1, 100.0], [0.3, 500.0], [0.5, 200.0]])
-
-
-@pytest.mark.parametrize(
-    ("offset", "resistance"),
-    [(0.05, 100.0), (0.1, 100.0), (0.2, 300.0), (0.3, 500.0), (0.4, 350.0), (0.5, 200.0), (0.51, 0.0)],
-)
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_table_holds_from_the_centreline_on(offset: float, resistance: float, side: float) -> None:
-    """Per unit length: each node has half of an element of 2 m."""
-    ditch = on("trench table", 1, table=0, bottom=0.9, upper=1.1, **ALONG_Y)
-    contact = ContactModel(chain([LINEAR], friction(2, (0.5, MU), 1e5), ditch, tables=(TABLE,)))
-    result = contact.evaluate(drawn([(0.0, 0.0), (0.0, side * offset), (0.0, side * (offset - 0.02))]))
-    assert result.reaction[1, :, 2] == pytest.approx([-side * (400.0 + resistance)] * 2)
-    assert result.reaction[2, :, 2] == pytest.approx([side * 400.0] * 2)
 
 
 RESIDUAL = diagram(0.25, 0.85, 600.0, (150.0, 1.05))
@@ -166,19 +139,6 @@ def test_between_two_blocks_each_counts_with_half_of_its_own_element(name: str) 
     inputs = chain([LINEAR] * 2, friction(3, (0.5, MU), 1e6), *laws, length=[2.0, 6.0], tables=tables)
     pressing = np.array([1000.0, 4000.0, 3000.0])
     assert lateral(inputs, 0.55) == pytest.approx(MU * pressing + added, rel=1e-12)
-
-
-def test_a_straight_centreline_may_run_at_any_angle() -> None:
-    """Through (0, 0) and (-3, -4): its offset counts along u2 of the node, which stands across the line."""
-    slanted = {"start_y": 0.0, "start_z": 0.0, "end_y": -3.0, "end_z": -4.0}
-    inputs = chain([LINEAR], friction(2, (0.5, MU), 1e6), trench(1, 0.1, 0.5, 600.0, slanted))
-    path = np.zeros((2, 2, 3))
-    path[..., 0] = -0.02
-    path[:, 1, 1:] = 1.2, 1.6
-    path[1, :, 1:] += 0.15 * np.array([-0.8, 0.6])
-    result = ContactModel(inputs).evaluate(path)
-    assert result.friction is not None
-    assert result.friction[1] == pytest.approx(np.array([[0.0, -1000.0]] * 2), abs=1e-9)
 
 
 def test_a_trench_along_the_line_as_laid_follows_its_bends() -> None:
