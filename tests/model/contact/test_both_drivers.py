@@ -1,4 +1,4 @@
-"""numpy and the loops give the same bits: results and states, at once, in parts, step by step, on several threads."""
+"""numpy and the loops give the same bits: results and states, at once, in parts, step by step, on threads."""
 
 from __future__ import annotations
 

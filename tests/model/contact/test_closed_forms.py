@@ -1,4 +1,4 @@
-"""Problems with closed solutions: masses that fall and slide on the seabed, a block on a slope, a beam on springs."""
+"""A mass that falls on the seabed, and one that bounces: closed solutions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nodal reactions: sums, equilibrium, and what they do not depend on."""
+"""Nodal reactions balance the forces on the elements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Work arrays have a fixed size, however long the query, and serve one query at a time."""
+"""Work arrays have a fixed size, however long the query."""
 
 from __future__ import annotations
 

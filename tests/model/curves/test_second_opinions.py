@@ -1,4 +1,4 @@
-"""Curves as scipy has them: force, slope, beyond both ends, and back to ratios; these in exact rationals, too."""
+"""Ratios at a force in exact rationals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names of every kind that keywords define and use, and what is looked at in lines that are not read."""
+"""Curves of every kind, and nodes and elements that any keyword names."""
 
 from __future__ import annotations
 
