@@ -116,19 +116,6 @@ def test_what_is_drawn_is_the_result() -> None:
         assert set(touching.tolist()) <= set(here.tolist())
 
 
-def test_the_labels_of_a_span_do_not_lie_over_each_other() -> None:
-    scene = mudline.read(SAMPLES / "legacy-flowline.keyxm").scene()
-    spanning = np.abs(scene.coordinates[:, 1:] - scene.coordinates[:, 1:].mean(axis=0)).max(axis=1) < 40.0
-    positions = scene.coordinates + np.where(spanning, 0.01, 0.0)[:, np.newaxis] * [1.0, 0.0, 0.0]
-    axes = panel(PlotData.of_result(scene.contact().evaluate(positions)), "line")
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    figure.canvas.draw()
-    first, second = (text.get_window_extent() for text in axes.texts)
-    assert not first.overlaps(second)
-    assert first.y1 <= axes.get_window_extent().y1
-
-
 def test_the_line_has_its_touchdown_point_and_lies_on_its_nodes() -> None:
     state = heave().step(0)
     axes = panel(PlotData.of_result(state), "line")
@@ -191,16 +178,6 @@ def lines(count: int, elements: int = 4) -> ContactResult:
             (law,),
         )
     ).evaluate()
-
-
-def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
-    data = PlotData.of_result(lines(70, 1))
-    stretch = DrawnStretch(data)
-    assert (len(stretch.lines), stretch.left_out) == (6, 64)
-    axes = panel(data, "line")
-    legend = axes.get_legend()
-    assert legend is not None
-    assert "and 64 more lines" in [text.get_text() for text in legend.get_texts()]
 
 
 def test_four_elements_are_marked_and_a_long_line_is_thinned() -> None:

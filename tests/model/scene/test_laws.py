@@ -84,12 +84,6 @@ def test_curves_of_sets_win_over_the_surface_in_whatever_order(order: int) -> No
     assert laws(text) == "ccccclllll"
 
 
-def test_of_two_curves_of_sets_the_later_wins() -> None:
-    scene = scene_of(BASE + "*ELASTIC SURFACE\n , 0.3\n" + embedment("a", "b"))
-    assert scene.law_names == ["curve:a"] * 3 + ["curve:b"] * 5 + ["none"] * 2
-    assert scene.laws.followers(1).tolist() == [3, 4, 5, 6, 7]
-
-
 def test_points_before_any_set_hold_for_all() -> None:
     text = BASE + "*ELASTIC SURFACE\n ,\n*EMBEDMENT\n 0, 0\n 1, 1\n"
     assert scene_of(text).law_names == ["curve:ALL"] * 10
@@ -191,15 +185,6 @@ def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces()
     nodal = "*SEABED CONTACT\n SET={}\n NODAL STIFFNESS=5000\n"
     assert reported(text + nodal.format("ALL")) == []
     assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
-
-
-def test_a_soil_needs_a_diameter() -> None:
-    text = (
-        PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n*SEABED SOIL\n SET=ALL\n STRENGTH=5000\n"
-    )
-    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
-    assert "have a soil and no external diameter" in messages(text)[0]
-    assert reported(text + STEEL) == []
 
 
 def test_a_drag_diameter_of_0_is_no_diameter() -> None:

@@ -17,11 +17,9 @@ from mudline.tools.touchdown_study.study import Study, study
 from mudline.tools.touchdown_study.zone import Variant, Zone, touchdown_zone
 from tests.helpers.samples import SAMPLES
 from tests.tools.touchdown_study.decks import (
-    BUOYS,
     CHAIN,
     CURVE,
     FALL,
-    FLEXIBLE,
     IMPERIAL,
     JUMP,
     SNAP,
@@ -141,15 +139,6 @@ def test_operators_in_radians_or_in_hertz(frequencies: tuple[float, float]) -> N
     motion = zone_of(Riser(loads=WAVES + RAO.format(*frequencies)).text()).motion
     assert abs(motion.heave - 1.6) + abs(motion.surge + 1.0j) < 1e-9
     assert motion.source == "by *RAO, H 4"
-
-
-def test_a_lazy_wave_in_the_other_order_of_nodes() -> None:
-    riser = Riser(300.0, 760.0, 1000.0, 420.0, section=FLEXIBLE.format(buoyancy=0.78), sets=BUOYS)
-    other_way = "*ELEMENT SETS\n SET=Bare\n GEN=1, 60\n GEN=101, 250\n SET=Buoy\n GEN=61, 100\n"
-    found, _ = zone_of(riser.text()).run(90)
-    other, _ = zone_of(replace(riser, top_first=True, sets=other_way).text()).run(90)
-    assert found.touchdown == pytest.approx(other.touchdown, rel=1e-3)
-    assert found.moment_range == pytest.approx(other.moment_range, rel=1e-3)
 
 
 def test_along_a_slope_what_is_left_out_is_said() -> None:
