@@ -106,10 +106,10 @@ pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 	$(BIN)/python -m tests.docs.pictures
 	$(BIN)/python -m tests.tools.reporting.browser
 
-studies: $(VENV)/.developer ## measure the tables and pictures of docs/studies/ again (3 minutes)
+studies: $(VENV)/.developer ## measure the tables of docs/studies/ again (1 minute)
 	$(BIN)/python -m tests.benchmarks.studies $(ARGS)
 
-dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and other programs: docs/studies/benchmark.md (15 minutes)
+dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and MoorDyn: docs/studies/benchmark.md (15 minutes)
 	$(BIN)/python -m tests.benchmarks.dynamics $(ARGS)
 
 bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)

@@ -79,12 +79,8 @@ class Scheme(ABC):
 
     name: str
     title: str
+    limit: float
     explicit: ClassVar[bool] = True
-
-    @property
-    @abstractmethod
-    def limit(self) -> float:
-        """See above."""
 
     @abstractmethod
     def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Motion:
