@@ -141,6 +141,19 @@ def test_between_two_blocks_each_counts_with_half_of_its_own_element(name: str) 
     assert lateral(inputs, 0.55) == pytest.approx(MU * pressing + added, rel=1e-12)
 
 
+def test_a_straight_centreline_may_run_at_any_angle() -> None:
+    """Through (0, 0) and (-3, -4): its offset counts along u2 of the node, which stands across the line."""
+    slanted = {"start_y": 0.0, "start_z": 0.0, "end_y": -3.0, "end_z": -4.0}
+    inputs = chain([LINEAR], friction(2, (0.5, MU), 1e6), trench(1, 0.1, 0.5, 600.0, slanted))
+    path = np.zeros((2, 2, 3))
+    path[..., 0] = -0.02
+    path[:, 1, 1:] = 1.2, 1.6
+    path[1, :, 1:] += 0.15 * np.array([-0.8, 0.6])
+    result = ContactModel(inputs).evaluate(path)
+    assert result.friction is not None
+    assert result.friction[1] == pytest.approx(np.array([[0.0, -1000.0]] * 2), abs=1e-9)
+
+
 def test_a_trench_along_the_line_as_laid_follows_its_bends() -> None:
     """The line is laid along Y and then Z; each end is drawn across its own piece by 0.55."""
     inputs = chain([LINEAR] * 2, friction([0, 2], (0.5, MU), 1e6), trench(2, 0.5, 1.7, 600.0, {}))
