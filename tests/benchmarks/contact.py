@@ -1,16 +1,9 @@
 """Nanoseconds a node and step of the contact evaluator: python -m tests.benchmarks.contact
 
-Every scene and peer is run several times; printed is the least processor time of a run, on which other programs have
-the least influence. Runs on two threads count their time by the clock.
-
-The scenes: "all" has every law on (curves, linear and smoothed laws, nodal springs, unloading, both suctions, friction,
-lateral springs, trenches) over a flat seabed; "sloping" and "planes" are the same over those seabeds, "stretches" has
-its laws in stretches as decks have them: elsewhere they are drawn at random for each element. "curves" has one curve on
-all elements and is streamed, "evaluate" is the same in one result, and "GEN=" the same with its two end nodes first, as
-a deck lists the nodes between which GEN= makes others.
-
-The peers: a function written by hand for one curve ("by hand"), a copy of the positions, and np.searchsorted over the
-points of the curve.
+Printed is the least processor time of several runs, on which other programs have the least influence, of a line with
+every law on (curves, linear and smoothed laws, nodal springs, unloading, both suctions, friction, lateral springs,
+trenches), each drawn at random for each element, and of a line with one curve on all elements; then of a function
+written by hand for one curve.
 
 `--ratios` has the goals alone: a compiled step into the arrays of an earlier one beside copy and root of 16 numbers a
 node, and a series with nine nodes of ten above the seabed beside one with all on it, with every law. What is compared
@@ -21,52 +14,30 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
-import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from mudline.model.contact import ContactInput, ContactModel, LawAssignment
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.plan import Backend
-from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed
 from tests.benchmarks.goals import GOALS
-from tests.helpers.builders.contact import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, renumbered, suction
+from tests.helpers.builders.contact import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, suction
 
 Work = Callable[[], object]
-Clock = Callable[[], float]
 
 _NODE_STEPS = 400_000
 """Of a run, about."""
-_FIRST = """
-import time
-from tests.benchmarks.contact import all_laws, series
-from mudline.model.contact import ContactModel
-import numba
-inputs = all_laws(1000)
-positions, times = series(inputs, 4), [0.0, 0.1, 0.2, 0.3]
-start = time.process_time()
-ContactModel(inputs, backend="fast", threads=1).evaluate(positions, times=times)
-print(time.process_time() - start)
-"""
 
 
-def all_laws(nodes: int, *, stretches: bool = False) -> ContactInput:
+def all_laws(nodes: int) -> ContactInput:
     """A line with every law on some of its elements or nodes."""
     rng, count = np.random.default_rng(1), nodes - 1
     points = line(count, 1)
 
     def some(share: float, of: int = count) -> IndexArray:
-        if stretches:
-            start = int(rng.integers(0, max(1, int(of * (1.0 - share)))))
-            return np.arange(start, start + int(of * share))
         return np.flatnonzero(rng.random(of) < share)
 
     curves, unloads, spread, slides = some(0.5), some(0.4), some(0.7), some(0.9, nodes)
@@ -143,21 +114,15 @@ def by_hand(positions: FloatArray, diameter: FloatArray, half: FloatArray) -> No
         reaction[..., 0] = normal
 
 
-def streaming(inputs: ContactInput, positions: FloatArray, backend: Backend, threads: int = 1) -> Work:
+def streaming(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Work:
     """A run through a whole series, a few steps at a time."""
-    model, times = ContactModel(inputs, backend=backend, threads=threads), 0.1 * np.arange(float(len(positions)))
+    model, times = ContactModel(inputs, backend=backend, threads=1), 0.1 * np.arange(float(len(positions)))
 
     def run() -> None:
         for _ in model.stream(positions, times=times):
             pass
 
     return run
-
-
-def evaluating(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Work:
-    """The whole series in one result."""
-    model = ContactModel(inputs, backend=backend, threads=1)
-    return lambda: model.evaluate(positions)
 
 
 def stepping(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Work:
@@ -216,111 +181,39 @@ def _average(work: Work, times: int) -> float:
     return (time.thread_time() - start) / times
 
 
-def generated(inputs: ContactInput) -> ContactInput:
-    """The same line with its end nodes first."""
-    count = len(inputs.node_ids)
-    return renumbered(inputs, np.array([0, count - 1, *range(1, count - 1)]))
-
-
-def least(work: Work, rounds: int, clock: Clock = time.thread_time) -> float:
-    """Least time of several runs, after one to warm up."""
-    work()
-    taken = []
-    for _ in range(rounds):
-        start = clock()
-        work()
-        taken.append(clock() - start)
-    return min(taken)
-
-
-def table(nodes: int, rounds: int) -> Iterator[tuple[str, dict[str, float]]]:
-    """Nanoseconds a node and step of all scenes and peers of one size."""
-    steps = max(8, _NODE_STEPS // nodes)
-    scale = 1e9 / (nodes * steps)
-    every, curves = all_laws(nodes), one_curve(nodes)
-    middle = [0.0, 2.0 * nodes, 0.0]
-    scenes = {
-        "all": every,
-        "stretches": all_laws(nodes, stretches=True),
-        "sloping": replace(every, seabed=SlopingSeabed(0.001, 30.0)),
-        "planes": replace(every, seabed=PlanesSeabed([[0.0, 0.0, 0.0], middle], [0.0, 0.5])),
-        "curves": curves,
-        "GEN=": generated(curves),
-    }
-    works: dict[str, dict[str, Work]] = {}
-    backends: tuple[Backend, ...] = ("numpy", "fast")
-    for name, inputs in scenes.items():
-        positions = series(inputs, steps)
-        works[name] = {backend: streaming(inputs, positions, backend) for backend in backends}
-        works[name]["2 threads"] = streaming(inputs, positions, "fast", 2)
-    places = series(curves, steps)
-    works["evaluate"] = {backend: evaluating(curves, places, backend) for backend in backends}
-    ratios, target = places[..., 0].copy(), np.empty_like(places)
-    works["by hand"] = {"numpy": partial(by_hand, places, curves.diameter, 0.5 * curves.length)}
-    works["copy"] = {"numpy": partial(np.copyto, target, places)}
-    works["searchsorted"] = {"numpy": partial(np.searchsorted, CLAY.ratios, ratios)}
-    for name, found in works.items():
-        yield (
-            name,
-            {
-                kind: least(work, rounds, time.perf_counter if kind == "2 threads" else time.thread_time) * scale
-                for kind, work in found.items()
-            },
-        )
-
-
-def first_evaluation(cache: str) -> float:
-    """Processor seconds of the first compiled evaluation of a process, numba imported."""
-    environment = {**os.environ, "NUMBA_CACHE_DIR": cache, "MUDLINE_CACHE_DIR": cache}
-    words = [sys.executable, "-c", _FIRST]
-    run = subprocess.run(
-        words, env=environment, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2]
-    )
-    return float(run.stdout)
-
-
 def main() -> None:
-    """Time lines of growing numbers of nodes, one step, and compilation."""
+    """Print the goals, or times of lines of growing numbers of nodes."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--nodes", type=int, nargs="+", default=[1000, 10_000, 100_000, 1_000_000])
     parser.add_argument("--rounds", type=int, default=7, help="runs to take the least time of (default 7)")
-    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+    parser.add_argument("--json", action="store_true", help="with --ratios: print the figures as JSON")
     parser.add_argument("--ratios", action="store_true", help="print the goals alone, with what is reached")
-    arguments = parser.parse_args()
-    if arguments.ratios:
-        found = list(ratios(arguments.rounds))
-        if arguments.json:
-            print(json.dumps(found))
-            return
-        goals = {goal.key: goal for goal in GOALS}
-        for key, (taken, peer) in ((key, map(min, times)) for key, *times in found):
-            reached = f"{taken / peer:.3g} ({taken * 1e6:.0f} / {peer * 1e6:.0f} us; goal at most {goals[key].limit:g})"
-            print(f"{goals[key].what}: {reached}")
+    given = parser.parse_args()
+    if not given.ratios:
+        for nodes in given.nodes:
+            _print_times(nodes, given.rounds)
         return
-    sizes: dict[int, dict[str, dict[str, float]]] = {}
-    if not arguments.json:
-        print(f"{'nodes':>8}{'ns/node/step':>14}{'numpy':>12}{'compiled':>12}{'2 threads':>12}")
-    for nodes in arguments.nodes:
-        sizes[nodes] = {}
-        for name, cells in table(nodes, arguments.rounds):
-            sizes[nodes][name] = cells
-            if not arguments.json:
-                print(f"{nodes:>8}{name:>14}" + "".join(f"{cell:>12.1f}" for cell in cells.values()), flush=True)
-    inputs = all_laws(1000)
-    positions = series(inputs, 2)
+    found = list(ratios(given.rounds))
+    if given.json:
+        print(json.dumps(found))
+        return
+    goals = {goal.key: goal for goal in GOALS}
+    for key, (taken, peer) in ((key, map(min, times)) for key, *times in found):
+        reached = f"{taken / peer:.3g} ({taken * 1e6:.0f} / {peer * 1e6:.0f} us; goal at most {goals[key].limit:g})"
+        print(f"{goals[key].what}: {reached}")
+
+
+def _print_times(nodes: int, rounds: int) -> None:
+    steps = max(8, _NODE_STEPS // nodes)
+    curve = one_curve(nodes)
+    places = series(curve, steps)
+    works: dict[str, Work] = {"one curve by hand": partial(by_hand, places, curve.diameter, 0.5 * curve.length)}
     backends: tuple[Backend, ...] = ("numpy", "fast")
-    single = {
-        f"step() of 1000 nodes, all laws, {backend}": least(stepping(inputs, positions, backend), 20 * arguments.rounds)
-        for backend in backends
-    }
-    with tempfile.TemporaryDirectory() as cache:
-        single["first compiled evaluation"] = first_evaluation(cache)
-        single["the same with cached loops"] = min(first_evaluation(cache) for _ in range(3))
-    if arguments.json:
-        print(json.dumps({"sizes": sizes, "single": single}))
-        return
-    for name, taken in single.items():
-        print(f"{name}: {taken * 1e6:.0f} us")
+    for name, inputs in (("one curve", curve), ("all laws", all_laws(nodes))):
+        works |= {f"{name}, {backend}": streaming(inputs, places, backend) for backend in backends}
+    for name, work in works.items():
+        taken = min([_average(work, 1) for _ in range(rounds + 1)][1:])
+        print(f"{nodes:>8} nodes, {name}: {1e9 * taken / (nodes * steps):.1f} ns a node and step", flush=True)
 
 
 if __name__ == "__main__":

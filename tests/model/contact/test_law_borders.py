@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mudline.model.contact.laws import breakout, linear, soil
+from mudline.model.contact.laws import linear, soil
 from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw, on_ellipse
 from tests.model.contact.single import anchored, coulomb, move
 from tests.model.contact.soil_program import Clay
@@ -41,34 +41,6 @@ def test_a_spring_beyond_numbers_is_infinite_without_a_warning() -> None:
     law = FrictionLaw(np.array([[0.5, 0.5]]), np.array([[np.nan, 7.0]]), np.array([[5e-324, np.nan]]), every, every)
     assert law.rising.tolist() == [[np.inf, 0.0]]
     assert law.springs(np.array([2.0])).tolist() == [[np.inf, 7.0]]
-
-
-LAW = (0.05, 0.1, 0.4, 0.2, 0.25)
-"""d_0, d_1, r_0, r_1 and where the residual is reached: at w = 0.5 the peak is at 0.1."""
-
-
-def test_the_embedment_grows_up_to_the_peak() -> None:
-    assert breakout.reached((0.1, 0.5), 0.02, 0.7, LAW) == (0.1, 0.7)
-    assert breakout.reached((0.1, 0.5), -0.3, 1.7, LAW) == (0.3, 1.0)
-    assert breakout.reached((0.1, 0.5), 0.12, 0.3, LAW) == (0.12, 0.5)
-    assert breakout.reached((np.nextafter(0.1, 1.0), 0.5), 0.02, 0.7, LAW)[1] == 0.5
-
-
-@pytest.mark.parametrize(
-    ("far", "share", "slope"),
-    [(0.0, 1.0, 0.0), (0.1, 1.0, 0.0), (0.175, 0.5, 1.0), (0.25, 0.0, 0.0), (0.4, 0.0, 0.0)],
-    ids=["start", "peak", "half way", "residual", "beyond"],
-)
-def test_the_share_falls_from_the_peak_to_the_residual(far: float, share: float, slope: float) -> None:
-    residual = 0.4 + 0.2 * 0.5**0.8
-    left, fall, spring = breakout.shares(far, 0.5, LAW)
-    assert float(left) == pytest.approx(residual + share * (1.0 - residual), rel=1e-12)
-    assert float(fall) == pytest.approx(slope * (1.0 - residual) / 0.15, rel=1e-12)
-    assert spring == pytest.approx(0.5)
-
-
-def test_a_residual_above_the_peak_is_the_peak() -> None:
-    assert breakout.shares(1.0, 1.0, (0.05, 0.0, 0.9, 0.3, 0.25)) == (1.0, 0.0, 1.0)
 
 
 CLAY = (5000.0, 1500.0, 6.0, 0.25, 200.0, 0.6, 1.0, 0.3, 0.0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -35,27 +34,6 @@ def test_the_stages_stand_in_order() -> None:
     assert plan.history is False
     assert plan.steps == "all steps at once"
     assert replace(plan, history=True).steps == "one step after the other"
-
-
-@pytest.mark.parametrize(
-    ("laws", "why"),
-    [
-        ([CURVE], "1 element on 1 force-embedment curve"),
-        (
-            [CURVE, CURVE, LINEAR],
-            "2 elements on 1 force-embedment curve; 1 element with a linear stiffness, at the mean depth (inferred)",
-        ),
-        (
-            [LINEAR, NONE, NONE],
-            "1 element with a linear stiffness, at the mean depth (inferred); 2 elements without a law",
-        ),
-        ([NONE], "no element has a curve or a linear stiffness; 1 element without a law"),
-    ],
-)
-def test_the_normal_law_says_what_it_holds(laws: Sequence[str], why: str) -> None:
-    stage = ContactModel(chain(laws)).plan["normal law"]
-    assert stage.why == why
-    assert stage.active == (laws != [NONE])
 
 
 def test_a_rigid_seabed_is_a_constraint_without_a_reaction_here() -> None:
@@ -102,20 +80,6 @@ def test_the_plan_says_of_which_trenches_the_depth_counts() -> None:
         "1 element with a tabulated resistance of the walls (inferred), where depth and widths have no effect; "
         "2 elements with sloped walls (inferred); the seabed is not lowered"
     )
-
-
-def test_the_plan_of_a_scene_with_everything() -> None:
-    plan = ContactModel(everything(9, seed=4)).plan
-    assert plan.history
-    assert [stage.stage for stage in plan if not stage.active] == []
-    why = {stage.stage: stage.why for stage in plan}
-    assert "nodes with a stiffness of their own" in why["normal law"]
-    assert why["unloading"].endswith("on unloading lines, from the deepest point so far")
-    assert "after Bridge et al., with a state each, " in why["suction"]
-    assert why["suction"].endswith("with a spring up to an extent, without history (inferred)")
-    assert "nodes with a constant spring, " in why["friction"]
-    assert why["lateral"].endswith("with a spring to its touchdown point (inferred), in place of friction")
-    assert why["trench"].endswith("the seabed is not lowered")
 
 
 OF_THEIR_OWN = {"hyperbolic", "breakout", "damping", "nodal damping", "trench level"}

@@ -1,4 +1,4 @@
-"""Nodal reactions: sums, equilibrium, and what they do not depend on."""
+"""Nodal reactions balance the forces on the elements."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.model.contact import ContactModel
-from tests.helpers.builders.contact import CLAY, CURVE, at_depths, chain, mixed
+from tests.helpers.builders.contact import at_depths, mixed
 
 
 @given(st.integers(1, 60), st.integers(0, 2**32 - 1))
@@ -23,13 +23,3 @@ def test_reactions_balance_the_forces_on_the_elements(count: int, seed: int) -> 
     assert result.normal_force @ lever == pytest.approx(load @ (lever[:-1] + 0.5), rel=1e-12, abs=1e-12)
     assert np.array_equal(result.reaction, result.normal_force[..., np.newaxis] * result.normal)
     assert np.array_equal(result.normal, np.broadcast_to([1.0, 0.0, 0.0], (3, count + 1, 3)))
-
-
-def test_at_its_static_embedment_a_pipe_is_in_equilibrium() -> None:
-    weight, diameter, count = 3100.0, 0.27305, 40
-    (ratio,) = CLAY.ratios_at_force(weight)
-    result = ContactModel(chain([CURVE] * count, diameter=diameter)).evaluate(
-        at_depths(np.full(count + 1, ratio * diameter))
-    )
-    carried = np.array([weight, *[2.0 * weight] * (count - 1), weight])
-    assert result.normal_force == pytest.approx(carried, rel=1e-12)

@@ -10,7 +10,6 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from mudline.model.curves import CurveError, ForceCurve
-from mudline.model.curves.points import FloatArray
 
 LINE = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
 
@@ -78,18 +77,6 @@ def test_a_force_that_overflows_is_named_whatever_block_it_is_in(count: int) -> 
     query[[70_001, 90_000]] = 1e200, -1e200
     with pytest.raises(ValueError, match=r"ratio 1e\+200 \(index 70001\): the force there overflows"):
         curve.evaluate(query)
-
-
-@pytest.mark.parametrize("layout", [np.ascontiguousarray, np.asfortranarray])
-def test_the_first_bad_ratio_is_the_first_in_the_order_of_rows(layout: type[FloatArray]) -> None:
-    query = np.zeros((3, 4))
-    query[1, 0] = query[0, 2] = np.nan
-    curve = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
-    for ask in (curve.evaluate, curve.segment, curve.extrapolated):
-        with pytest.raises(ValueError, match=r"at ratio nan \(index 2\)"):
-            ask(layout(query))
-    with pytest.raises(ValueError, match=r"at ratio nan \(index 2\)"):
-        curve.evaluate(layout(query), out=(layout(np.zeros((3, 4))), layout(np.zeros((3, 4)))))
 
 
 def test_an_out_that_does_not_fit() -> None:

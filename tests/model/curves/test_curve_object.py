@@ -53,25 +53,6 @@ def test_repr() -> None:
     assert repr(ForceCurve([*eight, (8, 8)])) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
 
 
-def test_repr_is_of_a_length_that_can_be_read() -> None:
-    longest = [
-        (0.0, 1e-100),
-        (1.0, 1.0),
-        (2.0, 2.0),
-        (3.0, 3.0),
-        (4.0, 4.0),
-        (5.1234567, 5.1234567),
-        (6.0, 6.0),
-        (7.0, 1.2345678901),
-    ]
-    assert len(repr(longest)) == 120
-    assert repr(ForceCurve(longest)) == f"ForceCurve({longest}, name=None)"
-    longer = [*longest[:-1], (7.0, 1.23456789012)]
-    assert repr(ForceCurve(longer)) == "ForceCurve(<8 points from (0.0, 1e-100) to (7.0, 1.23456789012)>, name=None)"
-    assert repr(ForceCurve(longer, "c" * 60)).endswith(f"name='{'c' * 60}')")
-    assert repr(ForceCurve(longer, "c" * 61)).endswith(f"name='{'c' * 57}...')")
-
-
 def test_a_notebook_shows_the_points_with_their_slopes() -> None:
     shown = ForceCurve(POINTS, name="clay <1>")._repr_html_()
     assert "clay &lt;1&gt; 3 points" in shown

@@ -19,7 +19,6 @@ from matplotlib.lines import Line2D
 import mudline
 from mudline.model.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.model.contact.touchdown import line_summaries
-from mudline.model.curves import ForceCurve
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.plots.along_line import DrawnStretch
 from mudline.model.results.plots.figure import evaluation_figure, panels_of
@@ -118,19 +117,6 @@ def test_what_is_drawn_is_the_result() -> None:
         assert set(touching.tolist()) <= set(here.tolist())
 
 
-def test_the_labels_of_a_span_do_not_lie_over_each_other() -> None:
-    scene = mudline.read(SAMPLES / "legacy-flowline.keyxm").scene()
-    spanning = np.abs(scene.coordinates[:, 1:] - scene.coordinates[:, 1:].mean(axis=0)).max(axis=1) < 40.0
-    positions = scene.coordinates + np.where(spanning, 0.01, 0.0)[:, np.newaxis] * [1.0, 0.0, 0.0]
-    axes = panel(PlotData.of_result(scene.contact().evaluate(positions)), "line")
-    figure = axes.get_figure()
-    assert isinstance(figure, Figure)
-    figure.canvas.draw()
-    first, second = (text.get_window_extent() for text in axes.texts)
-    assert not first.overlaps(second)
-    assert first.y1 <= axes.get_window_extent().y1
-
-
 def test_the_line_has_its_touchdown_point_and_lies_on_its_nodes() -> None:
     state = heave().step(0)
     axes = panel(PlotData.of_result(state), "line")
@@ -199,29 +185,6 @@ def lines(count: int, elements: int = 4) -> ContactResult:
     ).evaluate()
 
 
-def test_several_lines_differ_without_colours() -> None:
-    axes = panel(PlotData.of_result(lines(3)), "force")
-    found = drawn(axes)
-    assert len(found) == 3
-    for look in (Line2D.get_color, Line2D.get_linestyle, Line2D.get_marker):
-        assert len({look(line) for line in found}) == 3
-    line = panel(PlotData.of_result(lines(3)), "line")
-    legend = line.get_legend()
-    assert legend is not None
-    texts = [text.get_text() for text in legend.get_texts()]
-    assert texts[:3] == ["line 1: elements 1 to 4", "line 2: elements 5 to 8", "line 3: elements 9 to 12"]
-
-
-def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
-    data = PlotData.of_result(lines(70, 1))
-    stretch = DrawnStretch(data)
-    assert (len(stretch.lines), stretch.left_out) == (6, 64)
-    axes = panel(data, "line")
-    legend = axes.get_legend()
-    assert legend is not None
-    assert "and 64 more lines" in [text.get_text() for text in legend.get_texts()]
-
-
 def test_four_elements_are_marked_and_a_long_line_is_thinned() -> None:
     short = drawn(panel(PlotData.of_result(lines(1)), "force"))[0]
     assert short.get_marker() == "o"
@@ -249,18 +212,6 @@ def test_panels_along_the_line_show_where_contact_changes() -> None:
     assert stretch.beyond in figure.get_suptitle()
 
 
-def test_springs_of_nodes_have_forces_on_nodes() -> None:
-    scene = lines(1).known
-    law = LawAssignment("nodal", np.arange(5), {"stiffness": 1e4})
-    given = ContactInput(
-        scene.node_ids, scene.coordinates, scene.element_ids, scene.element_nodes, scene.length, scene.diameter, (law,)
-    )
-    found = ContactModel(given).evaluate()
-    axes = panel(PlotData.of_result(found), "force")
-    assert axes.get_ylabel() == "seabed reaction\non a node"
-    assert np.asarray(drawn(axes)[0].get_ydata()).tolist() == found.normal_force.tolist()
-
-
 @pytest.mark.parametrize("name", ["picture.png", "picture.svg", "picture.pdf"])
 def test_a_result_draws_itself_the_same_each_time(tmp_path: Path, name: str) -> None:
     state = raised().step(0)
@@ -285,29 +236,3 @@ def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------ scales
-
-
-def test_evaluated_points_with_a_suction_spring_lie_on_the_drawn_lines() -> None:
-    scene, curve = lines(1).known, ForceCurve(np.array([[0.0, 0.0], [0.05, 200.0], [0.5, 900.0]]))
-    laws = (
-        LawAssignment("curve", np.arange(4), {"curve": 0}),
-        LawAssignment("suction spring", np.arange(4), {"stiffness": 2e3, "extent": 0.05}),
-    )
-    given = ContactInput(
-        scene.node_ids,
-        scene.coordinates,
-        scene.element_ids,
-        scene.element_nodes,
-        scene.length,
-        scene.diameter,
-        laws,
-        (curve,),
-    )
-    found = ContactModel(given).evaluate()
-    assert found.force.min() < 0.0 < found.force.max()
-    axes = panel(PlotData.of_result(found), "curves")
-    knots = np.unique(np.concatenate([np.asarray(line.get_xydata()) for line in axes.get_lines()]), axis=0)
-    marks = np.asarray(axes.collections[0].get_offsets())
-    assert len(np.unique(marks, axis=0)) == np.count_nonzero(found.force) == 3
-    np.testing.assert_allclose(np.interp(marks[:, 0], *knots.T), marks[:, 1], rtol=1e-9)
-    assert knots[0] == pytest.approx([-0.05, -50.0])

@@ -52,16 +52,6 @@ def test_a_scene_shows_laws_curves_and_sets(deck: mudline.Deck) -> None:
         assert any(texts[i : i + len(expected)] == expected for i in range(len(texts))), expected
 
 
-def test_a_scene_does_not_count_what_is_not_read() -> None:
-    """The lines may have elements, and a set has none but theirs."""
-    lines = "*LINES\n LINE=Riser\n whatever\n"
-    lined = CLEAN.replace("*ELEMENT SETS\n", lines + "*ELEMENT SETS\n SET=Upper\n SUBSET=Riser\n")
-    texts = Cells(mudline.from_keyword(lined).scene()._repr_html_()).texts
-    assert texts[1].endswith("; + a block that is not read may add elements to this set")
-    for expected in (["elements", "2+"], ["Upper", "not known"], ["ALL", "2+"], ["Pipe", "2"]):
-        assert any(texts[i : i + len(expected)] == expected for i in range(len(texts))), expected
-
-
 def test_a_result_shows_touchdown(deck: mudline.Deck) -> None:
     scene = deck.scene()
     contact = scene.contact()

@@ -10,10 +10,8 @@ pytest.importorskip("matplotlib")
 
 
 from mudline.model.results.curve_rows import curve_rows
-from mudline.model.results.evaluation import evaluate_scene
-from mudline.model.results.plot_data import PlotData
-from mudline.model.results.plots import curves_figure, evaluation_figure, model_figure
-from mudline.model.results.plots.style import COLORS, SEABED, style_of
+from mudline.model.results.plots import curves_figure
+from mudline.model.results.plots.style import style_of
 from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.model import resolve
 from tests.helpers.samples import sample
@@ -41,17 +39,3 @@ def test_axes_of_every_kind_have_their_units() -> None:
         ("curvature [1/m]", "moment [N m]"),
         ("twist [1/m]", "torque [N m]"),
     ]
-
-
-def test_figures_of_a_deck_have_the_colours_of_the_style() -> None:
-    scene = resolve(sample("legacy-flowline.keyxm"))
-    evaluation = evaluate_scene(scene)
-    data = PlotData.of_evaluation(evaluation)
-    for part in evaluation.parts():
-        data.take(part)
-    curves = curves_figure(curve_rows(scene, (), None), scene.units)
-    wanted = {*COLORS, SEABED}
-    for figure in (model_figure(scene, data), evaluation_figure(data), curves):
-        found = {str(line.get_color()) for axes in figure.axes for line in axes.get_lines()}
-        assert {color for color in found if color.startswith("#")} <= wanted
-        assert {color for color in found if not color.startswith("#")} <= {"0.2", "0.3", "0.4", "black"}

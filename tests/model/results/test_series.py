@@ -29,20 +29,20 @@ def series(steps: int, text: str = CLEAN, tension: Tension = "keep", *, absent: 
 
 @pytest.mark.untraced
 def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With pieces of an eighth of the usual size, so that an eighth of the steps is many pieces."""
-    monkeypatch.setattr(numpy_driver, "BLOCK", numpy_driver.BLOCK // 8)
-    monkeypatch.setattr(text, "_BLOCK", text._BLOCK // 8)
-    monkeypatch.setattr(text, "_PIECE", text._PIECE // 8)
-    evaluation = series(4_500)
+    """With pieces of a sixteenth of the usual size, so that few steps are many pieces."""
+    monkeypatch.setattr(numpy_driver, "BLOCK", numpy_driver.BLOCK // 16)
+    monkeypatch.setattr(text, "_BLOCK", text._BLOCK // 16)
+    monkeypatch.setattr(text, "_PIECE", text._PIECE // 16)
+    evaluation = series(2_500)
     peaks = {}
     for name, form, table in (("json", "json", "elements"), ("elements", "csv", "elements"), ("nodes", "csv", "nodes")):
         tracemalloc.start()
         size = sum(len(piece) for piece in pieces(evaluation, form, table))
         peaks[name] = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
-        assert size > 3e5
-    assert max(peaks["elements"], peaks["nodes"]) < 5e6, "the results of a chunk, not of all steps"
-    assert peaks["json"] < 5e6 + 1300 * 4_500, "besides, the lines of each step, which stand behind the results"
+        assert size > 1.5e5
+    assert max(peaks["elements"], peaks["nodes"]) < 3e6, "the results of a chunk, not of all steps"
+    assert peaks["json"] < 3e6 + 1300 * 2_500, "besides, the lines of each step, which stand behind the results"
 
 
 def test_totals_of_steps() -> None:

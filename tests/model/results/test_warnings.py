@@ -332,12 +332,6 @@ def test_the_reaction_of_a_rigid_seabed_is_not_known() -> None:
             "curve of *EMBEDMENT for SET='West' has no effect: line 34 gives all elements of SET='West' curve 'Clay'",
         ),
         (
-            CLAY + LAW.replace("50000", "30000") + " SET=None\n STIFFNESS=Clay\n",
-            LINE + 1,
-            "SBD025",
-            "curve 'Clay' has no effect: SET='None' has no element",
-        ),
-        (
             CLAY + LAW.replace("50000", "30000"),
             LINE + 1,
             "REF003",

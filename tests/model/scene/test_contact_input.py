@@ -19,6 +19,7 @@ from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.tables import LawTables
 from mudline.model.results.summary import static_embedment
+from mudline.model.results.totals import carried
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import (
     CURVED_BED,
@@ -286,6 +287,7 @@ def test_a_rigid_bed_restrains_nodes_along_its_normal() -> None:
     result = contact.evaluate(np.array([points, points + np.array([9.0, 0.0, 0.0])]))
     assert result.restrained is not None
     assert result.restrained[0].tolist() == [False] * 4 + [True] * 7
+    assert np.flatnonzero(carried(result.step(0))).tolist() == [4, 5, 6, 7, 8, 9]  # with both ends
     assert not result.restrained[1].any()
     assert result.step(0).restrained is not None
     assert "linear" in made(LINEAR_BED).assigned

@@ -107,19 +107,3 @@ def test_a_file_that_is_not_there_is_an_info_where_nothing_of_its_kind_is(tmp_pa
     assert severities() == ["info", "info"]
     (tmp_path / "barge.RAO").write_text(MCS, encoding="utf-8")
     assert severities() == ["warning", "info"]
-
-
-def test_files_of_operators_are_judged_as_those_of_the_deck_are(tmp_path: Path) -> None:
-    (tmp_path / "sea.txt").write_text("0 1\n", encoding="utf-8")
-
-    def unusual(text: str) -> list[tuple[int, str]]:
-        (tmp_path / "fpso.rao").write_text(text, encoding="utf-8")
-        found = lint_bytes(DECK.encode(), "deck.keyxm", rules(), folder=tmp_path)
-        return [(one.line, one.message) for one in found if one.code == "UNT007"]
-
-    assert unusual(MCS) == []
-    ((line, message),) = unusual(MCS.replace("1, 0, 0, 0, 0, 2", "1, 0, 0, 0, 0, 200"))
-    assert line == 8
-    assert message.startswith("fpso.rao, heading 0, frequency 0.1: amplitude of pitch is 200.0, expected -30 to 30")
-    ((_, message),) = unusual(LINE.replace("0 0.1 1", "0 0.01 0.1"))
-    assert "0.1 as heave in a wave of 40 s and longer" in message

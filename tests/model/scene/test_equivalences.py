@@ -6,41 +6,13 @@ import random
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.model.scene.model import Scene
 from tests.helpers.builders.scenes import ends_of, members, nodes_of, scene_of
 
 pytestmark = pytest.mark.slow
-
-_COORDINATES = st.floats(-1e6, 1e6).map(lambda value: value + 0.0)
-_STARTS = st.integers(1, 50)
-
-
-@given(_STARTS, st.integers(0, 30), st.integers(1, 7), st.tuples(_COORDINATES, _COORDINATES, _COORDINATES))
-def test_generated_nodes_are_the_written_ones(
-    start: int, count: int, step: int, far: tuple[float, float, float]
-) -> None:
-    """The k-th of n nodes between a and b stands at a + (b - a) k / (n + 1)."""
-    end = start + (count + 1) * step
-    ends = f"$MODEL\n*NODE\n {start}, 1.5, -2.5, 0.25\n {end}, {far[0]!r}, {far[1]!r}, {far[2]!r}\n"
-    first = (1.5, -2.5, 0.25)
-    rows = [[a + (b - a) * k / (count + 1) for a, b in zip(first, far, strict=True)] for k in range(1, count + 1)]
-    written = "".join(f" {start + k * step}, {x!r}, {y!r}, {z!r}\n" for k, (x, y, z) in enumerate(rows, 1))
-    generated = scene_of(ends + f" GEN={start}, {end}, {step}\n")
-    assert generated.problems == []
-    assert nodes_of(generated) == nodes_of(scene_of(ends + written))
-
-
-@given(_STARTS, st.integers(1, 30), st.integers(1, 5), _STARTS, _STARTS)
-def test_generated_elements_are_the_written_ones(master: int, count: int, step: int, node1: int, node2: int) -> None:
-    assume(node1 != node2)
-    head = f"$MODEL\n*NODE\n 1, 0, 0\n 300, 0, 1\n GEN=1, 300\n*ELEMENT\n {master}, {node1}, {node2}\n"
-    written = "".join(f" {master + k}, {node1 + k}, {node2 + k}\n" for k in range(step, count * step, step))
-    generated = scene_of(head + f" GEN={master}, {count}, {step}\n")
-    assert generated.problems == []
-    assert ends_of(generated) == ends_of(scene_of(head + written))
 
 
 _PIPE = "$MODEL\n*NODE\n 1, 0, 0\n 41, 0, 400\n GEN=1, 41\n*ELEMENT\n 1, 1, 2\n GEN=1, 40\n"
@@ -120,12 +92,6 @@ def same(one: Scene, other: Scene) -> None:
 @given(st.permutations(BLOCKS))
 def test_the_order_of_unrelated_blocks_does_not_matter(blocks: list[str]) -> None:
     same(scene_of("$MODEL\n" + "".join(BLOCKS)), scene_of("$MODEL\n" + "".join(blocks)))
-
-
-@given(st.permutations(BLOCKS), st.integers(1, 8))
-def test_several_model_sections_are_one_model(blocks: list[str], cut: int) -> None:
-    parted = "$MODEL\n" + "".join(blocks[:cut]) + "$LOAD CASE\n*TIME\n 0, 1\n$MODEL\n" + "".join(blocks[cut:])
-    same(scene_of("$MODEL\n" + "".join(BLOCKS)), scene_of(parted))
 
 
 @given(st.randoms(use_true_random=False))

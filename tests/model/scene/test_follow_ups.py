@@ -19,21 +19,6 @@ def test_a_set_of_the_deck_goes_before_one_of_a_line() -> None:
     assert (named.name, named.elements.tolist(), named.open) == ("scr", [0], False)
 
 
-@pytest.mark.parametrize(
-    ("before", "supplier"),
-    [
-        ("*LINES\n LINE=SCR\n", "*LINES, which is not read, may define it"),
-        ("*LINE PATHS\n LINE=a\n", "*LINE PATHS, which is not read, may define it"),
-        ("*ELEMENT SETTS\n SET=a\n 1\n", "*ELEMENT SETTS, which is not known, may define it"),
-        ("*ELEMENT SETS\n SEET=a\n 1\n", "a line of *ELEMENT SETS that could not be used may define it"),
-    ],
-)
-def test_a_missing_set_is_a_warning_where_something_unread_may_define_it(before: str, supplier: str) -> None:
-    text = PIPE + before + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
-    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("W", "REF001")]
-    assert messages(text)[0].endswith(supplier)
-
-
 def test_keywords_astray_may_define_it() -> None:
     seabed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
     early = "*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed

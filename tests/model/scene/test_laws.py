@@ -51,12 +51,6 @@ def test_a_block_whose_law_cannot_be_known_takes_that_of_the_surface_away() -> N
     assert stiffnesses(scene) == [None] * 5 + [500.0] * 5
 
 
-def test_blocks_of_several_keywords_follow_each_other() -> None:
-    text = NEW + " SET=ALL\n STIFFNESS=1\n*OCEAN\n 9\n*SEABED PROPERTIES\n SET=b\n STIFFNESS=Clay\n"
-    assert laws(text) == "lllcccccll"
-    assert reported(text) == []
-
-
 def test_a_stiffness_that_reads_as_a_number_is_one() -> None:
     scene = scene_of(NEW + " SET=a\n STIFFNESS=100\n*SEABED STIFFNESS\n CURVE=100\n 0, 0\n 1, 7\n")
     assert stiffnesses(scene)[:5] == [100] * 5
@@ -72,27 +66,6 @@ def test_a_rigid_bed(extra: str) -> None:
     text = BASE + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n FRICTION=0.3\n" + extra
     assert laws(text) == "rrrrr-----"
     assert reported(text) == []
-
-
-@pytest.mark.parametrize(("line", "severity"), [("Clay", "E"), ("100", "W")])
-def test_a_stiffness_on_a_rigid_bed(line: str, severity: str) -> None:
-    text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n STIFFNESS={line}\n"
-    assert reported(text) == [(severity, "SBD001", LINE + 1, 12)]
-
-
-@pytest.mark.parametrize("line", ["LATERAL=100", "SUCTION=100, 0.2"])
-def test_what_only_an_elastic_bed_has(line: str) -> None:
-    text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n*SEABED PROPERTIES\n SET=a\n {line}\n"
-    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("W", "SBD001")]
-    assert reported(text)[0][2] == LINE + 2
-
-
-def test_an_undefined_curve_is_told_at_its_field_and_is_no_linear_law() -> None:
-    text = NEW + " SET=a\n STIFFNESS=Caly\n"
-    assert reported(text) == [("E", "REF002", LINE + 1, 12)]
-    assert messages(text)[0].startswith("curve 'Caly' is not defined (did you mean Clay?)")
-    scene = scene_of(text)
-    assert scene.law_names[:6] == ["curve"] * 5 + ["none"]
 
 
 # ----------------------------------------------------------------------------------------------------------- legacy
@@ -111,20 +84,10 @@ def test_curves_of_sets_win_over_the_surface_in_whatever_order(order: int) -> No
     assert laws(text) == "ccccclllll"
 
 
-def test_of_two_curves_of_sets_the_later_wins() -> None:
-    scene = scene_of(BASE + "*ELASTIC SURFACE\n , 0.3\n" + embedment("a", "b"))
-    assert scene.law_names == ["curve:a"] * 3 + ["curve:b"] * 5 + ["none"] * 2
-    assert scene.laws.followers(1).tolist() == [3, 4, 5, 6, 7]
-
-
 def test_points_before_any_set_hold_for_all() -> None:
     text = BASE + "*ELASTIC SURFACE\n ,\n*EMBEDMENT\n 0, 0\n 1, 1\n"
     assert scene_of(text).law_names == ["curve:ALL"] * 10
     assert scene_of(text).law_sets == ["ALL"] * 10
-
-
-def test_of_two_surfaces_the_later_holds() -> None:
-    assert stiffnesses(scene_of(BASE + "*ELASTIC SURFACE\n 500\n*ELASTIC SURFACE\n 600\n")) == [600] * 10
 
 
 # ------------------------------------------------------------------------------------------------------------- both
@@ -195,12 +158,6 @@ def test_embedment_whose_lines_could_not_be_read_is_there() -> None:
     assert reported(BASE + "*ELASTIC SURFACE\n , 0.3\n*EMBEDMENT\n SEET=a\n") == []
 
 
-def test_embedment_on_a_rigid_bed_is_told_once_for_a_block() -> None:
-    text = BASE + "*RIGID SURFACE\n 0.3\n" + embedment("a", "b") + embedment("ALL")
-    line = BASE.count("\n") + 4
-    assert reported(text) == [("E", "SBD005", line, 2), ("E", "SBD005", line + 7, 2)]
-
-
 # -------------------------------------------------------------------------------------------------------- diameters
 
 
@@ -228,15 +185,6 @@ def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces()
     nodal = "*SEABED CONTACT\n SET={}\n NODAL STIFFNESS=5000\n"
     assert reported(text + nodal.format("ALL")) == []
     assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
-
-
-def test_a_soil_needs_a_diameter() -> None:
-    text = (
-        PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n*SEABED SOIL\n SET=ALL\n STRENGTH=5000\n"
-    )
-    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
-    assert "have a soil and no external diameter" in messages(text)[0]
-    assert reported(text + STEEL) == []
 
 
 def test_a_drag_diameter_of_0_is_no_diameter() -> None:

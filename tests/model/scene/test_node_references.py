@@ -131,15 +131,6 @@ def test_cables_that_nodes_lie_on() -> None:
     assert [one for one in reported(kept) if one[1] == "REF019"] == [("W", "REF019", 10, 6), ("W", "REF019", 11, 24)]
 
 
-def test_a_label_that_is_nearly_one_of_a_line() -> None:
-    locations = "*LINES\n LINE=a\n*LINE LOCATIONS\n LINE=a\n {Seabed End}, 0.0\n"
-    assert reported(PIPE + locations + HELD + " {Seabed Ende}, 1\n") == [("W", "REF006", LINE + 5, 2)]
-
-
-def test_the_deck_that_is_continued_may_have_the_node() -> None:
-    assert reported(PIPE + HELD + " 99, 1\n*RESTART\n LAST=static\n") == [("W", "REF006", LINE, 2)]
-
-
 def test_a_deck_without_nodes_is_not_judged() -> None:
     assert reported(ELSEWHERE + HELD + " 1, 1\n {Top}, 1\n GEN=2, 9, 2\n") == []
     assert reported("$MODEL\n*NODE\n" + HELD + " 1, 1\n GEN=2, 9, 2\n") == [

@@ -137,18 +137,6 @@ def test_no_line_takes_long(unit: str, monkeypatch: pytest.MonkeyPatch) -> None:
 # -------------------------------------------------------------------------------------------------- sets that are named
 
 
-def test_names_of_lines_are_suggested() -> None:
-    text = (
-        PIPE + LINES + " SECTION=Touchdown\n*ELEMENT SETS\n SET=a\n SUBSET=Touchdwn\n*GEOMETRIC SETS\n SET=Touchdow\n"
-    )
-    text += " ,,,, 100, 1, 0.2, 0.3, 0.3\n"
-    suffix = "*LINES, which is not read, may define it"
-    assert messages(text) == [
-        f"SUBSET= names no set: 'Touchdwn' is not defined (did you mean Touchdown?); define it; {suffix}",
-        f"set 'Touchdow' is not defined (did you mean Touchdown?): define it in *ELEMENT SETS; {suffix}",
-    ]
-
-
 # -------------------------------------------------------------------------------------------------- what lines may make
 
 

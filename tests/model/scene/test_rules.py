@@ -77,21 +77,6 @@ def test_a_field_is_named_once(keyword: str, line: str, names: list[str]) -> Non
     assert [message.partition(" is ")[0] for message in found] == names
 
 
-@pytest.mark.parametrize(
-    ("line", "column"),
-    [
-        ("STIFFNESS=-1", 12),
-        ("FRICTION=0.3, 0.4, 0", 21),
-        ("LATERAL=-1", 10),
-        ("SUCTION=-1, 0.5", 10),
-        ("SUCTION=1, 0", 13),
-    ],
-)
-def test_values_of_settings(line: str, column: int) -> None:
-    text = f"$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n {line}\n"
-    assert reported(text) == [("E", "SBD010", 5, column)]
-
-
 def test_values_of_sections_are_named_by_their_symbol() -> None:
     text = "$MODEL\n*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 1, 1, 0.0, -0.2, 7850\n"
     assert reported(text) == [("E", "SBD010", 5, 8), ("E", "SBD010", 5, 13)]

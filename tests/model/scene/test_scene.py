@@ -222,22 +222,6 @@ def test_missing_name_says_which_there_are() -> None:
     assert message_of(scene_of("$MODEL\n").sets, "a") == "no set 'a': there is 'ALL'"
 
 
-def test_many_names_are_cut() -> None:
-    many = ByName("curve", [(f"Soil {number:03}", number) for number in range(300)])
-    assert message_of(many, "Soil 2999") == (
-        "no curve 'Soil 2999' (did you mean Soil 299?): there are 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', "
-        "'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', 'Soil 008', 'Soil 009', and 290 more"
-    )
-    assert repr(many) == (
-        "<300 curves: 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', 'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', "
-        "'Soil 008', 'Soil 009', and 290 more>"
-    )
-    long = ByName("set", [("x" * 500, 1)])
-    assert len(message_of(long, "y" * 500)) < 200
-
-
-LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n"
-
 PROGRAM = """
 import sys
 from mudline.language.deck.loading import load_bytes
@@ -262,25 +246,3 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     assert laws == {"curve"}
     assert "mudline.model.scene.contact_input" in found
     assert "mudline.model.scene.assignments" not in found
-
-
-@pytest.mark.parametrize(
-    ("seabed", "needed", "idle"),
-    [
-        (LINEAR + " FRICTION=0.3, 0.4\n", "mudline.model.contact.laws.friction", "mudline.model.contact.laws.suction"),
-        (
-            LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n",
-            "mudline.model.contact.laws.suction",
-            "mudline.model.contact.laws.friction",
-        ),
-        (
-            LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0,0,0\n SLOPE=1\n",
-            "mudline.model.contact.seabed",
-            "mudline.model.curves",
-        ),
-    ],
-)
-def test_one_feature_imports_its_own_modules_only(seabed: str, needed: str, idle: str) -> None:
-    found = imported(seabed)
-    assert needed in found
-    assert idle not in found

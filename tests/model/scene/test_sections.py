@@ -90,10 +90,10 @@ def test_blocks_add_up_in_the_order_of_the_file() -> None:
 
 
 def test_a_set_named_very_often_counts_with_its_last_entry() -> None:
-    lines = "".join(f" SET=ALL\n ,,,, 1, 1, 0, 0.{i:04d}, 0.3\n" for i in range(1, 2000))
+    lines = "".join(f" SET=ALL\n ,,,, 1, 1, 0, 0.{i:04d}, 0.3\n" for i in range(1, 300))
     scene = scene_of(GEOMETRY + lines)
-    assert set(scene.diameter.tolist()) == {0.1999}
-    assert set(scene.section_table.of_element.tolist()) == {1998}
+    assert set(scene.diameter.tolist()) == {0.0299}
+    assert set(scene.section_table.of_element.tolist()) == {298}
 
 
 def test_a_set_that_is_not_defined_is_told_at_its_name() -> None:

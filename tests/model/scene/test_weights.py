@@ -35,6 +35,12 @@ def test_what_a_load_case_fills_stays_full_until_it_is_filled_anew() -> None:
     np.testing.assert_allclose(scene.submerged_weight, EMPTY)
 
 
+def test_an_element_is_full_whose_middle_is_at_the_level() -> None:
+    level = float(scene_of(CLEAN).coordinates[:2, 0].mean())
+    (found,) = contents(scene_of(CLEAN + OIL.replace("50.0", repr(level))))
+    assert found.density.tolist() == [800.0, 0.0]
+
+
 def test_without_contents_there_is_no_case() -> None:
     assert contents(scene_of(CLEAN + "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n")) == []
     assert operating_weight(scene_of(CLEAN)) is not None

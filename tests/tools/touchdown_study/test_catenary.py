@@ -35,6 +35,7 @@ def test_both_ends_may_hang() -> None:
     first, last = both.lying[0]
     assert (500.0 - first, last - 500.0) == pytest.approx((one.lying[0][1],) * 2)
     assert both.distance[-1] == pytest.approx(800.0)
+    assert both.vertical[0] == pytest.approx(-both.vertical[-1], rel=1e-6)
 
 
 def test_along_a_slope_the_line_leaves_the_seabed_at_its_angle() -> None:

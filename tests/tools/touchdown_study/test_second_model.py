@@ -171,6 +171,7 @@ def test_forces_moments_and_touchdown_in_motion(name: str) -> None:
     assert_alike(own, steps, other.run(3.0 * other.period / steps))
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("name", ["imperial", "lazy wave"])
 def test_errors_are_those_of_the_second_model(name: str) -> None:
     own, other = study(zone(name).scene, ("accuracy",), timer=lambda: 0.0), second(name)

@@ -120,7 +120,7 @@ def test_the_path_alone_counts(law: tuple[float, float, float, float], path: lis
 
 @given(laws, paths)
 def test_bounds_continuity_and_work(law: tuple[float, float, float, float], path: list[float]) -> None:
-    places = np.array(finer([0.0, *path, 0.0], 400))
+    places = np.array(finer([0.0, *path, 0.0], 100))
     force = lateral(pipe(*law), places.tolist())
     assert (np.abs(force) <= law[0] * (1.0 + 1e-12)).all()
     steepest = max(law[0] / law[1], (law[0] - law[2]) / (law[3] - law[1]))

@@ -118,9 +118,3 @@ def test_points_given_twice_count_once() -> None:
 def test_what_is_no_profile_is_refused(kind: Interpolation, y: list[float], x: list[float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         ProfileSeabed(y, x, kind)
-
-
-def test_an_unknown_interpolation_is_refused() -> None:
-    kind: Interpolation = "CUBIC"  # type: ignore[assignment]  # what a caller without types may pass
-    with pytest.raises(ValueError, match="'CUBIC'; expected LINEAR, CUBIC SPLINE, CUBIC BESSEL"):
-        ProfileSeabed([0.0, 1.0], [0.0, 1.0], kind)

@@ -27,19 +27,6 @@ def lateral(inputs: ContactInput, offset: float, depth: float = 0.02) -> FloatAr
 
 
 @pytest.mark.parametrize(
-    ("offset", "share"), [(0.1, 0.0), (0.25, 0.0), (0.4, 0.5), (0.55, 1.0), (0.7, 0.5), (0.85, 0.0), (1.2, 0.0)]
-)
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_trench_adds_its_peak_outwards(offset: float, share: float, side: float) -> None:
-    contact = ContactModel(chain([LINEAR], friction(2, (0.5, MU), 1e5), trench(1, 0.5, 1.7, 600.0)))
-    path = drawn([(0.0, side * place) for place in (0.0, offset - 0.05, offset, offset + 1e-6, offset - 0.02)])
-    result = contact.evaluate(path)
-    assert result.reaction[3, :, 2] == pytest.approx([-side * (400.0 + 600.0 * share)] * 2, abs=0.01)
-    assert result.reaction[4, :, 2] == pytest.approx([side * 400.0] * 2)  # back inwards the walls do nothing
-    assert result.reaction[..., 0] == pytest.approx(np.full((5, 2), 1000.0))  # the seabed is not lowered
-
-
-@pytest.mark.parametrize(
     ("offset", "on_the_wall"), [(0.1, False), (0.24, False), (0.26, True), (0.55, True), (0.84, True), (0.86, False)]
 )
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -56,20 +43,6 @@ def test_a_wall_holds_more_the_harder_the_node_presses(offset: float, on_the_wal
 
 
 TABLE = np.array([[0.1, 100.0], [0.3, 500.0], [0.5, 200.0]])
-
-
-@pytest.mark.parametrize(
-    ("offset", "resistance"),
-    [(0.05, 100.0), (0.1, 100.0), (0.2, 300.0), (0.3, 500.0), (0.4, 350.0), (0.5, 200.0), (0.51, 0.0)],
-)
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_table_holds_from_the_centreline_on(offset: float, resistance: float, side: float) -> None:
-    """Per unit length: each node has half of an element of 2 m."""
-    ditch = on("trench table", 1, table=0, bottom=0.9, upper=1.1, **ALONG_Y)
-    contact = ContactModel(chain([LINEAR], friction(2, (0.5, MU), 1e5), ditch, tables=(TABLE,)))
-    result = contact.evaluate(drawn([(0.0, 0.0), (0.0, side * offset), (0.0, side * (offset - 0.02))]))
-    assert result.reaction[1, :, 2] == pytest.approx([-side * (400.0 + resistance)] * 2)
-    assert result.reaction[2, :, 2] == pytest.approx([side * 400.0] * 2)
 
 
 RESIDUAL = diagram(0.25, 0.85, 600.0, (150.0, 1.05))
