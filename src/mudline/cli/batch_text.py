@@ -86,8 +86,10 @@ def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
     yield column("in_contact")
     yield column("touchdown_from", "TDP\nat", _touchdown)
     yield column("contact_length", value=lambda row: _number(row.contact_length) if row.contact_length else "")
+    filled = any(row.submerged_weight != row.empty_weight for row in listed)
     for name in _OF_FORCES:
-        yield column(name)
+        if filled or name != "empty_weight":
+            yield column(name)
     yield column("warnings", value=lambda row: row.warnings or "")
 
 

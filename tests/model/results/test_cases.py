@@ -56,6 +56,7 @@ def test_row_is_the_worst_of_the_lines() -> None:
     heaviest = max(lines, key=lambda line: line.reaction or 0.0)
     assert (found.reaction, found.ratio) == (heaviest.reaction, heaviest.ratio)
     assert found.submerged_weight == pytest.approx(heaviest.submerged_weight)
+    assert found.empty_weight == pytest.approx(heaviest.empty_weight)
     assert (found.steps, found.in_contact, found.largest_uplift) == (8, 30, None)
 
 
@@ -82,7 +83,12 @@ def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:
     found, single = (case_summary(watch, "deck", [], None) for watch in watches)
     assert found.ratio == pytest.approx(single.ratio, rel=1e-14)  # numpy adds up weights in another order
     assert found.submerged_weight == pytest.approx(single.submerged_weight, rel=1e-14)
-    assert replace(found, ratio=None, submerged_weight=None) == replace(single, ratio=None, submerged_weight=None)
+    assert found.empty_weight == pytest.approx(single.empty_weight, rel=1e-14)
+    whole, apart = (
+        replace(row, ratio=None, submerged_weight=None, empty_weight=None)
+        for row in (found, single)  # sums of parts
+    )
+    assert whole == apart
 
 
 def test_a_name_that_is_not_utf_8_is_escaped_in_parquet() -> None:

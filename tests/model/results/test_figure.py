@@ -13,6 +13,7 @@ pytest.importorskip("matplotlib")
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 
 import mudline
@@ -137,6 +138,10 @@ def test_the_line_has_its_touchdown_point_and_lies_on_its_nodes() -> None:
     marks = [line for line in axes.get_lines() if line.get_label() == "touchdown point"]
     assert np.asarray(marks[0].get_xydata()).tolist() == [[point.arc_length, point.x]]
     assert f"TDP {point.arc_length:.5g} m" in [text.get_text() for text in axes.texts]
+    assert isinstance(axes.figure, Figure)
+    axes.figure.draw_without_rendering()
+    (legend,) = (child for child in axes.get_children() if isinstance(child, Legend))
+    assert not any(text.get_window_extent().overlaps(legend.get_window_extent()) for text in axes.texts)
     assert state.positions is not None
     pipe = drawn(axes)[1]
     assert set(np.asarray(pipe.get_ydata()).tolist()) <= set(state.positions[state.present, 0].tolist())

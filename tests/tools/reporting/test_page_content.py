@@ -66,7 +66,7 @@ def test_the_page_has_the_qualifications_of_evaluate(tmp_path: Path) -> None:
     assert (
         Page(text).text.count("weights without *DRAG CHAIN") == 5
     )  # figures, sheet, embedment, equilibrium, touchdown
-    assert '<td>the same, empty [N]</td><td class="number">283600</td>' in text
+    assert '<td>the same, empty [N]</td><td class="number">291900</td>' in text
 
 
 def test_five_numbers_beside_the_verdict(tmp_path: Path) -> None:
@@ -91,7 +91,7 @@ def test_inputs_that_are_not_read_stand_as_they_are(tmp_path: Path) -> None:
     text = made(tmp_path, str(SAMPLES / "scr-vessel.keyxm"), sections="inputs")
     assert "TYPE=VESSEL, not read: 157, Semi" in text
     assert "elevation [m], velocity [m/s], direction [deg]: 0, 0.1, 180 / 400, 0.25, 180 / 800, 1.1, 180" in text
-    assert row_of(text, "41 to 110") == "41 to 110 | Touchdown | 300 | 0.2731 | 0.2223 | 10.75"
+    assert row_of(text, "41 to 110") == "41 to 110 | Touchdown | 300 | 0.2731 | 0.2223 | 10.75 | "
     weights = text[text.index("Sheet: mass and submerged weight") :]
     assert row_of(weights, "41 to 110") == "41 to 110 | 155.1 | 820 | 186.9 |  | 932.7 | 1245"
     assert '<td class="gap">none</td>' in text
@@ -123,3 +123,14 @@ def test_every_value_has_its_own_unit(tmp_path: Path) -> None:
     words = Page(made(tmp_path, str(imperial), sections="inputs,curves", code=1)).text
     for told in ("mass 8 slug ft2", "stiffness 30 lbf ft/deg", "pitch 1.1 deg/ft", "COHESION=2000 lbf/ft2"):
         assert told in words
+
+
+def test_warnings_of_the_deck_are_told_from_those_of_the_numbers_and_curves_without_a_law(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    bare = ON_SOIL.partition("*SEABED PROPERTIES")[0]
+    deck.write_text(bare + "*MOMENT-CURVATURE\n CURVE=Bend\n 0.0, 0.0\n 4.0, 1.0\n", encoding="utf-8")
+    text = made(tmp_path, str(deck))
+    assert re.search(r"\d+ warnings? in the deck\.", Page(text).text)
+    assert (
+        'The deck gives no law of the seabed; its other curves are <a href="#more-curves">in the appendix</a>.' in text
+    )
