@@ -75,6 +75,16 @@ def test_coefficients_that_the_deck_does_not_give_are_listed_with_their_section(
             assert (entry.keyword, entry.target) == ("*GEOMETRIC SETS", "Cd, Ca of the line type")
 
 
+def test_the_load_case_of_the_contents_is_named_where_others_have_others() -> None:
+    wall = " OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.2, 0.16, 7850.0\n"
+    fluid = "*INTERNAL FLUID\n SET=ALL\n 300.0, {}\n"
+    held = BOTH + fluid.format(900.0) + "$LOAD CASE\n" + fluid.format(700.0)
+    model = model_of(text(sections=wall, held=held))
+    moordyn.write(model, "a.txt")
+    effects = {entry.effect for entry in model.report.entries if entry.keyword == "*INTERNAL FLUID"}
+    assert effects == {"its mass at rest in load case 2; pressure and flow are not written"}
+
+
 def test_the_mass_and_the_weight_on_the_seabed_have_the_contents() -> None:
     wall = " OPTION=RIGID\n SET=ALL\n 2.0E11, 8.0E10, 0.2, 0.16, 7850.0\n"
     empty, full = (

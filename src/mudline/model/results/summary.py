@@ -248,8 +248,9 @@ def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, fi
     sizes = np.nan_to_num(scene.diameter[elements])
     width, side = zones.half_width[elements], zones.one_sided[elements]
     keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
-    firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_TABLE_ROWS]
-    shown = elements[firsts].tolist()
+    begins = np.flatnonzero(np.append(True, (keys[1:] != keys[:-1]).any(axis=1)))
+    firsts = np.sort(np.unique(keys[begins], axis=0, return_index=True)[1])[:_TABLE_ROWS]
+    shown = elements[begins[firsts]].tolist()
     return [_EmbeddedElements(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in shown]
 
 

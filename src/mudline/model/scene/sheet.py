@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.basics.quantities import finite
 from mudline.language.keywords.format import unit_text
@@ -90,9 +91,9 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
     with np.errstate(all="ignore"):  # values of a deck may overflow, which is no value
         numbers, others = _numbers(scene)
         masses = attached(scene).mass * scene.length
-        kinds = np.column_stack([table.of_element, scene.law, scene.laws.of_element, scene.replacing])
+        kinds = (table.of_element, scene.law, scene.laws.of_element, scene.replacing)
         rows = []
-        for first, end in _runs(scene, np.column_stack([kinds, *numbers.values()])):
+        for first, end in _runs(scene, (*kinds, *numbers.values())):
             section = int(table.of_element[first])
             rows.append(
                 {
@@ -162,12 +163,30 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
     return values_by_column, others
 
 
+<<<<<<< HEAD
 def _runs(scene: ResolvedDeck, values: Floats) -> list[tuple[int, int]]:
     """Return first elements and ends of the runs of equal rows (m, k) that are consecutive along a line."""
     if not len(values):
+=======
+def _friction(scene: ResolvedDeck) -> Floats:
+    """Return axial and lateral coefficients (m, 2): those of `*SEABED FRICTION`, else of the seabed's properties."""
+    coefficients = scene.resistance.column("friction")
+    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
+        own = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
+        coefficients = np.where((extension.of_element >= 0)[:, None], np.column_stack(own), coefficients)
+    return coefficients
+
+
+def _runs(scene: ResolvedDeck, columns: Sequence[NDArray[np.generic]]) -> list[tuple[int, int]]:
+    """Return first elements and ends of the runs of equal values (m,) that are consecutive along a line."""
+    count = len(scene.element_ids)
+    if not count:
+>>>>>>> s5-X
         return []
-    same = (values[1:] == values[:-1]) | (np.isnan(values[1:]) & np.isnan(values[:-1]))
+    same = np.ones(count - 1, np.bool_)
+    for values in columns:  # one after the other: all side by side fill the memory
+        same &= (values[1:] == values[:-1]) | (np.isnan(values[1:]) & np.isnan(values[:-1]))
     ends: Indices = scene.element_nodes
     joined = (ends[1:, :, None] == ends[:-1, None, :]).any(axis=(1, 2)) & (np.diff(scene.element_ids) > 0)
-    starts = np.flatnonzero(np.append(True, ~(same.all(axis=1) & joined)))
-    return list(zip(starts.tolist(), [*starts.tolist()[1:], len(values)], strict=True))
+    starts = np.flatnonzero(np.append(True, ~(same & joined)))
+    return list(zip(starts.tolist(), [*starts.tolist()[1:], count], strict=True))
