@@ -163,25 +163,10 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
     return values_by_column, others
 
 
-<<<<<<< HEAD
-def _runs(scene: ResolvedDeck, values: Floats) -> list[tuple[int, int]]:
-    """Return first elements and ends of the runs of equal rows (m, k) that are consecutive along a line."""
-    if not len(values):
-=======
-def _friction(scene: ResolvedDeck) -> Floats:
-    """Return axial and lateral coefficients (m, 2): those of `*SEABED FRICTION`, else of the seabed's properties."""
-    coefficients = scene.resistance.column("friction")
-    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
-        own = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
-        coefficients = np.where((extension.of_element >= 0)[:, None], np.column_stack(own), coefficients)
-    return coefficients
-
-
 def _runs(scene: ResolvedDeck, columns: Sequence[NDArray[np.generic]]) -> list[tuple[int, int]]:
     """Return first elements and ends of the runs of equal values (m,) that are consecutive along a line."""
     count = len(scene.element_ids)
     if not count:
->>>>>>> s5-X
         return []
     same = np.ones(count - 1, np.bool_)
     for values in columns:  # one after the other: all side by side fill the memory
