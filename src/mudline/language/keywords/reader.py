@@ -15,7 +15,7 @@ from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import grammar
 from mudline.language.keywords.builder import Builder
-from mudline.language.keywords.contents import is_choice, opened
+from mudline.language.keywords.contents import is_choice, opened, range_faults
 from mudline.language.keywords.fields import AS_TEXT
 from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
@@ -123,7 +123,9 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
         return False
     kept = len(reader.kept)
     block = _BlockParser(text, raw, declared, last=False).read()
-    return block.lost == kept and not any(problem.weight is Severity.ERROR for problem in block.problems)
+    if block.lost != kept or any(problem.weight is Severity.ERROR for problem in block.problems):
+        return False
+    return not any(True for _ in range_faults(block.model))
 
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
