@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any, TypeGuard, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
@@ -15,6 +16,7 @@ from mudline.basics.quantities import UnitNames, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import Plan
+from mudline.model.contact.arrays import IndexArray
 from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
@@ -34,7 +36,7 @@ from mudline.model.results.totals import (
     totals,
     touchdown_words,
 )
-from mudline.model.scene.numbering import Floats, Mask
+from mudline.model.scene.numbering import Floats
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -119,17 +121,28 @@ def _print_state(printer: Printer, screen: Screen, first: ResultPart) -> None:
     if rows_of_states := states(evaluation, result):
         of_state = (text("law", "law"), text("state", "state"), number("count", "number"))
         printer.table(DisplayTable("States", of_state, rows_of_states))
+    headings = _OF_ELEMENT if screen.which == "elements" else _OF_NODE
     if screen.which == "elements":
         acts = (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
         distance = _from_touchdown(screen)[evaluation.elements[acts]]
-        columns, rows = _touching(evaluation.element_table(), first, acts, _OF_ELEMENT, every=screen.every)
+        shown_columns = _shown_columns(evaluation.element_table(), first, headings)
     else:
         acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
         distance = np.zeros(int(acts.sum()))
-        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE, every=screen.every)
-    note, listed = "", list(rows)
-    if not screen.every:
-        joined = list(_joined(listed, distance.tolist()))
+        shown_columns = _shown_columns(evaluation.node_table(), first, headings)
+    columns = [
+        number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(shown_columns)
+    ]
+    values = [column.cut(0, 1)[0, acts] for column in shown_columns]
+    note = ""
+    if screen.every:
+        listed = list(zip(*map(partial(_cells, every=True), shown_columns, values), strict=True))
+    else:
+        starts = _starts(values)
+        last = values[0][np.append(starts[1:], len(values[0]))[: len(starts)] - 1]
+        cells = map(_cells, shown_columns, (column[starts] for column in values))
+        nearest_of = np.minimum.reduceat(distance, starts) if len(starts) else distance
+        joined = list(_joined(list(zip(*cells, strict=True)), last.tolist(), nearest_of.tolist()))
         nearest = sorted(range(len(joined)), key=lambda row: joined[row][1])[:SHOWN_ROWS]
         alike = [f"rows alike to {_ALIKE * 100.0:g} % are one, with the largest numbers"]
         notes = alike if any(differ for _, _, differ in joined) else []
@@ -168,22 +181,27 @@ _OF_NODE = {
 """Columns of elements and nodes that are shown, with their headings."""
 
 
-def _touching(
-    table: ResultTable, first: ResultPart, acts: Mask, headings: Mapping[str, str], *, every: bool
-) -> tuple[list[DisplayColumn], Iterable[Cells]]:
-    """Return columns and rows of the elements or nodes on which the seabed acts, at the first step of a part."""
+def _shown_columns(table: ResultTable, first: ResultPart, headings: Mapping[str, str]) -> list[ResultColumn]:
+    """Return the columns with a heading that the results have."""
     lacking = {"state"} if first.result.state is None else set()
     lacking |= {name for name in headings if "_force" in name and first.result.friction is None}
     lacking |= {name for name in headings if "_state" in name and first.result.friction_state is None}
     available = {column.name: column for group in table.columns(first) for column in group.flat()}
-    chosen = [available[name] for name in headings if name not in lacking]
-    columns = [number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(chosen)]
-    return columns, zip(*(_cells(column, acts, every=every) for column in chosen), strict=True)
+    return [available[name] for name in headings if name not in lacking]
 
 
-def _cells(column: ResultColumn, acts: Mask, *, every: bool) -> list[str | float]:
+def _starts(values: Sequence[NDArray[np.generic]]) -> IndexArray:
+    """Return the rows that do not repeat the row before, with the next number; the numbers are the first column."""
+    new = np.ones(len(values[0]), np.bool_)
+    new[1:] = np.diff(values[0]) != 1
+    for column in values[1:]:
+        new[1:] |= column[1:] != column[:-1]
+    return np.flatnonzero(new)
+
+
+def _cells(column: ResultColumn, of: NDArray[np.generic], *, every: bool = False) -> list[str | float]:
     """Return the cells of a column, with all digits if `every`, else with the significant digits of the column."""
-    values = column.cut(0, 1)[0, acts].tolist()
+    values = of.tolist()
     if column.names:
         return [column.names[code] or "" for code in values]
     sizes = [abs(value) for value in values if isinstance(value, float) and 0.0 < abs(value) < math.inf]
@@ -205,24 +223,24 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: ResultPart) ->
     printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
 
 
-def _joined(rows: Sequence[Cells], near: Iterable[float]) -> Iterator[tuple[Cells, float, bool]]:
+def _joined(rows: Sequence[Cells], last: Iterable[int], near: Iterable[float]) -> Iterator[tuple[Cells, float, bool]]:
     """Join consecutive rows with nearly equal values, and yield each with the least of their distances.
 
-    A joined row has the largest of its numbers; the last value is True if some differ.
+    `last` are the numbers up to which rows hold. A joined row has the largest of its numbers; the last value is True if
+    some differ.
     """
     tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
-    runs: list[tuple[list[Cells], list[float]]] = []
-    for row, distance in zip(rows, near, strict=True):
-        same = runs[-1][0] if runs else []
-        if not same or row[0] != float(same[-1][0]) + 1 or not all(map(_alike, row[1:], same[0][1:], tolerances[1:])):
-            same = []
-            runs.append((same, []))
-        same.append(row)
-        runs[-1][1].append(distance)
-    for same, distances in runs:
+    runs: list[tuple[list[Cells], list[int], list[float]]] = []
+    for row, until, distance in zip(rows, last, near, strict=True):
+        same, ends, _ = runs[-1] if runs else ([], [], [])
+        if not same or row[0] != ends[-1] + 1 or not all(map(_alike, row[1:], same[0][1:], tolerances[1:])):
+            runs.append(([], [], []))
+        for values, value in zip(runs[-1], (row, until, distance), strict=True):
+            cast("list[object]", values).append(value)
+    for same, ends, distances in runs:
         numbers, *columns = zip(*same, strict=True)
         yield (
-            (_span(int(numbers[0]), int(numbers[-1])), *map(_of_run, columns)),
+            (_span(int(numbers[0]), ends[-1]), *map(_of_run, columns)),
             min(distances),
             any(len(set(column)) > 1 for column in columns),
         )
