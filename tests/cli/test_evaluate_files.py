@@ -36,7 +36,7 @@ def test_steps(place: Place, steps: str) -> None:
     found = outcome.json()
     assert (outcome.code, outcome.err) == (0, STEPS_WARNING)
     assert_fits(found, "evaluate")
-    assert set(found) == {"format", "units", "plan", "steps", "summary", "positions", "warnings"}
+    assert set(found) == {"format", "units", "plan", "steps", "summary", "positions", "contents_case", "warnings"}
     assert [step["time"] for step in found["steps"]] == [0.0, 2.5]
     first, second = found["steps"]
     single = run("evaluate", place(), "--output-format", "json").json()

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
-import pytest
 from hypothesis import strategies as st
 
 from mudline.basics.quantities import UNIT_SYSTEMS
-from mudline.language.deck.document import FORMAT, json_schema
+from mudline.language.deck.document import FORMAT
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeStepping
 from mudline.language.keywords.library.floating_bodies import MatrixRow
@@ -24,32 +22,9 @@ from mudline.language.syntax.rows import spells_number
 from tests.helpers.builders.spellings import EQUATIONS, NAMES, labels, no_head, texts
 from tests.helpers.builders.spellings import comments as comment_lines
 
-if TYPE_CHECKING:
-    from jsonschema import Draft202012Validator
-
 Values = dict[str, Any]
 """What JSON holds of a deck, a block or a record."""
 Keyword = tuple[str, str]
-
-
-@cache
-def validator() -> Draft202012Validator:
-    """What holds documents to the schema: a block to the form of its keyword alone, not to a hundred others."""
-    library = pytest.importorskip("jsonschema")
-    schema = json_schema()
-    keywords = {
-        f"#/$defs/{name}": form["properties"]["keyword"].get("const")
-        for name, form in schema["$defs"].items()
-        if "keyword" in form.get("properties", ())
-    }
-
-    def any_of(validator: object, forms: list[Values], instance: object, within: object) -> Iterator[object]:
-        if isinstance(instance, dict) and "keyword" in instance:
-            forms = [form for form in forms if keywords.get(form.get("$ref", "")) in (None, instance["keyword"])]
-        yield from library.Draft202012Validator.VALIDATORS["anyOf"](validator, forms, instance, within)
-
-    found: Draft202012Validator = library.validators.extend(library.Draft202012Validator, {"anyOf": any_of})(schema)
-    return found
 
 
 def declared(keyword: Keyword) -> type[Block]:

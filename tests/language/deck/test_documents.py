@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Diagnostic
-from tests.helpers.builders.documents import validator
 from tests.helpers.builders.keyword_texts import deck_texts, mutated
 from tests.helpers.processes import TIMEOUT
+from tests.helpers.schema import validator
 
 TEXT = """\
 C title

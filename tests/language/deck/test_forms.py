@@ -17,10 +17,10 @@ from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import Block
-from tests.helpers.builders.documents import validator
 from tests.helpers.builders.keyword_texts import deck_texts, mutated
 from tests.helpers.builders.scenes import deck_of
 from tests.helpers.samples import FAULTY, SAMPLES
+from tests.helpers.schema import validator
 
 NAME = "deck.keyxm"
 DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name not in FAULTY)

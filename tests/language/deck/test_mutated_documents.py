@@ -14,7 +14,8 @@ from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.faults import DocumentPath, path_text
-from tests.helpers.builders.documents import KEYWORDS, Values, alone, block, validator
+from tests.helpers.builders.documents import KEYWORDS, Values, alone, block
+from tests.helpers.schema import validator
 from tests.language.deck.test_round_trips import values
 
 blocks = st.sampled_from(KEYWORDS).flatmap(lambda keyword: block(keyword).map(lambda made: alone(keyword, made)))

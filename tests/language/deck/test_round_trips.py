@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
-from tests.helpers.builders.documents import KEYWORDS, Keyword, Values, alone, block, declared, document, validator
+from tests.helpers.builders.documents import KEYWORDS, Keyword, Values, alone, block, declared, document
 from tests.helpers.builders.keyword_texts import canonical_texts
+from tests.helpers.schema import validator
 from tests.language.syntax.test_lossless import BOM
 
 

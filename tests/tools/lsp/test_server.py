@@ -284,6 +284,7 @@ NAMING = {
     "VESSEL TIMETRACE": "$LOAD CASE\n*VESSEL TIMETRACE\n VESSEL=v\n FILE={}\n",
     "WAVE-TIME-HISTORY": "$LOAD CASE\n*WAVE-TIME-HISTORY\n FILE={}\n",
     "CURRENT": "$LOAD CASE\n*CURRENT\n TYPE=SUBROUTINE, USER={}\n",
+    "WINCH": "$LOAD CASE\n*WINCH\n SET=ALL\n FILE={}\n",
     "VARIATION": "$PREPROCESSOR\n*VARIATION\n NAME=n\n ACTION=ADD, KEYWORD=WIND, FILE={}, SECTION=LOAD CASE\n",
     **{each: f"$MODEL\n*{each}\n FILE={{}}\n" for each in ("P-Y", "T-Z", "ADDED MASS", "RADIATION DAMPING")},
     **{each: f"$MODEL\n*{each}\n VESSEL=v\n FILE={{}}\n" for each in ("CURRENT COEFF", "WIND COEFF")},

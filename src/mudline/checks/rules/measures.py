@@ -21,6 +21,7 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import (
     BED,
     CURVE_FORCE,
+    MASS_WIDTH,
     SEA_FREQUENCY,
     SEA_PERIOD,
     WALL,
@@ -198,6 +199,7 @@ CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
     "the modulus of steel": _steel_modulus,
     "a thick steel pipe": _thick_pipe,
     "a metal": _metal,
+    "a mass that fits the diameter": lambda of: MASS_WIDTH.holds(_mass_width(of, "do", of("do"))),
     "a wall without an area of its own": lambda of: math.isnan(of("area")),
     "unknown units": lambda of: not of.units.known,
     "a fluid without density": lambda of: of("density") == 0.0,

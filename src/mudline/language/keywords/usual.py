@@ -95,9 +95,10 @@ BENDING = (
     Usual(low=1e-4, why="flexible pipes have 1/100, steel 1.3", of="/gj", remark=True),
     Usual(low=1e-5, why="flexible pipes have 1E-3, ropes 1E-5", of="times EA Do2", remark=True, placeholder=True),
 )
+_STRETCH = partial(Usual, of="/mass", when="a mass that fits the diameter")
 STRETCH = (
-    Usual(low=100.0, why="rubber has 1E3", of="/mass"),
-    Usual(1e4, 3e8, "chain has 4E6, steel 2.6E7, carbon 2E8", of="/mass", remark=True, placeholder=True),
+    _STRETCH(low=100.0, why="rubber has 1E3"),
+    _STRETCH(1e4, 3e8, "chain has 4E6, steel 2.6E7, carbon 2E8", remark=True, placeholder=True),
 )
 """EA over mass: the square of the speed of sound along a line."""
 
