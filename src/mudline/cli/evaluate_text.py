@@ -16,7 +16,6 @@ from mudline.basics.quantities import UnitNames, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import Plan
-from mudline.model.contact.arrays import IndexArray
 from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
@@ -36,7 +35,7 @@ from mudline.model.results.totals import (
     totals,
     touchdown_words,
 )
-from mudline.model.scene.numbering import Floats
+from mudline.model.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -190,7 +189,7 @@ def _shown_columns(table: ResultTable, first: ResultPart, headings: Mapping[str,
     return [available[name] for name in headings if name not in lacking]
 
 
-def _starts(values: Sequence[NDArray[np.generic]]) -> IndexArray:
+def _starts(values: Sequence[NDArray[np.generic]]) -> Indices:
     """Return the rows that do not repeat the row before, with the next number; the numbers are the first column."""
     new = np.ones(len(values[0]), np.bool_)
     new[1:] = np.diff(values[0]) != 1

@@ -188,16 +188,15 @@ def test_a_settled_cycle_takes_no_energy_out_of_the_soil(clay: Clay, low: float,
 @given(clay=soils, path=st.lists(st.floats(0.005, 0.29), min_size=1, max_size=6))
 def test_tangents_of_going_on_and_of_turning_round(clay: Clay, path: list[float]) -> None:
     """Against differences, but at corners of the law, where a tangent is that of one side."""
-    model, state = ContactModel(given_soil(clay)), None
     path = [0.004, *path]
+    assume(path[-1] not in path[:-1])  # back at an earlier depth the law has a corner
+    model = ContactModel(given_soil(clay))
     state = model.initial_state()
     for depth in path[:-1]:
         _, state = model.step(at_depths([depth, depth]), None, state)
     last = at_depths([path[-1]] * 2)
     result, after = model.step(last, None, state)
     way = 1.0 if path[-1] > path[-2] else -1.0
-    if path[-1] == path[-2]:
-        return
     size = 1e-7 * D
     for sign, back in ((way, False), (-way, True)):
         ends = [model.step(at_depths([path[-1] + sign * k * size] * 2), None, after)[0].force[0] for k in (1, 2)]
