@@ -12,7 +12,7 @@ from tests.cli.conftest import Place
 from tests.cli.runner import run
 
 pq = pytest.importorskip("pyarrow.parquet")
-OUTPUTS = ("out.csv", "out.json", "out.npz", "out.parquet", "out.xlsx")
+OUTPUTS = ("out.csv", "out.json", "out.npz", "out.parquet", pytest.param("out.xlsx", marks=pytest.mark.nightly))
 
 
 @pytest.fixture
