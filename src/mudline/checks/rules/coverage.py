@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import is_name
-from mudline.language.keywords.model import Record
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
@@ -29,6 +28,9 @@ from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.references import KEYWORD
 from mudline.model.scene.sets import ALL, NamedSet
 from mudline.model.scene.unread_lines import is_of_vessels, unread_lines
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
 
 GEO013 = Code("GEO013", "overlapping-properties", Severity.INFO)
 GEO014 = Code("GEO014", "parallel-elements", Severity.WARNING)
@@ -154,8 +156,8 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
     """A node is held in place and follows a vessel in the same degree of freedom.
 
     It cannot do both, and the manual forbids it: a run stops, or one of the conditions has no effect. Remove one of
-        them, or correct the node. The form of lines of TYPE=VESSEL is not public. A line with only a node and a vessel
-        is taken to prescribe all degrees of freedom (inferred).
+    them, or correct the node. The form of lines of TYPE=VESSEL is not public. A line with only a node and a vessel
+    is taken to prescribe all degrees of freedom (inferred).
 
     Example:
          $MODEL
@@ -405,9 +407,10 @@ def _points(scene: Scene, grant: SetLaw) -> Floats:
     return scene.laws.curves[grant.curve].points if grant.curve >= 0 else np.array([np.nan])
 
 
-def _entry(scene: Scene, grant: SetLaw) -> Record:
-    block = scene.deck.sections[grant.where.section].blocks[grant.where.block]
-    return cast("Record", getattr(block, "sets")[grant.where.path[1]])  # noqa: B009 - blocks have no common type
+def _entry(scene: Scene, grant: SetLaw) -> SeabedSet:
+    """Return the entry of *SEABED PROPERTIES that gives a law."""
+    block = cast("SeabedProperties", scene.deck.sections[grant.where.section].blocks[grant.where.block])
+    return block.sets[int(grant.where.path[1])]
 
 
 def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:

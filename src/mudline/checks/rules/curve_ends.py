@@ -300,8 +300,8 @@ def repeated_depth(context: LintContext) -> Iterator[Problem]:
     """A soil spring has two curves at one depth, or a depth above the one before it.
 
     The resistance is interpolated between the given depths: at a depth that is given twice it jumps, or one of its
-        curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
-        not ascend are an info, as nothing says that they must. Correct the depth.
+    curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
+    not ascend are an info, as nothing says that they must. Correct the depth.
 
     Example on pipe:
           STIFFNESS=50000.0

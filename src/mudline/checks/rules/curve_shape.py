@@ -116,8 +116,8 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     """Points of a curve are not in ascending order.
 
     This is legal: the points are sorted by ratio, or by another abscissa, before they are used. A reader of the deck
-        sees another curve than the one in use, though, and a point out of order sometimes has a wrong ratio. Put the
-        points in order.
+    sees another curve than the one in use, though, and a point out of order sometimes has a wrong ratio. Put the
+    points in order.
 
     Example on clay:
         + 0.1, 1200.0
@@ -163,10 +163,10 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     """The force decreases while the pipe penetrates deeper.
 
     The stiffness of the seabed is negative there: the seabed does not support the pipe but lets it snap through, unless
-        the pipe itself resists. Equilibrium needs a structural stiffness above |slope| / D for each unit of length, D
-        being the external diameter. Softening soil is real, but a static run rarely converges on it. Give the curve a
-        force that does not decrease, or keep the curve knowingly. Neighbouring segments are one finding, at the first
-        of them.
+    the pipe itself resists. Equilibrium needs a structural stiffness above |slope| / D for each unit of length, D
+    being the external diameter. Softening soil is real, but a static run rarely converges on it. Give the curve a
+    force that does not decrease, or keep the curve knowingly. Neighbouring segments are one finding, at the first
+    of them.
 
     Example on clay:
           0.5, 4200.0

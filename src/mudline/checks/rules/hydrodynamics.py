@@ -136,8 +136,8 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
     """The time step is more than a twentieth of the shortest wave period.
 
     With such steps the wave is no longer a smooth curve: forces and motions at its crest are missed. The largest of
-        variable steps counts; periods of random seas are not checked. Shorten the step. `mudline study` measures if it
-        is short enough for the seabed too.
+    variable steps counts; periods of random seas are not checked. Shorten the step. `mudline study` measures if it
+    is short enough for the seabed too.
 
     Example on storm:
         - 0.0, 120.0, 1.0, 24.0

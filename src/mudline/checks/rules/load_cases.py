@@ -131,8 +131,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     """The end of a run in time does not come after its start.
 
     The run would have no time step, or go backwards: two values were exchanged, or one was typed into the wrong field.
-        Nothing else is reported about the length of such a run. Correct the start or the end. The same holds for the
-        part of a run that is summarised.
+    Nothing else is reported about the length of such a run. Correct the start or the end. The same holds for the
+    part of a run that is summarised.
 
     Example on storm:
         - 120.0, 0.0, 0.05, 24.0

@@ -84,8 +84,8 @@ def no_elements(context: LintContext) -> Iterator[Problem]:
     """The deck has a model with nodes and a load case, but no element.
 
     Without elements nothing lies on the seabed: no contact is checked or evaluated, and a deck without a finding may
-        still be wrong. Add *ELEMENT or *LINES, if the deck is more than a part of a job. A deck that continues another
-        one takes the elements from there.
+    still be wrong. Add *ELEMENT or *LINES, if the deck is more than a part of a job. A deck that continues another
+    one takes the elements from there.
 
     Example:
          $MODEL

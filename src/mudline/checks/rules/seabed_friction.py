@@ -210,8 +210,8 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """A mobilisation length is under a ten-thousandth of the diameter.
 
     Friction then builds up almost at once: its spring is so stiff that the solution jumps between stick and slip and
-        hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer
-        mobilisation length.
+    hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer
+    mobilisation length.
 
     Example on pipe:
           STIFFNESS=50000.0

@@ -21,8 +21,8 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     """The gravity of *OCEAN does not fit the unit system of the file.
 
     The suffix gives the units of a deck: .keyxm is in metres and newtons, gravity 9.81; .keyxi in feet and pounds,
-        gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it
-        was converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
+    gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it
+    was converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
 
     Example on ocean:
         - 500.0, 1025.0, 32.2

@@ -1,5 +1,6 @@
 """Curves of non-linear and plastic materials: most are named by `*GEOMETRIC SETS`."""
 
+from functools import partial
 from typing import Annotated, Literal
 
 from mudline.language.keywords.assigning import Records
@@ -140,6 +141,17 @@ class StressStrainPoint(Row):
     strain: Annotated[Real, about("strain there", unit="-", usual=Usual(-5.0, 5.0, "rubber stretches fivefold"))]
 
 
+_of_stress = partial(
+    curve_points,
+    StressStrainPoint,
+    "points in any order; at least two; without negative strains it is taken to be symmetric",
+    "stress-strain curve",
+    abscissa="strain",
+    usual=E_CURVE,
+)
+"""Table field of a stress-strain curve."""
+
+
 class StressStrainCurve(Record):
     """Curve."""
 
@@ -149,13 +161,7 @@ class StressStrainCurve(Record):
     ]
     points: Annotated[
         Table,
-        curve_points(
-            StressStrainPoint,
-            "points in any order; at least two; without negative strains it is taken to be symmetric",
-            "stress-strain curve",
-            abscissa="strain",
-            usual=E_CURVE,
-        ),
+        _of_stress(),
     ]
 
 
@@ -179,14 +185,7 @@ class StiffenerCurve(Record):
     curve: Annotated[Name, setting("CURVE", "name of the curve, for bend stiffeners", unique=True)]
     points: Annotated[
         Table,
-        curve_points(
-            StressStrainPoint,
-            "points in any order; at least two; without negative strains it is taken to be symmetric",
-            "stress-strain curve",
-            abscissa="strain",
-            ends="slope",
-            usual=E_CURVE,
-        ),
+        _of_stress(ends="slope"),
     ]
 
 

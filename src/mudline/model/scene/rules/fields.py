@@ -38,9 +38,9 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value is out of its range: a stiffness, a length or a diameter is negative, or zero where it divides.
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value is in the wrong field. The same
-        holds for a share above 1, such as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and
-        of tables are checked too. A deck in JSON or YAML with such a value is refused when it is read, and `convert`
-        writes none. The geometry of a trench and the stiffness of unloading have their own rules, EXT003 and EXT009.
+    holds for a share above 1, such as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and
+    of tables are checked too. A deck in JSON or YAML with such a value is refused when it is read, and `convert`
+    writes none. The geometry of a trench and the stiffness of unloading have their own rules, EXT003 and EXT009.
 
     Example on seabed:
           STIFFNESS=50000.0
@@ -93,7 +93,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
-        thickness was subtracted from the wrong diameter. Correct Do or Di. Both ends of a *TAPER are compared.
+    thickness was subtracted from the wrong diameter. Correct Do or Di. Both ends of a *TAPER are compared.
 
     Example on pipe:
         - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
@@ -168,8 +168,8 @@ def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
     """A name is used that the deck does not define: of a vessel, a line, a vector or another object.
 
     Mostly the name is spelt differently in two places: case is ignored in names, spaces are not. Correct the name, or
-        define the object. It is a warning if an unread line, or the deck that *RESTART continues, may define the name.
-        Sets, curves, nodes and elements have their own rules. The contact with the seabed does not depend on the name.
+    define the object. It is a warning if an unread line, or the deck that *RESTART continues, may define the name.
+    Sets, curves, nodes and elements have their own rules. The contact with the seabed does not depend on the name.
 
     Example:
          $MODEL

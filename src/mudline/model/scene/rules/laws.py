@@ -103,8 +103,8 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """*SEABED PROPERTIES lacks the type of the seabed, rigid or elastic.
 
     The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= keeps the
-        type of the block before it. A SET= that is missing at the beginning is a warning: lines before the first SET=
-        are read as SET=ALL (inferred), and so are points of *EMBEDMENT before its first SET=.
+    type of the block before it. A SET= that is missing at the beginning is a warning: lines before the first SET=
+    are read as SET=ALL (inferred), and so are points of *EMBEDMENT before its first SET=.
 
     Example on seabed:
         + TYPE=ELASTIC

@@ -36,8 +36,8 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a profile that only an elastic seabed may have.
 
     A rigid seabed is flat, sloping or a polyline in one plane: nodes are moved back to it along its normal. A surface
-        in three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic seabeds
-        only; on a rigid one they are a warning (inferred).
+    in three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic seabeds
+    only; on a rigid one they are a warning (inferred).
 
     Example on seabed:
         - TYPE=RIGID
@@ -72,8 +72,8 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """The slope of the seabed is steep.
 
     A slope is an angle in degrees: 90 or more is not a seabed, and more than 45 is steeper than soil can stand. Often a
-        gradient in percent was typed as degrees. Correct it. A profile that rises by more than its whole width most
-        likely has its columns exchanged: 2D has Y and elevation, 3D has elevation, Y and Z.
+    gradient in percent was typed as degrees. Correct it. A profile that rises by more than its whole width most
+    likely has its columns exchanged: 2D has Y and elevation, 3D has elevation, Y and Z.
 
     Example on seabed:
           STIFFNESS=50000.0
