@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeGuard, cast
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -231,11 +231,13 @@ def _joined(rows: Sequence[Cells], last: Iterable[int], near: Iterable[float]) -
     tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
     runs: list[tuple[list[Cells], list[int], list[float]]] = []
     for row, until, distance in zip(rows, last, near, strict=True):
-        same, ends, _ = runs[-1] if runs else ([], [], [])
+        same, ends, distances = runs[-1] if runs else ([], [], [])
         if not same or row[0] != ends[-1] + 1 or not all(map(_alike, row[1:], same[0][1:], tolerances[1:])):
-            runs.append(([], [], []))
-        for values, value in zip(runs[-1], (row, until, distance), strict=True):
-            cast("list[object]", values).append(value)
+            same, ends, distances = [], [], []
+            runs.append((same, ends, distances))
+        same.append(row)
+        ends.append(until)
+        distances.append(distance)
     for same, ends, distances in runs:
         numbers, *columns = zip(*same, strict=True)
         yield (
