@@ -17,7 +17,7 @@ from mudline.basics.version import __version__
 from mudline.checks.output import TEXT, form, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.finding_lines import print_findings, print_summary
-from mudline.cli.streams import counted, emit, notify, write_text
+from mudline.cli.streams import counted, emit, notify, say, write_text
 from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
 from mudline.language.syntax.source import Source
@@ -122,15 +122,15 @@ class LintReport:
 
     def _summary(self, findings: list[Diagnostic]) -> None:
         if self.fixing and (self.fixed or findings):
-            click.echo(self._fixed_summary(findings))
+            say(self._fixed_summary(findings))
         elif findings:
             print_summary(self.view, findings, self.files)
         else:
-            click.echo(f"No findings in {counted(self.files, 'file')}.")
+            say(f"No findings in {counted(self.files, 'file')}.")
         if hint := fixable(findings):
-            click.echo(hint)
+            say(hint)
         if self.coverage.total:
-            click.echo(visible(self.coverage.sentence(), sys.stdout.encoding or "ascii"))
+            say(visible(self.coverage.sentence(), sys.stdout.encoding or "ascii"))
 
     def _fixed_summary(self, findings: list[Diagnostic]) -> str:
         total = counted(self.fixed + len(findings), "finding")

@@ -110,14 +110,14 @@ def _help(context: click.Context, /, *, name: str | None) -> int:
 
 def run(arguments: Sequence[str]) -> int:
     """Run a command line and return its exit code. A closed pipe ends the program quietly."""
-    streams.prepare()
-    if sys.flags.optimize > 1:  # helps are docstrings too
-        from mudline.checks.registry import STRIPPED  # noqa: PLC0415 - most runs have them
-
-        notify(STRIPPED)
-        return WRONG_USAGE
     completing = os.environ.get(COMPLETION)
     try:
+        streams.prepare()
+        if sys.flags.optimize > 1:  # helps are docstrings too
+            from mudline.checks.registry import STRIPPED  # noqa: PLC0415 - most runs have them
+
+            notify(STRIPPED)
+            return WRONG_USAGE
         code = shell_complete(mudline, {}, "mudline", COMPLETION, completing) if completing else _invoke(arguments)
         sys.stdout.flush()
         sys.stderr.flush()

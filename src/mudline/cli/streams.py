@@ -46,6 +46,11 @@ def drop() -> None:
 # ------------------------------------------------------------------------------------------------- standard output
 
 
+def say(text: str) -> None:
+    """Print a line to standard output, in order with what is written there: click has an own buffer for ASCII."""
+    sys.stdout.write(f"{text}\n")
+
+
 def emit(pieces: Iterable[str]) -> None:
     """Write a machine format to standard output: UTF-8 with LF line ends, whatever the settings of the terminal.
 

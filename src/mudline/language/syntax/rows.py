@@ -22,7 +22,7 @@ NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 _WORD = re.compile(r"[^ \t\r\n]+")
 GROUPED = re.compile(r'[\["{]')
 """Opening marks of an equation, a string or a label, in which a comma does not separate fields."""
-_ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
+_ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*')
 """Row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
 PIECE = 256 * 1024
 """Number of characters that are read at a time: their arrays stay in the fast memory of a processor."""

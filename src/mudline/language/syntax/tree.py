@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
@@ -99,7 +100,10 @@ def _lines() -> re.Pattern[str]:
         parser("deck").terminals,
         key=lambda token: (-token.priority, -token.pattern.max_width, -len(token.pattern.value), token.name),
     )
-    return re.compile("|".join(f"(?P<{token.name}>{token.pattern.to_regexp()})" for token in order))
+    pattern = "|".join(f"(?P<{token.name}>{token.pattern.to_regexp()})" for token in order)
+    if sys.version_info < (3, 11, 5):  # there a possessive repeat of a group that fails halfway keeps what it took
+        pattern = pattern.replace(")*+", ")*").replace(")++", ")+")
+    return re.compile(pattern)
 
 
 def canonical_name(line: str) -> str:
