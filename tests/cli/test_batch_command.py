@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.basics.quantities import CASES
 from mudline.cli import batch_cases, batch_command
 from mudline.cli.batch_cases import Order, named_cases
 from mudline.cli.inputs import Input
+from mudline.model.results.cases import CASES
 from mudline.tools.running import executors, remembered
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run

@@ -7,8 +7,9 @@ from collections.abc import Iterable
 from itertools import groupby
 from pathlib import Path
 
-from mudline.basics.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
+from mudline.basics.quantities import ELEMENTS, LINES, NODES, Quantity
 from mudline.checks.output import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.model.results.cases import CASES
 from mudline.model.results.forms import FORMS
 from mudline.tools.archive.tables import TABLES, columns_of
 from tests.docs.marking import marked

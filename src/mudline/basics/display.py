@@ -80,9 +80,9 @@ class DisplayTable:
         ]
         return replace(self, columns=kept)
 
-    def first(self, most: int | None, words: str) -> DisplayTable:
-        """Return the table with the first `most` rows (None: all); its note counts the rows left out."""
-        left = 0 if most is None else len(self.rows) - most
+    def first(self, most: int, words: str) -> DisplayTable:
+        """Return the table with the first `most` rows; its note counts the rows left out."""
+        left = len(self.rows) - most
         return replace(self, rows=self.rows[:most], note=f"{left} {words}") if left > 0 else self
 
 

@@ -211,49 +211,6 @@ STEPS = _by_name(
 )
 """Figures of a step, as plotted over time."""
 
-CASES = _by_name(
-    Quantity("deck", "the file, as it was given or found"),
-    Quantity("verdict", "`evaluated` or `failed`"),
-    Quantity("reason", "why it failed"),
-    Quantity("units", "`metric`, `imperial` or `user`"),
-    Quantity("positions", "`deck`, `file` or `rest shape`"),
-    Quantity("steps", "number of time steps; 1 for one state"),
-    Quantity("elements", "number of elements that were evaluated"),
-    Quantity("in_contact", "largest number of elements in contact", label="in\ncontact"),
-    Quantity("touchdown_from", "least and largest arc length of a touchdown point", "length"),
-    Quantity("touchdown_to", "least and largest arc length of a touchdown point", "length"),
-    Quantity("contact_length", "largest length below the seabed", "length", label="contact\nlength"),
-    Quantity(
-        "largest_force",
-        "largest push of the seabed on an element, per unit length",
-        "line_force",
-        label="largest\nforce",
-    ),
-    Quantity("largest_force_element", "the element", label="element"),
-    Quantity("largest_force_time", "when; `null` for one state"),
-    Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force", label="largest\nuplift"),
-    Quantity("largest_uplift_element", "the element", label="element"),
-    Quantity("largest_uplift_time", "when; `null` for one state"),
-    Quantity(
-        "reaction",
-        "largest total normal force on all nodes; `null` on a rigid seabed",
-        "force",
-        label="total\nreaction",
-    ),
-    Quantity("submerged_weight", "of the elements in contact at that step", "force", label="subm.\nweight"),
-    Quantity("empty_weight", "the same without contents", "force", label="weight,\nempty"),
-    Quantity(
-        "contents_case",
-        "load case, from 1, whose contents the weight has; `null` if all have the same",
-        label="contents of\nload case",
-    ),
-    Quantity("ratio", "this reaction / this weight", label="ratio"),
-    Quantity("warnings", "number of warnings about the results", label="warn-\nings"),
-    Quantity("warning_codes", "their codes, separated by spaces"),
-    Quantity("result", "the file with its results, below the folder of `-o`"),
-)
-"""Columns of a deck among many: extremes over all lines and steps; a value that does not exist is `null`."""
-
 
 def labelled(text: str, unit: str) -> str:
     """Return a label, followed by its unit in brackets if it has one."""

@@ -218,7 +218,7 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[st
         written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]
     else:
         series = SeriesSummary(evaluation, "case")
-        with result_files(evaluation, evaluation.element_table(), path, View(quiet=True), synced=False) as sink:
+        with result_files(evaluation, path, View(quiet=True), synced=False) as sink:
             evaluation.run([series, watch, sink])
             sink.finish(watch.warnings())
         written = [path, *beside(path).values()]

@@ -17,7 +17,7 @@ from pydantic import TypeAdapter
 from mudline.basics.files import remove_left, write_atomically
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim, reading
-from mudline.basics.quantities import CASES, csv_lines
+from mudline.basics.quantities import csv_lines
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
     SUMMARY,
@@ -38,7 +38,7 @@ from mudline.cli.many_files import many_files
 from mudline.cli.result_files import is_installed, require_library
 from mudline.cli.streams import counted, emit, emit_json, encoded, make_folder, notify, reason
 from mudline.cli.view import Progress, View
-from mudline.model.results.cases import CaseSummary, worst_first, write_parquet
+from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state
 

@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, number, text
-from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import CASES, shown
+from mudline.basics.quantities import shown
 from mudline.cli.streams import counted
 from mudline.cli.view import View
-from mudline.model.results.cases import CaseSummary
+from mudline.model.results.cases import CASES, CaseSummary
 
 _DIGITS = 5
 _SHORT = 24
@@ -35,16 +34,15 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
     printer = view.printer()
     failed = [row for row in ranked if row.failed]
     evaluated = ranked[len(failed) :]
-    most = None if view.verbose else SHOWN_ROWS
     where = f" in {inside}" if (inside := _inside(folder)) else ""
     short = all(len(names[row.deck]) <= _SHORT for row in ranked)
     deck = text("deck", lambda row: names[row.deck], whole=short)
     if failed:
-        columns = [deck, text("reason", "reason")]
-        printer.table(DisplayTable(f"Failed{where}", columns, failed[:most], _more(failed, most)))
+        table = DisplayTable(f"Failed{where}", [deck, text("reason", "reason")], failed)
+        printer.table(_first(table, view.most))
     if evaluated:
-        title, columns = f"Contact of {counted(len(evaluated), 'deck')}{where}", [deck, *_columns(evaluated[:most])]
-        printer.table(DisplayTable(title, columns, evaluated[:most], _more(evaluated, most)))
+        title, columns = f"Contact of {counted(len(evaluated), 'deck')}{where}", _columns(evaluated[: view.most])
+        printer.table(_first(DisplayTable(title, [deck, *columns], evaluated), view.most))
     doubtful = sum(bool(row.warnings) for row in evaluated)
     parts = [f"{counted(len(ranked), 'deck')}: {len(evaluated)} evaluated"]
     parts += [f"{doubtful} with warnings"] if doubtful else []
@@ -60,9 +58,9 @@ def _inside(folder: str) -> str:
     return (place.relative_to(here) if place.is_relative_to(here) else place).as_posix()
 
 
-def _more(rows: Sequence[CaseSummary], most: int | None) -> str:
-    left = 0 if most is None else len(rows) - most
-    return f"{counted(left, 'more deck')}: -v shows all" if left > 0 else ""
+def _first(table: DisplayTable, most: int) -> DisplayTable:
+    decks = "more deck" if len(table.rows) - most == 1 else "more decks"
+    return table.first(most, f"{decks}: -v shows all")
 
 
 def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:

@@ -159,12 +159,12 @@ def _evaluate_one(
     shown = "" if output else wanted.form
     screen = Screen(evaluation, wanted.table, view, every=wanted.every) if shown == "text" else None
     slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
-    consumers: list[ResultConsumer | None] = [comparison, drawing, slow, watch]
-    consumers += [] if screen is None else screen.consumers
     with _sink(evaluation, comparison, wanted) as sink:
-        _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
+        consumers = [comparison, drawing, slow, watch, screen, sink]
+        _run(evaluation, consumers, view, bar=shown in {"", "text"})
         warnings = watch.warnings()
-        sink.finish(warnings, comparison)
+        if sink is not None:
+            sink.finish(warnings)
     if drawing is not None:
         doubt = caption(warnings)
         plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
@@ -198,16 +198,17 @@ def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarn
     return warnings
 
 
-def _sink(evaluation: Evaluation, comparison: ResultComparison | None, wanted: Wanted) -> AbstractContextManager[Sink]:
+def _sink(
+    evaluation: Evaluation, comparison: ResultComparison | None, wanted: Wanted
+) -> AbstractContextManager[Sink | None]:
     """Open the destination of the rows: files, standard output, or none."""
-    elements = evaluation.element_table(None if comparison is None else comparison.others)
     if wanted.output:
-        return result_files(evaluation, elements, Path(wanted.output), wanted.view)
+        return result_files(evaluation, Path(wanted.output), wanted.view, comparison)
     if wanted.form == "text":
-        return nullcontext(Sink(evaluation, {}, None, "text"))
-    tables = tables_of(evaluation, wanted.form, elements, wanted.table)
+        return nullcontext()
+    tables = tables_of(evaluation, wanted.form, wanted.table)
     writer = text_writer(wanted.form, contents_of(evaluation, tables), emit, wanted.table)
-    return nullcontext(Sink(evaluation, tables, writer, wanted.form))
+    return nullcontext(Sink(evaluation, tables, writer, wanted.form, comparison))
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], view: View, *, bar: bool) -> None:

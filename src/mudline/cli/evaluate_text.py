@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
@@ -15,17 +16,17 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
-from mudline.model.contact import Plan
+from mudline.model.contact import ContactResult, Plan
 from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import Extreme, ResultComparison
-from mudline.model.results.evaluation import Evaluation, ResultConsumer
+from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.series import SeriesSummary
 from mudline.model.results.summary_tables import law_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
-    First,
+    StepTotal,
     acted_on,
     carried,
     line_steps,
@@ -35,7 +36,7 @@ from mudline.model.results.totals import (
     totals,
     touchdown_words,
 )
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Floats
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -61,17 +62,24 @@ def print_plan(plan: Plan, view: View) -> None:
 
 
 class Screen:
-    """Results that the terminal shows: the first state, rows of steps and lines, extremes of a series."""
+    """Consumer that keeps what the terminal shows: the first state, rows of steps and lines, extremes of a series."""
 
     def __init__(self, evaluation: Evaluation, which: str, view: View, *, every: bool) -> None:
         self.evaluation, self.which = evaluation, which
-        self.most = None if view.verbose else SHOWN_ROWS
+        self.most = view.most
         self.every = every or view.verbose
-        self.first = First(lambda part: iter([ResultPart(part.start, part.result.steps(0, 1))]), 1)
-        self.steps = First(partial(step_totals, evaluation, of_nodes=which == "nodes"), self.most)
-        self.lines = First(partial(line_steps, evaluation), self.most)
+        self.first: ResultPart | None = None
+        self.steps: list[StepTotal] = []
+        self.lines: list[LineSummary] = []
         self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
-        self.consumers: list[ResultConsumer] = [self.first, self.steps, self.lines, self.series]
+
+    def take(self, part: ResultPart) -> None:
+        """Add some steps; their rows up to the limit."""
+        self.first = self.first or ResultPart(part.start, part.result.steps(0, 1))
+        steps = step_totals(self.evaluation, part, of_nodes=self.which == "nodes")
+        self.steps += islice(steps, self.most - len(self.steps))
+        self.lines += islice(line_steps(self.evaluation, part), self.most - len(self.lines))
+        self.series.take(part)
 
 
 def print_evaluation(screen: Screen, view: View) -> None:
@@ -88,7 +96,7 @@ def print_evaluation(screen: Screen, view: View) -> None:
     if screen.which == "summary":
         _print_lines(printer, screen)
     elif evaluation.time is None:
-        _print_state(printer, screen, screen.first.rows[0])
+        _print_state(printer, screen)
     else:
         _print_steps(printer, screen)
         _print_peaks(printer, screen.series)
@@ -101,7 +109,7 @@ def print_series(series: SeriesSummary, view: View) -> None:
     printer = view.printer()
     printer.line(f"{_title(series.evaluation)}, {series.evaluation.steps} steps")
     _print_peaks(printer, series)
-    _print_extents(printer, series, None if view.verbose else SHOWN_ROWS)
+    _print_extents(printer, series, view.most)
 
 
 def _title(evaluation: Evaluation) -> str:
@@ -112,45 +120,41 @@ def _title(evaluation: Evaluation) -> str:
 # --------------------------------------------------------------------------------------------------------- one state
 
 
-def _print_state(printer: Printer, screen: Screen, first: ResultPart) -> None:
+def _print_state(printer: Printer, screen: Screen) -> None:
     """Print totals by law, touchdown, states of laws with states, and the elements or nodes in contact."""
-    evaluation, result = screen.evaluation, first.result.step(0)
-    _print_totals(printer, evaluation, first)
+    evaluation, first = screen.evaluation, screen.first
+    if first is None:
+        return
+    result = first.result.step(0)
+    _print_totals(printer, evaluation, result)
     _print_lines(printer, screen)
     if rows_of_states := states(evaluation, result):
-        of_state = (text("law", "law"), text("state", "state"), number("count", "number"))
+        of_state = (text("law", "law"), text("state", "state"), number("count", "count"))
         printer.table(DisplayTable("States", of_state, rows_of_states))
-    headings = _OF_ELEMENT if screen.which == "elements" else _OF_NODE
     if screen.which == "elements":
-        acts = (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
+        headings, acts = _OF_ELEMENT, (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
         distance = _from_touchdown(screen)[evaluation.elements[acts]]
-        shown_columns = _shown_columns(evaluation.element_table(), first, headings)
     else:
-        acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
+        headings, acts = _OF_NODE, np.isin(evaluation.nodes, acted_on(evaluation, result))
         distance = np.zeros(int(acts.sum()))
-        shown_columns = _shown_columns(evaluation.node_table(), first, headings)
+    shown_columns = _shown_columns(evaluation.table(screen.which), first, headings)
     columns = [
         number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(shown_columns)
     ]
-    values = [column.cut(0, 1)[0, acts] for column in shown_columns]
+    listed = [_cells(column, column.cut(0, 1)[0, acts], every=screen.every) for column in shown_columns]
+    rows: list[Cells] = list(zip(*listed, strict=True))
     note = ""
-    if screen.every:
-        listed = list(zip(*map(partial(_cells, every=True), shown_columns, values), strict=True))
-    else:
-        starts = _starts(values)
-        last = values[0][np.append(starts[1:], len(values[0]))[: len(starts)] - 1]
-        cells = map(_cells, shown_columns, (column[starts] for column in values))
-        nearest_of = np.minimum.reduceat(distance, starts) if len(starts) else distance
-        joined = list(_joined(list(zip(*cells, strict=True)), last.tolist(), nearest_of.tolist()))
+    if not screen.every:
+        joined = list(_joined(rows, distance.tolist()))
         nearest = sorted(range(len(joined)), key=lambda row: joined[row][1])[:SHOWN_ROWS]
         alike = [f"rows alike to {_ALIKE * 100.0:g} % are one, with the largest numbers"]
         notes = alike if any(differ for _, _, differ in joined) else []
         left = len(joined) - len(nearest)
         notes += [f"{left} {_MORE_OF[screen.which]}"] if left else []
-        note, listed = "; ".join(notes), [joined[row][0] for row in sorted(nearest)]
-    in_part = any(row.contact_length for row in screen.lines.rows) and not result.contact.any()
-    if listed:
-        printer.table(DisplayTable(f"{screen.which.capitalize()} in contact", columns, listed, note))
+        note, rows = "; ".join(notes), [joined[row][0] for row in sorted(nearest)]
+    in_part = any(row.contact_length for row in screen.lines) and not result.contact.any()
+    if rows:
+        printer.table(DisplayTable(f"{screen.which.capitalize()} in contact", columns, rows, note))
     elif screen.which == "elements" and in_part:
         printer.line("No element is in contact in the mean of its nodes")
     else:
@@ -161,7 +165,7 @@ def _from_touchdown(screen: Screen) -> Floats:
     """Return the distances (m,) of elements along their line from a touchdown point; infinite without one."""
     lines = screen.evaluation.model.input.lines
     distances = np.full(len(lines.element_arc), np.inf)
-    for row in screen.lines.rows:
+    for row in screen.lines:
         elements = lines.elements[row.line - 1]
         for point in row.touchdown:
             apart = np.abs(lines.element_arc[elements] - point.arc_length)
@@ -189,16 +193,7 @@ def _shown_columns(table: ResultTable, first: ResultPart, headings: Mapping[str,
     return [available[name] for name in headings if name not in lacking]
 
 
-def _starts(values: Sequence[NDArray[np.generic]]) -> Indices:
-    """Return the rows that do not repeat the row before, with the next number; the numbers are the first column."""
-    new = np.ones(len(values[0]), np.bool_)
-    new[1:] = np.diff(values[0]) != 1
-    for column in values[1:]:
-        new[1:] |= column[1:] != column[:-1]
-    return np.flatnonzero(new)
-
-
-def _cells(column: ResultColumn, of: NDArray[np.generic], *, every: bool = False) -> list[str | float]:
+def _cells(column: ResultColumn, of: NDArray[np.generic], *, every: bool) -> list[str | float]:
     """Return the cells of a column, with all digits if `every`, else with the significant digits of the column."""
     values = of.tolist()
     if column.names:
@@ -210,10 +205,10 @@ def _cells(column: ResultColumn, of: NDArray[np.generic], *, every: bool = False
     return list(values)
 
 
-def _print_totals(printer: Printer, evaluation: Evaluation, part: ResultPart) -> None:
-    rows = [each._asdict() for each in totals(evaluation, part)]
+def _print_totals(printer: Printer, evaluation: Evaluation, result: ContactResult) -> None:
+    rows = totals(evaluation, result)
     if len(rows) > 1 or any(each["law"] == "nodal" for each in rows):
-        total = reaction(evaluation, part.result.step(0))
+        total = reaction(evaluation, result)
         known = NOT_KNOWN if math.isnan(total) else total
         sums = {name: sum(each[name] for each in rows) for name in ("elements", "touching")}
         deepest = max((each["deepest"] for each in rows if each["deepest"] is not None), default=None)
@@ -222,27 +217,23 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: ResultPart) ->
     printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
 
 
-def _joined(rows: Sequence[Cells], last: Iterable[int], near: Iterable[float]) -> Iterator[tuple[Cells, float, bool]]:
+def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cells, float, bool]]:
     """Join consecutive rows with nearly equal values, and yield each with the least of their distances.
 
-    `last` are the numbers up to which rows hold. A joined row has the largest of its numbers; the last value is True if
-    some differ.
+    The first cells are the numbers. A joined row has the largest of its values; the last value is True if some differ.
     """
     tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
-    runs: list[tuple[list[Cells], list[int], list[float]]] = []
-    for row, until, distance in zip(rows, last, near, strict=True):
-        same, ends, distances = runs[-1] if runs else ([], [], [])
-        if not same or row[0] != ends[-1] + 1 or not all(map(_alike, row[1:], same[0][1:], tolerances[1:])):
-            same, ends, distances = [], [], []
-            runs.append((same, ends, distances))
-        same.append(row)
-        ends.append(until)
-        distances.append(distance)
-    for same, ends, distances in runs:
-        numbers, *columns = zip(*same, strict=True)
+    numbers = [int(row[0]) for row in rows]
+    starts: list[int] = []
+    for at, row in enumerate(rows):
+        follows = at > 0 and numbers[at] == numbers[at - 1] + 1
+        if not follows or not all(map(_alike, row[1:], rows[starts[-1]][1:], tolerances[1:])):
+            starts.append(at)
+    for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
+        _, *columns = zip(*rows[start:end], strict=True)
         yield (
-            (_span(int(numbers[0]), ends[-1]), *map(_of_run, columns)),
-            min(distances),
+            (_span(numbers[start], numbers[end - 1]), *map(_of_run, columns)),
+            min(near[start:end]),
             any(len(set(column)) > 1 for column in columns),
         )
 
@@ -269,7 +260,7 @@ def _span(first: int, last: int) -> str:
 
 def _print_steps(printer: Printer, screen: Screen) -> None:
     """Print a row for each step: of the elements, or of the nodes."""
-    evaluation, rows = screen.evaluation, screen.steps.rows
+    evaluation, rows = screen.evaluation, screen.steps
     names, of_nodes = unit_names(evaluation.scene.units), screen.which == "nodes"
     which = "node" if of_nodes else "element"
     of_gap = [number("smallest\ngap", "gap", names.length), number("largest\non a node", "largest", names.force)]
@@ -317,7 +308,7 @@ def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
 
 def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each line and step."""
-    evaluation, rows = screen.evaluation, screen.lines.rows
+    evaluation, rows = screen.evaluation, screen.lines
     names = unit_names(evaluation.scene.units)
     pulled = any(row.largest_uplift is not None for row in rows)
     filled = any(row.submerged_weight != row.empty_weight for row in rows)
@@ -359,7 +350,7 @@ def _touchdown(row: LineSummary) -> str:
     return touchdown_words(places, row.contact_length, row.length, _SHOWN_POINTS)
 
 
-def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) -> None:
+def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
     """Print the ranges of touchdown, length in contact, forces and reaction of each line."""
     evaluation, times = series.evaluation, series.evaluation.time
     names, lines = unit_names(evaluation.scene.units), evaluation.lines.tolist()

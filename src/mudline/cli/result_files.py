@@ -12,7 +12,7 @@ import click
 from mudline.basics.files import suffix_of
 from mudline.cli.streams import require, writing
 from mudline.cli.view import View, tracked
-from mudline.model.contact.columns import ElementResults
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (
     FORMS,
@@ -46,16 +46,21 @@ def require_library(form: str) -> None:
 
 @contextmanager
 def result_files(
-    evaluation: Evaluation, elements: ElementResults, path: Path, view: View, *, synced: bool = True
+    evaluation: Evaluation,
+    path: Path,
+    view: View,
+    comparison: ResultComparison | None = None,
+    *,
+    synced: bool = True,
 ) -> Iterator[Sink]:
     """Open the result file of an evaluation by its suffix, or several files; they appear only when all is written.
 
     Files whose digest is recorded need not be `synced`, as a lost file is recognised by it. Raises click.ClickException
     if the form has no place for all rows.
     """
-    tables = tables_of(evaluation, suffix_of(path), elements)
+    tables = tables_of(evaluation, suffix_of(path))
     with _opened(path, [*beside(path).values()], contents_of(evaluation, tables), view, synced=synced) as writer:
-        yield Sink(evaluation, tables, writer, suffix_of(path))
+        yield Sink(evaluation, tables, writer, suffix_of(path), comparison)
 
 
 def beside(path: Path) -> dict[str, Path]:

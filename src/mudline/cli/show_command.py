@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, shown, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
@@ -64,7 +63,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
         if sheet and not tables:
             notify(f"{summary['file']}: the deck has no elements to list in a sheet")
         for table in tables:
-            view.printer().table(table.first(None if view.verbose else SHOWN_ROWS, "more rows: -v shows all"))
+            view.printer().table(table.first(view.most, "more rows: -v shows all"))
     if errors:
         counts = Counter(error.file for error in errors)
         for file, count in counts.items():
@@ -87,7 +86,6 @@ def _form(output: str | None, output_format: str) -> str:
 def _print_summary(summary: dict[str, Any], view: View) -> None:
     """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
     printer = view.printer()
-    most = None if view.verbose else SHOWN_ROWS
     names = unit_names(summary["units"])
     _print_head(printer, summary, names)
     printer.table(set_table(summary["sets"], names))
@@ -102,7 +100,7 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     for key, table in tables.items():
         if rows := summary[key]:
             printed = table(rows, names)
-            printer.table(printed.first(most, "more diameters: -v shows all") if key == "diameters" else printed)
+            printer.table(printed.first(view.most, "more diameters: -v shows all") if key == "diameters" else printed)
 
 
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:

@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager
 from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from mudline.basics.limits import SHOWN_ROWS
 from mudline.cli.streams import notify
 
 if TYPE_CHECKING:
@@ -42,6 +43,11 @@ class View(NamedTuple):
         else:
             texts = ((part if isinstance(part, str) else part[0] for part in line) for line in lines)
             sys.stdout.writelines(f"{''.join(pieces)}\n" for pieces in texts)
+
+    @property
+    def most(self) -> int:
+        """Largest number of rows of a table; -v shows all."""
+        return sys.maxsize if self.verbose else SHOWN_ROWS
 
     @property
     def width(self) -> int | None:

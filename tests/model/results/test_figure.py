@@ -61,7 +61,7 @@ def labels(figure: Figure) -> list[str]:
 def panel(data: PlotData, name: str) -> Axes:
     """One of the panels of some results, by itself."""
     axes = Figure().add_subplot()
-    next(one for one in panels_of(data) if one.name == name).draw(axes)
+    next(one for one in panels_of(data) if one.name == name).draw(axes, DrawnStretch(data))
     return axes
 
 

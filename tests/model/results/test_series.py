@@ -51,7 +51,6 @@ def test_totals_of_steps() -> None:
     assert len(found) == 300
     assert found[0] == StepTotal(0.0, 1, 1, 1, 0.1, 15000.0)
     assert found[-1][1:4] == (2, 1, 2)
-    assert steps_of(evaluation, 3) == found[:3]
     summed = arrays_of(evaluation)["reaction"][..., 0].sum(axis=1)
     assert np.allclose([each.reaction for each in found], summed, rtol=1e-12)
 

@@ -383,7 +383,7 @@ def test_curve_that_a_parameter_chooses() -> None:
 def test_pieces_give_what_the_whole_series_gives() -> None:
     scene, places = legal_scene(pipe("")), heights(0.5, 0.2, -0.01, 0.1)
     result = scene.contact().evaluate(places)
-    watch = ContactWatch(scene, result.evaluated, places[0], "file")
+    watch = ContactWatch(scene, result.known, result.present, places, "file")
     for start in range(4):
         watch.take(ResultPart(start, result.steps(start, start + 1)))
     assert watch.warnings() == contact_warnings(scene, result, places)

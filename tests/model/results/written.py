@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import FORMS, ResultOutput, Sink, contents_of, table_path, tables_of
 from mudline.model.results.forms.text import text_writer
-from mudline.model.results.totals import First, StepTotal, step_totals
+from mudline.model.results.totals import StepTotal, step_totals
 
 Json: TypeAlias = Any
 
@@ -24,7 +23,7 @@ Json: TypeAlias = Any
 def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterator[str]:
     """All that a form of text writes, piece by piece as it comes."""
     written: list[Iterator[str]] = []
-    tables = tables_of(evaluation, form, evaluation.element_table(), table)
+    tables = tables_of(evaluation, form, table)
     sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), written.append, table), form)
     for part in evaluation.parts():
         sink.take(part)
@@ -42,7 +41,7 @@ def json_of(evaluation: Evaluation) -> Json:
 def write(evaluation: Evaluation, path: Path) -> Path:
     """Write an evaluation in the form of the suffix, as the command does."""
     form = path.suffix[1:]
-    tables = tables_of(evaluation, form, evaluation.element_table())
+    tables = tables_of(evaluation, form)
     with ExitStack() as stack:
         paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
         streams = [stack.enter_context(one.open("wb")) for one in paths]
@@ -60,8 +59,6 @@ def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
         return dict(archive)
 
 
-def steps_of(evaluation: Evaluation, most: int | None = None) -> list[StepTotal]:
-    """The figures of the first steps."""
-    first = First(partial(step_totals, evaluation), most)
-    evaluation.run([first])
-    return first.rows
+def steps_of(evaluation: Evaluation) -> list[StepTotal]:
+    """The figures of all steps."""
+    return [row for part in evaluation.parts() for row in step_totals(evaluation, part)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -67,8 +67,6 @@ class ResultColumn:
 
 NO_ELEMENT = -1
 """"No element" in a column of element numbers."""
-Others = Callable[[ResultPart], Sequence[tuple[str, FloatArray]]]
-"""Function that returns additional columns of elements for some steps: names, and values (steps, m)."""
 
 
 class ResultTable(ABC):
@@ -92,7 +90,7 @@ class ResultTable(ABC):
 
     @abstractmethod
     def columns(self, part: ResultPart) -> list[ResultColumn]:
-        """Return the columns of the result quantities, then additional columns."""
+        """Return the columns of the result quantities."""
 
     def facts(self) -> list[ResultColumn]:
         """Return the columns that no step changes, including the law of elements whose curve is cut at some steps."""
@@ -120,16 +118,12 @@ class ResultTable(ABC):
 
 
 class ElementResults(ResultTable):
-    """The evaluated elements.
-
-    `others` returns additional columns by name: values (m,) of all elements for each step.
-    """
+    """The evaluated elements."""
 
     quantities = ELEMENTS
 
-    def __init__(self, given: ContactInput, chosen: IndexArray, others: Others | None = None) -> None:
+    def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
         super().__init__(given, chosen)
-        self._others = others
         set_codes, sets = coded(given.law_sets)
         laws, names = coded(given.law_names)
         self._may_cut = given.tension == "cut"
@@ -150,7 +144,7 @@ class ElementResults(ResultTable):
         }
 
     def columns(self, part: ResultPart) -> list[ResultColumn]:
-        """Return the columns of the result quantities, then the additional columns."""
+        """Return the columns of the result quantities."""
         result = part.result
         ends = [_places(result, column) for column in self._ends.T]
         values: dict[str, Values] = {
@@ -159,9 +153,7 @@ class ElementResults(ResultTable):
         }
         if self._may_cut:
             values["law"] = np.where(kept(result.cut, self._chosen), self._cut_code, self._fixed["law"])
-        columns = self._columns(values, result)
-        others = () if self._others is None else self._others(part)
-        return columns + [ResultColumn(name, kept(values, self._chosen)) for name, values in others]
+        return self._columns(values, result)
 
 
 class NodeResults(ResultTable):

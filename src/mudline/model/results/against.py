@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.model.contact.columns import ResultColumn, kept
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.scene.csv_file import CsvTable, data_error, read_csv
@@ -157,15 +158,15 @@ class ResultComparison:
         """True if differences have a time."""
         return self._evaluation.time is not None
 
-    def others(self, part: ResultPart) -> list[tuple[str, Floats]]:
-        """Return additional columns: the values of the file (steps, m), NaN where it has none."""
+    def columns(self, part: ResultPart) -> list[ResultColumn]:
+        """Return the values of the file for the evaluated elements at some steps, NaN where it has none."""
         rows, step, element = self._rows(part)
         shape = (part.count, len(self._evaluation.scene.element_ids))
         columns = []
         for name, theirs in self.reference.values.items():
             values = np.full(shape, np.nan)
             values[step, element] = theirs[rows]
-            columns.append((f"{name}_against", values))
+            columns.append(ResultColumn(f"{name}_against", kept(values, self._evaluation.elements)))
         return columns
 
     def take(self, part: ResultPart) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, fields
-from typing import BinaryIO, Literal
+from dataclasses import asdict, dataclass
+from typing import Annotated, BinaryIO, Literal, get_type_hints
 
-from mudline.basics.quantities import finite
+from mudline.basics.quantities import Quantity, finite
 from mudline.model.results.series import PeakValue, SeriesSummary
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.deck_values import FOOT, POUND
@@ -18,33 +18,52 @@ _PER_LENGTH = {"imperial": POUND / FOOT}
 
 @dataclass(frozen=True, slots=True)
 class CaseSummary:
-    """A deck among many; the fields are those of `quantities.CASES`."""
+    """A deck among many: extremes over all lines and steps; None for a value that does not exist.
 
-    deck: str
-    verdict: Literal["evaluated", "failed"]
-    reason: str | None = None
-    units: str | None = None
-    positions: str | None = None
-    steps: int | None = None
-    elements: int | None = None
-    in_contact: int | None = None
-    touchdown_from: float | None = None
-    touchdown_to: float | None = None
-    contact_length: float | None = None
-    largest_force: float | None = None
-    largest_force_element: int | None = None
-    largest_force_time: float | None = None
-    largest_uplift: float | None = None
-    largest_uplift_element: int | None = None
-    largest_uplift_time: float | None = None
-    reaction: float | None = None
-    submerged_weight: float | None = None
-    empty_weight: float | None = None
-    contents_case: int | None = None
-    ratio: float | None = None
-    warnings: int | None = None
-    warning_codes: str | None = None
-    result: str | None = None
+    The fields are annotated as a `Quantity`: meaning, unit, heading for people.
+    """
+
+    deck: Annotated[str, "the file, as it was given or found"]
+    verdict: Annotated[Literal["evaluated", "failed"], "`evaluated` or `failed`"]
+    reason: Annotated[str | None, "why it failed"] = None
+    units: Annotated[str | None, "`metric`, `imperial` or `user`"] = None
+    positions: Annotated[str | None, "`deck`, `file` or `rest shape`"] = None
+    steps: Annotated[int | None, "number of time steps; 1 for one state"] = None
+    elements: Annotated[int | None, "number of elements that were evaluated"] = None
+    in_contact: Annotated[int | None, "largest number of elements in contact", "", "in\ncontact"] = None
+    touchdown_from: Annotated[float | None, "least and largest arc length of a touchdown point", "length"] = None
+    touchdown_to: Annotated[float | None, "least and largest arc length of a touchdown point", "length"] = None
+    contact_length: Annotated[float | None, "largest length below the seabed", "length", "contact\nlength"] = None
+    largest_force: Annotated[
+        float | None, "largest push of the seabed on an element, per unit length", "line_force", "largest\nforce"
+    ] = None
+    largest_force_element: Annotated[int | None, "the element", "", "element"] = None
+    largest_force_time: Annotated[float | None, "when; `null` for one state"] = None
+    largest_uplift: Annotated[
+        float | None, "largest pull, negative, by suction or a curve", "line_force", "largest\nuplift"
+    ] = None
+    largest_uplift_element: Annotated[int | None, "the element", "", "element"] = None
+    largest_uplift_time: Annotated[float | None, "when; `null` for one state"] = None
+    reaction: Annotated[
+        float | None, "largest total normal force on all nodes; `null` on a rigid seabed", "force", "total\nreaction"
+    ] = None
+    submerged_weight: Annotated[
+        float | None,
+        "of the elements in contact at that step",
+        "force",
+        "subm.\nweight",
+    ] = None
+    empty_weight: Annotated[float | None, "the same without contents", "force", "weight,\nempty"] = None
+    contents_case: Annotated[
+        int | None,
+        "load case, from 1, whose contents the weight has; `null` if all have the same",
+        "",
+        "contents of\nload case",
+    ] = None
+    ratio: Annotated[float | None, "this reaction / this weight", "", "ratio"] = None
+    warnings: Annotated[int | None, "number of warnings about the results", "", "warn-\nings"] = None
+    warning_codes: Annotated[str | None, "their codes, separated by spaces"] = None
+    result: Annotated[str | None, "the file with its results, below the folder of `-o`"] = None
 
     @property
     def failed(self) -> bool:
@@ -54,6 +73,12 @@ class CaseSummary:
     def row(self) -> dict[str, str | int | float | None]:
         """Return the values by name."""
         return asdict(self)
+
+
+CASES = {
+    name: Quantity(name, *hint.__metadata__) for name, hint in get_type_hints(CaseSummary, include_extras=True).items()
+}
+"""Columns of a deck among many, in order."""
 
 
 def worst_first(rows: Iterable[CaseSummary]) -> list[CaseSummary]:
@@ -113,9 +138,8 @@ def write_parquet(rows: Sequence[CaseSummary], stream: BinaryIO) -> None:
     import pyarrow as pa  # noqa: PLC0415 - the extra `frames`
     import pyarrow.parquet as pq  # noqa: PLC0415 - as above
 
-    types = {"int": pa.int64(), "float": pa.float64()}
-    kinds = [(field.name, str(field.type).partition(" ")[0]) for field in fields(CaseSummary)]
-    schema = pa.schema([(name, types.get(kind, pa.string())) for name, kind in kinds])
+    types = {int | None: pa.int64(), float | None: pa.float64()}
+    schema = pa.schema([(name, types.get(hint, pa.string())) for name, hint in get_type_hints(CaseSummary).items()])
     plain = [{name: _escaped(value) for name, value in row.row().items()} for row in rows]
     pq.write_table(pa.Table.from_pylist(plain, schema), stream)
 

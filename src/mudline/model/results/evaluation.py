@@ -15,7 +15,7 @@ from mudline.basics.short_repr import counted, cut, outline, short_repr
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.arrays import Positions, StepReader
-from mudline.model.contact.columns import ElementResults, NodeResults, Others, by_number
+from mudline.model.contact.columns import ElementResults, NodeResults, ResultTable, by_number
 from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import LineResults, Touchdown
 from mudline.model.scene.deck_values import unread_makers
@@ -125,17 +125,15 @@ class Evaluation:
         """Finder of the touchdown of the lines in the results of some steps."""
         return Touchdown(self.model.input)
 
-    def element_table(self, others: Others | None = None) -> ElementResults:
-        """Return the rows of the evaluated elements, with additional columns."""
-        return ElementResults(self.model.input, self.elements, others)
+    def table(self, name: str) -> ResultTable:
+        """Return the rows of the evaluated "elements", the "nodes" with a position, or the lines ("summary").
 
-    def node_table(self) -> NodeResults:
-        """Return the rows of the nodes that have a position."""
-        return NodeResults(self.model.input, self.nodes)
-
-    def line_table(self) -> LineResults:
-        """Return the rows of the lines: touchdown, largest forces, reaction and weight."""
-        return LineResults(self.model.input, self.elements)
+        Those of a line are touchdown, largest forces, reaction and weight.
+        """
+        if name == "nodes":
+            return NodeResults(self.model.input, self.nodes)
+        kind = ElementResults if name == "elements" else LineResults
+        return kind(self.model.input, self.elements)
 
     def run(self, consumers: Iterable[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
         """Evaluate all steps once and pass the results on; `done` is called with the number of steps of each part.

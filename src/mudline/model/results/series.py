@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, time_unit
-from mudline.model.contact.columns import NO_ELEMENT, ElementResults, NodeResults, ResultColumn, Values, kept
+from mudline.model.contact.columns import NO_ELEMENT, ResultColumn, Values, kept
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.result import ResultPart
-from mudline.model.contact.touchdown import LineResults, LineSeries
+from mudline.model.contact.touchdown import LineSeries
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import ResultTables, plan_rows
 from mudline.model.results.totals import HELD, StepValues, carried, step_figures
@@ -264,12 +264,8 @@ def series_summary(evaluation: Evaluation, *more: str) -> SeriesSummary:
 def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> ResultTables:
     """Return the tables of a summary, with the additional keys of JSON."""
     evaluation = summary.evaluation
-    given, times = evaluation.model.input, evaluation.time
-    facts = {
-        "elements": ElementResults(given, evaluation.elements).facts(),
-        "nodes": NodeResults(given, evaluation.nodes).facts(),
-        "summary": LineResults(given, evaluation.elements).facts(),
-    }
+    times = evaluation.time
+    facts = {name: evaluation.table(name).facts() for name in ("elements", "nodes", "summary")}
     tables = {table: [*facts[table], *_extremes(summary, table, times)] for table in facts}
     for (table, name), counts in summary.counts.items():
         if table in facts:
@@ -281,7 +277,7 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
         "positions": "file",
         "warnings": [warning.row() for warning in warnings],
     }
-    return ResultTables(tables, SERIES_FORMAT, given.units, more)
+    return ResultTables(tables, SERIES_FORMAT, evaluation.scene.units, more)
 
 
 def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[ResultColumn]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
-from typing import Any, Generic, NamedTuple, TypeVar
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,26 +14,6 @@ from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart, total_normal_force
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask
-
-Row = TypeVar("Row")
-
-
-class LawTotal(NamedTuple):
-    """Elements that share a law and the set that assigned it, at one step.
-
-    Attributes:
-        touching: number of elements in contact.
-        deepest: largest depth, negative above the seabed; None without a seabed.
-        reaction: total normal force of a law per unit length; None for springs of nodes.
-    """
-
-    law: str
-    set_name: str
-    elements: int
-    touching: int
-    deepest: float | None
-    reaction: float | None
-
 
 NOT_KNOWN = "not known"
 """Text for the reaction of a rigid seabed, and for one that overflows."""
@@ -89,19 +68,30 @@ def carried(result: ContactResult) -> Mask:
     return in_contact
 
 
-def totals(evaluation: Evaluation, part: ResultPart) -> list[LawTotal]:
-    """Return the totals by law and set, in the order of the elements, at the first step of a part."""
-    scene, result = evaluation.scene, part.result.step(0)
-    in_contact = carried(result)
+def totals(evaluation: Evaluation, result: ContactResult) -> list[dict[str, Any]]:
+    """Return the totals of the elements that share a law and its set, in the order of the elements, at one step.
+
+    `touching` is the number of elements in contact, `deepest` their largest depth, negative above the seabed, None
+    without a seabed; `reaction` is the total normal force of a law per unit length, None for springs of nodes.
+    """
+    scene, in_contact = evaluation.scene, carried(result)
     groups: dict[tuple[str, str], list[int]] = {}
     for index in evaluation.elements.tolist():
         groups.setdefault((scene.law_names[index], scene.law_sets[index] or ""), []).append(index)
     rows = []
     with np.errstate(over="ignore", invalid="ignore"):
         for (law, name), members in groups.items():
-            touching, deepest = int(in_contact[members].sum()), _deepest(result.depth[members])
             force = float((result.force[members] * evaluation.length[members]).sum())
-            rows.append(LawTotal(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
+            rows.append(
+                {
+                    "law": law,
+                    "set_name": name,
+                    "elements": len(members),
+                    "touching": int(in_contact[members].sum()),
+                    "deepest": _deepest(result.depth[members]),
+                    "reaction": None if law in _AT_NODES else force,
+                }
+            )
     return rows
 
 
@@ -132,7 +122,7 @@ def step_totals(evaluation: Evaluation, part: ResultPart, *, of_nodes: bool = Fa
 
 def line_steps(evaluation: Evaluation, part: ResultPart) -> Iterator[LineSummary]:
     """Yield every line at each step of a part."""
-    return evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
+    yield from evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
 
 
 def _ends(numbers: Ids) -> tuple[int | None, int | None]:
@@ -153,32 +143,23 @@ HELD = (STATES.index("suction"), STATES.index("hold"))
 """States of an element above the seabed in which suction may act again."""
 
 
-def counts(states: NDArray[np.int8], names: Names) -> list[tuple[str, int]]:
-    """Return the number of states of each kind that occurs."""
-    numbers = np.bincount(states.astype(np.intp) + 1, minlength=len(names))[1:]
-    return [(name, int(count)) for name, count in zip(names, numbers, strict=False) if name is not None and count]
-
-
-class InState(NamedTuple):
-    """Number of elements or nodes in a state of a law."""
-
-    law: str
-    state: str
-    number: int
-
-
-def states(evaluation: Evaluation, result: ContactResult) -> list[InState]:
-    """Return the states that occur at a step, of suction by element and of friction by node and direction."""
+def states(evaluation: Evaluation, result: ContactResult) -> list[dict[str, Any]]:
+    """Return the counts of states that occur at a step, of suction by element, of friction by node and direction."""
     rows = []
     if result.state is not None:
-        rows += [InState("suction of elements", *state) for state in counts(result.state[evaluation.elements], STATES)]
+        rows += _counts("suction of elements", result.state[evaluation.elements], STATES)
     if result.friction_state is not None:
         for axis, direction in enumerate(("axial", "lateral")):
-            by_state = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
-            rows += [InState(f"{direction} friction of nodes", *state) for state in by_state]
+            sliding = result.friction_state[evaluation.nodes, axis]
+            rows += _counts(f"{direction} friction of nodes", sliding, SLIDING)
     if result.restrained is not None:
-        rows.append(InState("rigid seabed", "restrained nodes", int(result.restrained.sum())))
+        rows.append({"law": "rigid seabed", "state": "restrained nodes", "count": int(result.restrained.sum())})
     return rows
+
+
+def _counts(law: str, states: NDArray[np.int8], names: Names) -> list[dict[str, Any]]:
+    numbers = np.bincount(states.astype(np.intp) + 1, minlength=len(names))[1:].tolist()
+    return [{"law": law, "state": name, "count": count} for name, count in zip(names, numbers, strict=False) if count]
 
 
 def _deepest(depth: Floats) -> float | None:
@@ -218,17 +199,3 @@ def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> StepValues:
     column = ranked.argmax(axis=1)[:, np.newaxis]
     largest = np.take_along_axis(values, column, axis=1)
     return StepValues(largest, np.where(np.isnan(largest), -1, chosen[column]))
-
-
-class First(Generic[Row]):
-    """Consumer that keeps the first `most` rows (None: all) that `make` returns for some steps."""
-
-    def __init__(self, make: Callable[[ResultPart], Iterator[Row]], most: int | None) -> None:
-        self._make, self._most = make, most
-        self.rows: list[Row] = []
-
-    def take(self, part: ResultPart) -> None:
-        """Add the rows of some steps up to the limit."""
-        left = None if self._most is None else self._most - len(self.rows)
-        if left != 0:
-            self.rows += islice(self._make(part), left)

@@ -99,8 +99,7 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
         raise ValueError("positions must have one step or more")
     source = "deck" if positions is None else "file"
     steps = places.reshape(-1, *places.shape[-2:])
-    watch = ContactWatch(scene, result.evaluated, steps, source)
-    watch.look_at_positions(result.known, result.present)
+    watch = ContactWatch(scene, result.known, result.present, steps, source)
     watch.take(ResultPart(0, result.as_series()))
     return watch.warnings()
 
@@ -157,25 +156,26 @@ class ContactWatch:
 
     Args:
         scene: the scene.
-        evaluated: (m,) elements with positions.
-        places: (steps, n, 3) positions.
+        given: the input of the evaluator.
+        present: (n,) nodes that have a position.
+        places: (steps, n, 3) positions; those of a file are judged by the last step.
         source: source of the positions: "deck", "file" or "rest shape", which is in equilibrium.
         times: (steps,) times, if known.
-        weight: (m,) submerged weight per length; None for the operating weight.
     """
 
     def __init__(
         self,
         scene: Scene,
-        evaluated: Mask,
+        given: ContactInput,
+        present: Mask,
         places: NDArray[np.floating] | StepReader,
         source: str,
         times: Floats | None = None,
-        weight: Floats | None = None,
     ) -> None:
         self._scene, self._source, self._times = scene, source, times
         self._positions, self._places = places, np.asarray(places[0], dtype=np.float64)
-        self._own, self._weight = source == "deck", operating_weight(scene) if weight is None else weight
+        self._own, self._weight = source == "deck", operating_weight(scene) if given.weight is None else given.weight
+        evaluated = np.asarray(present[scene.element_nodes].all(axis=1))
         self._elements = np.flatnonzero(evaluated)
         self._rows = self._elements if len(self._elements) < len(evaluated) else slice(None)
         self._nodes = np.unique(scene.element_nodes[self._elements])
@@ -196,21 +196,15 @@ class ContactWatch:
         self._thickest = float(np.fmax.reduce(scene.diameter[lawful], initial=0.0))
         self._left, self._left_at = np.zeros(len(scene.nodes), dtype=np.bool_), -1
         self._doubts: list[Doubt] = []
+        if source == "file":
+            last = np.asarray(places[len(places) - 1], dtype=np.float64)
+            self._doubts = position_doubts(given, scene, present, last)
 
     @classmethod
     def of(cls, evaluation: Evaluation) -> ContactWatch:
         """Return the watch of an evaluation."""
-        given, times = evaluation.model.input, evaluation.time
-        positions, source = evaluation.positions, evaluation.source
-        watch = cls(evaluation.scene, evaluation.evaluated, positions, source, times, given.weight)
-        watch.look_at_positions(given, evaluation.present)
-        return watch
-
-    def look_at_positions(self, given: ContactInput, present: Mask) -> None:
-        """Judge positions of a file by the last step; `present` (n,) are the nodes that have a position."""
-        if self._source == "file":
-            last = np.asarray(self._positions[len(self._positions) - 1], dtype=np.float64)
-            self._doubts = position_doubts(given, self._scene, present, last)
+        one = evaluation
+        return cls(one.scene, one.model.input, one.present, one.positions, one.source, one.time)
 
     def take(self, part: ResultPart) -> None:
         """Add some steps."""

@@ -400,7 +400,7 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
     deepest = int(depth.argmax()) if depth.size else -1
     touches = deepest >= 0 and depth[deepest] > 0.0
     return {
-        "laws": [each._asdict() for each in totals(evaluation, part)],
+        "laws": totals(evaluation, result),
         "reaction": finite(reaction(evaluation, result)),
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "empty_weight": None if watch.balance is None else finite(watch.balance.empty),
@@ -411,7 +411,7 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
         "positions": evaluation.source,
         "notes": [*evaluation.notes, *filter(None, [watch.note()])],
         "lines": [row.row() for row in line_steps(evaluation, part)],
-        "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
+        "states": states(evaluation, result),
         "warnings": [warning.row() for warning in warnings],
     }
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -22,10 +21,11 @@ from mudline.basics.quantities import RESULT_FORMAT, time_unit
 from mudline.model.contact import Plan
 from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.frames import array_name
+from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.totals import First, line_steps
+from mudline.model.results.totals import line_steps
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats
 
@@ -134,42 +134,50 @@ class Writer(Protocol):
 class Sink:
     """Consumer that passes the results of an evaluation to a writer, as the columns of tables.
 
-    Without a writer nothing is written. JSON has the lines of all steps after them, and no table of lines.
+    JSON has the lines of all steps after them, and no table of lines. With a comparison the elements have the values of
+    its file too.
     """
 
-    def __init__(self, evaluation: Evaluation, tables: NamedTables, writer: Writer | None, form: str) -> None:
-        self._evaluation, self._tables, self._writer = evaluation, tables, writer
-        self._lines = First(partial(line_steps, evaluation), None if form == "json" else 0)
+    def __init__(
+        self,
+        evaluation: Evaluation,
+        tables: NamedTables,
+        writer: Writer,
+        form: str,
+        comparison: ResultComparison | None = None,
+    ) -> None:
+        self._evaluation, self._tables, self._writer, self._form = evaluation, tables, writer, form
+        self._comparison = comparison
+        self._lines: list[LineSummary] = []
 
     def take(self, part: ResultPart) -> None:
         """Write some steps. Raises OSError."""
-        if self._writer is None:
-            return
-        self._lines.take(part)
         columns = {name: table.columns(part) for name, table in self._tables.items()}
+        if self._comparison is not None and "elements" in columns:
+            columns["elements"] += self._comparison.columns(part)
+        if self._form == "json":
+            self._lines += line_steps(self._evaluation, part)
         restrained, beside = part.result.restrained, {}
         if restrained is not None:
             ids = self._evaluation.scene.node_ids
             beside = {"restrained": [ids[step].tolist() for step in restrained]}
         self._writer.write(columns, part.start, part.count, beside)
 
-    def finish(self, warnings: Sequence[ContactWarning] = (), comparison: ResultComparison | None = None) -> None:
+    def finish(self, warnings: Sequence[ContactWarning] = ()) -> None:
         """Write the data that follow the last step. Raises OSError."""
-        if self._writer is not None:
-            more: dict[str, object] = {
-                "summary": [row.row() for row in self._lines.rows],
-                "positions": self._evaluation.source,
-                "contents_case": self._evaluation.contents_case,
-                "warnings": [warning.row() for warning in warnings],
-            }
-            self._writer.finish(more if comparison is None else more | {"against": comparison.summary()})
+        more: dict[str, object] = {
+            "summary": [row.row() for row in self._lines],
+            "positions": self._evaluation.source,
+            "contents_case": self._evaluation.contents_case,
+            "warnings": [warning.row() for warning in warnings],
+        }
+        self._writer.finish(more if self._comparison is None else more | {"against": self._comparison.summary()})
 
 
-def tables_of(evaluation: Evaluation, form: str, elements: ResultTable, only: str | None = None) -> NamedTables:
+def tables_of(evaluation: Evaluation, form: str, only: str | None = None) -> NamedTables:
     """Return the tables of results in a format, or one table of CSV; JSON has the lines after the last step."""
-    makers = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
-    names = ("elements", "nodes") if form == "json" else makers if only is None else (only,)
-    return {name: makers[name]() for name in names}
+    every = ("elements", "nodes", "summary") if only is None else (only,)
+    return {name: evaluation.table(name) for name in (("elements", "nodes") if form == "json" else every)}
 
 
 def contents_of(evaluation: Evaluation, tables: NamedTables) -> FileContent:

@@ -130,10 +130,10 @@ class DrawnStretch:
         axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
 
 
-def force(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def force(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the seabed reaction of the elements, or on the nodes if only springs of nodes act."""
-    result, units = data.drawn.result, data.given.units
-    _extents(axes, data, data.force, stretch)
+    data, result, units = stretch.data, stretch.data.drawn.result, stretch.data.given.units
+    _extents(axes, data.force, stretch)
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
         for line in stretch.lines:
             draw_line(axes, line.node_arcs, result.normal_force[line.nodes], line.style)
@@ -150,9 +150,10 @@ def force(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     zero_line(axes)
 
 
-def embedment(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def embedment(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the embedment of the elements, downwards; parts that hang high do not hide the embedment of the others."""
-    _extents(axes, data, data.depth, stretch)
+    data = stretch.data
+    _extents(axes, data.depth, stretch)
     _of_elements(axes, data.drawn.result.depth, stretch)
     axes.axhline(0.0, color=SEABED, linewidth=1.2, zorder=1)
     deepest = float(np.nan_to_num(data.depth.most).max(initial=0.0))
@@ -164,15 +165,15 @@ def embedment(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
 
 
-def stiffness(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def stiffness(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the stiffness of the seabed under the elements."""
-    _of_elements(axes, data.drawn.result.stiffness, stretch)
-    axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
+    _of_elements(axes, stretch.data.drawn.result.stiffness, stretch)
+    axes.set_ylabel(ELEMENTS["stiffness"].axis(stretch.data.given.units))
 
 
-def suction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def suction(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the pull of the seabed per unit length, with the states of suction, at the step of the largest pull."""
-    chosen = data.largest["pull"]
+    data, chosen = stretch.data, stretch.data.largest["pull"]
     pull, states = np.maximum(0.0 - chosen.result.force, 0.0), chosen.result.state
     _of_elements(axes, pull, stretch, mark=False)
     if states is not None:
@@ -187,9 +188,9 @@ def suction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
 
 
-def friction(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def friction(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the axial and the lateral force on the nodes, crossed where they slip, at the step of the largest force."""
-    chosen = data.largest["friction"]
+    data, chosen = stretch.data, stretch.data.largest["friction"]
     forces, slips = chosen.result.friction, False
     if forces is None:
         return
@@ -217,9 +218,9 @@ def _of_elements(axes: Axes, values: Floats, stretch: DrawnStretch, *, mark: boo
     widen(axes, np.concatenate([np.zeros(0), *(values[line.elements] for line in stretch.lines)]))
 
 
-def _extents(axes: Axes, data: PlotData, extents: Extents, stretch: DrawnStretch) -> None:
+def _extents(axes: Axes, extents: Extents, stretch: DrawnStretch) -> None:
     """Shade the range between the least and the largest values of the elements over the steps of a series."""
-    if data.steps == 1:
+    if stretch.data.steps == 1:
         return
     for line in stretch.lines:
         kept = thinned(extents.most[line.elements])
@@ -250,17 +251,18 @@ _LABELLED_POINTS = 3
 """Number of touchdown points up to which their arc length is written next to them."""
 
 
-def line(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def line(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
-    heights, seabed, touching = data.drawn.heights, data.drawn.seabed, False
+    data, touching = stretch.data, False
+    heights, seabed = data.drawn.heights, data.drawn.seabed
     for drawn_line in stretch.lines:
         drawn = thinned(data.drawn.result.gap[drawn_line.nodes])
         arcs, nodes = drawn_line.node_arcs[drawn], drawn_line.nodes[drawn]
         axes.plot(arcs, seabed[nodes], color=SEABED, linewidth=1.2, zorder=1)
         axes.plot(arcs, heights[nodes], linewidth=1.1, zorder=3, **drawn_line.style.line)
         touching |= _thick(axes, data, drawn_line)
-    _crop(axes, data, stretch)
-    _touchdown_points(axes, data, stretch)
+    _crop(axes, stretch)
+    _touchdown_points(axes, stretch)
     if len(stretch.lines) == 1:
         _soil(axes, data.drawn, stretch.lines[0])
     axes.set_ylabel(NODES["x"].axis(data.given.units))
@@ -276,8 +278,9 @@ def line(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     legend(axes, [*handles, *axes.get_legend_handles_labels()[0]])
 
 
-def _crop(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def _crop(axes: Axes, stretch: DrawnStretch) -> None:
     """Crop parts that hang so high that nothing of the contact with the seabed would be seen."""
+    data = stretch.data
     sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
     most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
     nodes = np.concatenate([line.nodes for line in stretch.lines])
@@ -301,13 +304,13 @@ def _thick(axes: Axes, data: PlotData, drawn_line: DrawnLine) -> bool:
     return bool(here.size)
 
 
-def _touchdown_points(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def _touchdown_points(axes: Axes, stretch: DrawnStretch) -> None:
     """Mark the touchdown points of the lines."""
     low, high = stretch.limits
-    at_step = data.touchdown_points([line.number for line in stretch.lines])
+    at_step = stretch.data.touchdown_points([line.number for line in stretch.lines])
     points = sorted((point for point in at_step if low <= point.arc_length <= high), key=lambda point: point.arc_length)
     mark_touchdown(axes, [point.arc_length for point in points], [point.x for point in points])
-    unit = unit_names(data.given.units).length
+    unit = unit_names(stretch.data.given.units).length
     for number, point in enumerate(points if len(points) <= _LABELLED_POINTS else ()):
         right, above = point.arc_length < 0.5 * (low + high), number % 2 == 0
         axes.annotate(

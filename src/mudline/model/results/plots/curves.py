@@ -14,6 +14,7 @@ from mudline.basics.quantities import ELEMENTS, STATES, labelled, unit_names
 from mudline.language.keywords.format import unit_text
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.results.plot_data import Cycle, PlotData
+from mudline.model.results.plots.along_line import DrawnStretch
 from mudline.model.results.plots.style import (
     COLORS,
     MOST_MARKED,
@@ -134,9 +135,9 @@ _PALEST = 0.65
 """Share of white in the colour of a point at the first step; 0 at the last step."""
 
 
-def on_curves(axes: Axes, data: PlotData) -> None:
+def on_curves(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the curves with the evaluated points on them, which darken in the order of the steps."""
-    every = data.points()
+    data, every = stretch.data, stretch.data.points()
     used = np.unique(every.curve)
     for place, index in enumerate(used.tolist()):
         style, curve = style_of(place), data.given.curves[index]
@@ -193,8 +194,9 @@ _ARROWS = 12
 _GOING = (("moving down", Style(COLORS[0], "-", "")), ("moving up", Style(COLORS[1], "--", "")))
 
 
-def loop(axes: Axes, data: PlotData, place: int) -> None:
+def loop(axes: Axes, stretch: DrawnStretch, place: int) -> None:
     """Draw the path of one of the chosen elements."""
+    data = stretch.data
     draw_path(axes, data.loop(place))
     names = unit_names(data.given.units)
     number = int(data.given.element_ids[data.looped[place]])

@@ -48,7 +48,14 @@ class Panel(NamedTuple):
 
     name: str
     axis: Literal["arc length", "time", "own"]
-    draw: Callable[[Axes], None]
+    draw: Callable[[Axes, DrawnStretch], None]
+
+    def draw_into(self, axes: Axes, stretch: DrawnStretch) -> None:
+        """Draw the panel with its horizontal axis."""
+        self.draw(axes, stretch)
+        if self.axis == "arc length":
+            stretch.show(axes)
+        finish(axes)
 
 
 def panels_of(data: PlotData) -> list[Panel]:
@@ -58,23 +65,20 @@ def panels_of(data: PlotData) -> list[Panel]:
     """
     # the force of a rigid seabed is not known: no panel shows it as 0
     touched = bool((data.touched & (data.given.law != LawKind.RIGID)).any())
-    stretch, lined = DrawnStretch(data), data.elements.size > 0
+    lined = data.elements.size > 0
     touches_down = any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
 
-    def along(name: str, draw: Callable[[Axes, PlotData, DrawnStretch], None]) -> Panel:
-        return Panel(name, "arc length", lambda axes: draw(axes, data, stretch))
-
-    loops = [Panel("loop", "own", partial(loop, data=data, place=place)) for place in range(len(data.looped))]
+    loops = [Panel("loop", "own", partial(loop, place=place)) for place in range(len(data.looped))]
     others = (
-        (lined, along("line", along_line.line)),
-        (touched, along("force", along_line.force)),
-        (touches_down, Panel("touchdown", "time", partial(touchdown, data=data, stretch=stretch))),
-        (data.steps > 1 and data.known, Panel("reaction", "time", partial(reaction, data=data))),
-        (lined and "pull" in data.largest, along("suction", along_line.suction)),
-        (lined and "friction" in data.largest, along("friction", along_line.friction)),
-        (touched and data.on_curve.size, Panel("curves", "own", partial(on_curves, data=data))),
-        (lined, along("embedment", along_line.embedment)),
-        (touched and data.steps == 1, along("stiffness", along_line.stiffness)),
+        (lined, Panel("line", "arc length", along_line.line)),
+        (touched, Panel("force", "arc length", along_line.force)),
+        (touches_down, Panel("touchdown", "time", touchdown)),
+        (data.steps > 1 and data.known, Panel("reaction", "time", reaction)),
+        (lined and "pull" in data.largest, Panel("suction", "arc length", along_line.suction)),
+        (lined and "friction" in data.largest, Panel("friction", "arc length", along_line.friction)),
+        (touched and data.on_curve.size, Panel("curves", "own", on_curves)),
+        (lined, Panel("embedment", "arc length", along_line.embedment)),
+        (touched and data.steps == 1, Panel("stiffness", "arc length", along_line.stiffness)),
     )
     panels = [*loops, *(panel for needed, panel in others if needed)][:MOST_PANELS]
     return sorted(panels, key=lambda panel: ("arc length", "own", "time").index(panel.axis))
@@ -96,10 +100,7 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
         column, row = divmod(place - wide, rows - wide)
         at = grid[0, :] if place < wide else grid[row + wide, column]
         axes = figure.add_subplot(at)
-        panel.draw(axes)
-        if panel.axis == "arc length":
-            stretch.show(axes)
-        finish(axes)
+        panel.draw_into(axes, stretch)
         drawn[max(column, 0)].append(axes)
         before = panels[place - 1] if row > 0 and place > wide else None
         if before is not None and before.axis == panel.axis != "own":  # the panel above shares the labels
@@ -133,10 +134,7 @@ def plot_panel(result: ContactResult, axes: Axes, name: str, *, elements: Sequen
     data = PlotData.of_result(result, elements)
     panels = {panel.name: panel for panel in panels_of(data)}
     expect_word(name, "panel", tuple(panels), f"one of {', '.join(panels)}")
-    panels[name].draw(axes)
-    if panels[name].axis == "arc length":
-        DrawnStretch(data).show(axes)
-    finish(axes)
+    panels[name].draw_into(axes, DrawnStretch(data))
     return axes
 
 
@@ -155,9 +153,9 @@ def plot_result(
 # ----------------------------------------------------------------------------------------------------- panels over time
 
 
-def touchdown(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
+def touchdown(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the arc length of the first and the last touchdown point of each line over time."""
-    several = len(stretch.lines) > 1
+    data, several = stretch.data, len(stretch.lines) > 1
     for line in stretch.lines:
         first, last = data.touchdown[line.number]
         two = not np.array_equal(first.most, last.most, equal_nan=True)
@@ -170,8 +168,9 @@ def touchdown(axes: Axes, data: PlotData, stretch: DrawnStretch) -> None:
     legend(axes)
 
 
-def reaction(axes: Axes, data: PlotData) -> None:
+def reaction(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the total reaction over time."""
+    data = stretch.data
     _band(axes, data, data.reaction, Style(COLORS[0], "-", "o"), None)
     axes.set_ylabel(STEPS["reaction"].axis(data.given.units))
 
