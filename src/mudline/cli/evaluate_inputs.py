@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import wraps
 from pathlib import Path
-from typing import TypeVar, cast
+from typing import Any, TypeVar
 
 import click
 
@@ -83,23 +83,13 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
 
     def added(command: Command) -> Command:
         @wraps(command)
-        def given(
-            *,
-            positions: str | None,
-            columns: tuple[str, ...],
-            time_step: float | None,
-            elements: str | None,
-            tension: str,
-            at_rest: bool,
-            **others: object,
-        ) -> int:
-            headings = read_headings(columns)
-            if headings and positions is None:
+        def given(**options: Any) -> int:  # noqa: ANN401 - of click
+            inputs = EvaluateInputs(**{each.name: options.pop(each.name) for each in fields(EvaluateInputs)})
+            if inputs.headings and inputs.positions is None:
                 raise click.UsageError("--columns is for positions from a CSV: give --positions too")
-            if at_rest and positions is not None:
+            if inputs.rest_shape and inputs.positions is not None:
                 raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
-            inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings, at_rest)
-            return command(inputs=inputs, **others)
+            return command(inputs=inputs, **options)
 
         for add in reversed(_INPUTS):
             given = add(given)
@@ -111,7 +101,9 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
 _INPUTS = (
     input_option(
         "--columns",
+        "headings",
         multiple=True,
+        callback=lambda _context, _option, given: read_headings(given),
         metavar="NAME=HEADING,...",
         help='Headings of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
     ),
@@ -126,7 +118,6 @@ _INPUTS = (
     ),
     input_option(
         "--rest-shape",
-        "at_rest",
         is_flag=True,
         help="Evaluate the resting shape: lines hang and lie under weight and contents alone, without a load case.",
     ),

@@ -20,7 +20,7 @@ from mudline.model.contact import ContactResult, Plan
 from mudline.model.contact.columns import ResultColumn, ResultTable
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
-from mudline.model.results.against import Extreme, ResultComparison
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.series import SeriesSummary
 from mudline.model.results.summary_tables import law_table, weight_note
@@ -390,13 +390,12 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
 def print_comparison(comparison: ResultComparison, view: View) -> None:
     """Print for each column the number of compared values, and the largest differences with their places."""
 
-    def columns_of(heading: str, name: str) -> Iterator[DisplayColumn]:
-        def of(key: str, row: Any) -> Any:  # noqa: ANN401 - a difference, and a cell
-            extreme: Extreme = getattr(row, name)
-            value = getattr(extreme, key)
-            return "" if extreme.element is None else shown(value, 4) if key == "value" else value
+    def columns_of(name: str) -> Iterator[DisplayColumn]:
+        def of(key: str, row: dict[str, Any]) -> Cell:
+            value: Cell = (row[f"largest_{name}"] or {}).get(key)
+            return shown(value, 4) if key == name and isinstance(value, float) else value
 
-        yield number(heading, partial(of, "value"))
+        yield number(f"largest\n{name}", partial(of, name))
         yield number("at\nelement", partial(of, "element"))
         if comparison.timed:
             yield number("at\ntime", partial(of, "time"))
@@ -404,9 +403,9 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
     columns = [
         text("column", "column"),
         number("compared", "compared"),
-        *columns_of("largest\ndifference", "absolute"),
-        *columns_of("largest\nrelative", "relative"),
-        number("rms\ndifference", lambda row: shown(row.rms, 4)),
+        *columns_of("difference"),
+        *columns_of("relative"),
+        number("rms\ndifference", lambda row: shown(row["rms"], 4)),
     ]
     title = f"Compared with {comparison.reference.file}"
-    view.printer().table(DisplayTable(title, columns, comparison.differences))
+    view.printer().table(DisplayTable(title, columns, comparison.summary()["columns"]))

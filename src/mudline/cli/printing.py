@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import zip_longest
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from rich.cells import cell_len
 from rich.console import Console
@@ -15,6 +15,9 @@ from rich.text import Text
 from mudline.basics.display import Cell, DisplayTable
 from mudline.basics.quantities import shown
 from mudline.checks.output import visible
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 WIDTH = 100
 """Columns of a table without a terminal."""
@@ -162,37 +165,26 @@ def _fitted(widths: list[int], foldable: list[bool], available: int, gap: int) -
     return fitted
 
 
-class Bar:
-    """Progress bar on one line of standard error, drawn without a thread and erased at the end."""
+def bar(total: int, color: str) -> Progress:
+    """Return a progress bar of `total` steps on one line of standard error, drawn without a thread."""
+    from rich.progress import (  # noqa: PLC0415 - large, and a bar is rare
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TimeRemainingColumn,
+    )
 
-    def __init__(self, total: int, color: str) -> None:
-        from rich.progress import (  # noqa: PLC0415 - large, and a bar is rare
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TimeRemainingColumn,
-        )
-
-        plain = color == "never" or bool(os.environ.get("NO_COLOR"))
-        self._progress = Progress(
-            BarColumn(bar_width=None),
-            MofNCompleteColumn(),
-            TimeRemainingColumn(compact=True),
-            console=Console(file=sys.stderr, force_interactive=True, no_color=plain),
-            auto_refresh=False,
-            transient=True,
-            expand=True,
-            redirect_stdout=False,
-            redirect_stderr=False,
-        )
-        self._task = self._progress.add_task("", total=total)
-
-    def draw(self, done: int) -> None:
-        """Draw the bar with `done` steps."""
-        self._progress.update(self._task, completed=done)
-        self._progress.start()
-        self._progress.refresh()
-
-    def erase(self) -> None:
-        """Erase the bar; its line remains empty."""
-        self._progress.stop()
+    plain = color == "never" or bool(os.environ.get("NO_COLOR"))
+    progress = Progress(
+        BarColumn(bar_width=None),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(compact=True),
+        console=Console(file=sys.stderr, force_interactive=True, no_color=plain),
+        auto_refresh=False,
+        transient=True,
+        expand=True,
+        redirect_stdout=False,
+        redirect_stderr=False,
+    )
+    progress.add_task("", total=total)
+    return progress

@@ -13,7 +13,9 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.cli.streams import notify
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Bar, Line, Printer
+    import rich.progress
+
+    from mudline.cli.printing import Line, Printer
 
 DELAY = 0.5
 """Seconds before a bar is drawn."""
@@ -59,12 +61,6 @@ class View(NamedTuple):
         if not self.quiet:
             notify(message)
 
-    def bar(self, total: int) -> Bar:
-        """Return a bar of `total` steps."""
-        from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
-
-        return Bar(total, self.color)
-
 
 # ------------------------------------------------------------------------------------------- progress of a long run
 
@@ -79,7 +75,7 @@ class Progress(AbstractContextManager["Progress"]):
         self.view = view
         self._total = total
         self._done = 0
-        self._bar: Bar | None = None
+        self._bar: rich.progress.Progress | None = None
         dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
         may_draw = sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
         self._due = monotonic() + DELAY if shown and total > 1 and may_draw else float("inf")
@@ -91,14 +87,19 @@ class Progress(AbstractContextManager["Progress"]):
         """Count one more step, or several."""
         self._done += steps
         if monotonic() >= self._due:
-            self._bar = self._bar or self.view.bar(self._total)
-            self._bar.draw(self._done)
+            if self._bar is None:
+                from mudline.cli.printing import bar  # noqa: PLC0415 - large, and a bar is rare
+
+                self._bar = bar(self._total, self.view.color)
+            self._bar.update(self._bar.task_ids[0], completed=self._done)
+            self._bar.start()
+            self._bar.refresh()
             self._due = monotonic() + _PAUSE
 
     def hide(self) -> None:
         """Erase the bar so that other lines can be printed; a later step draws it again."""
         if self._bar:
-            self._bar.erase()
+            self._bar.stop()
 
 
 def tracked(items: Sequence[T], view: View) -> Iterator[T]:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mudline.model.contact.columns import ResultColumn, kept
 from mudline.model.contact.result import ResultPart
@@ -103,43 +102,25 @@ def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Ind
 
 
 @dataclass(slots=True)
-class Extreme:
-    """A largest difference: its value and its place."""
-
-    value: float = 0.0
-    element: int | None = None
-    time: float | None = None
-
-    def row(self, name: str) -> dict[str, Any] | None:
-        """Return the difference as JSON; None if nothing was compared."""
-        if self.element is None:
-            return None
-        return {name: self.value, "element": self.element, "time": self.time}
-
-
-@dataclass(slots=True)
 class ColumnDifference:
-    """Differences in a column: our value less the other, and this over the larger magnitude of the two."""
+    """Differences in a column: our value less the other, and this over the larger magnitude of the two.
+
+    `largest` has the value and the place of the largest "difference" and "relative"; nothing if nothing was compared.
+    """
 
     column: str
     compared: int = 0
-    absolute: Extreme = field(default_factory=Extreme)
-    relative: Extreme = field(default_factory=Extreme)
+    largest: dict[str, dict[str, Any]] = field(default_factory=dict)
     squares: float = 0.0
 
-    @property
-    def rms(self) -> float | None:
-        """Root of the mean square of the differences."""
-        return float(np.sqrt(self.squares / self.compared)) if self.compared else None
-
     def row(self) -> dict[str, Any]:
-        """Return the differences as JSON."""
+        """Return the differences as JSON, with the root of their mean square."""
         return {
             "column": self.column,
             "compared": self.compared,
-            "largest_difference": self.absolute.row("difference"),
-            "largest_relative": self.relative.row("relative"),
-            "rms": self.rms,
+            "largest_difference": self.largest.get("difference"),
+            "largest_relative": self.largest.get("relative"),
+            "rms": float(np.sqrt(self.squares / self.compared)) if self.compared else None,
         }
 
 
@@ -194,17 +175,13 @@ class ResultComparison:
             relative = np.where(size > 0.0, difference / size, 0.0)
             column.squares = float(np.nan_to_num(column.squares + (difference * difference).sum()))
         column.compared += int(both.size)
-        self._raise(column.absolute, difference, step[both], element[both])
-        self._raise(column.relative, relative, step[both], element[both])
-
-    def _raise(self, extreme: Extreme, values: NDArray[np.float64], step: Indices, element: Indices) -> None:
-        """Keep the largest magnitude, the first of several equal ones."""
-        largest = int(np.argmax(np.abs(values)))
-        if extreme.element is None or abs(values[largest]) > abs(extreme.value):
-            times = self._evaluation.time
-            extreme.value = float(values[largest]) + 0.0
-            extreme.element = int(self._evaluation.scene.element_ids[element[largest]])
-            extreme.time = None if times is None else float(times[step[largest]])
+        for name, values in (("difference", difference), ("relative", relative)):
+            largest = int(np.argmax(np.abs(values)))  # the first of several equal ones
+            if name not in column.largest or abs(values[largest]) > abs(column.largest[name][name]):
+                times, at = self._evaluation.time, both[largest]
+                number = int(self._evaluation.scene.element_ids[element[at]])
+                time = None if times is None else float(times[step[at]])
+                column.largest[name] = {name: float(values[largest]) + 0.0, "element": number, "time": time}
 
     def summary(self) -> dict[str, Any]:
         """Return files, differences, and the elements and times missing on either side."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ from mudline.basics.display import Cell, DisplayColumn, DisplayTable, text
 from mudline.model.contact.columns import ResultColumn
 from mudline.model.results.forms import ResultTables
 from mudline.model.results.summary_tables import weight_note
-from mudline.model.scene.sheet import AROUND, PIPE, RUN, WEIGHTS, Sheet, SheetColumn
+from mudline.model.scene.sheet import RUN, Sheet, SheetColumn
 
 SHEET_FORMAT = "mudline-sheet/1"
 
@@ -23,25 +22,17 @@ _WORDS = {"section", "law"}
 
 def sheet_tables(sheet: Sheet, units: str) -> list[DisplayTable]:
     """Return the sheet for people: pipe, weights, surroundings, and other load cases if any."""
-    of_key = {column.key: column for column in sheet.columns}
-    parts = {
-        title: [of_key.pop(column.key) for column in columns]
-        for title, columns in (
-            ("", RUN),
-            ("pipe", PIPE),
-            ("mass and submerged weight", WEIGHTS),
-            ("stiffness, water and seabed", AROUND),
+    elements = text("elements", _elements)
+    return [
+        DisplayTable(
+            f"Sheet: {subject}",
+            [elements, *(_sheet_column(column, units) for column in columns)],
+            sheet.rows,
+            weight_note(sheet.left_out) if columns[0].key == "mass" else "",
         )
-    }
-    del parts[""]
-    parts["other load cases"] = list(of_key.values())
-    tables = []
-    for title, part in parts.items():
-        columns = [text("elements", _elements), *(_sheet_column(column, units) for column in part)]
-        tables += [DisplayTable(f"Sheet: {title}", columns, sheet.rows)] if part and sheet.rows else []
-    if tables:
-        tables[1] = replace(tables[1], note=weight_note(sheet.left_out))
-    return tables
+        for subject, columns in sheet.subjects.items()
+        if subject and columns and sheet.rows
+    ]
 
 
 def _elements(row: dict[str, Any]) -> str:

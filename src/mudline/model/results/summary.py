@@ -186,16 +186,6 @@ _TABLE_ROWS = 100
 """Largest number of rows of a table."""
 
 
-class _EmbeddedElements(NamedTuple):
-    """Elements that share a law, a weight per length and a diameter; the index of the first of them."""
-
-    set_name: str | None
-    law: str
-    weight: float
-    element: int
-    filled: bool
-
-
 def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     """Return a row for each set, law, weight per length and diameter of elements with known weight, up to 100 rows.
 
@@ -219,9 +209,9 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     rows = []
     for filled, weight in enumerate(weights):
         known = np.flatnonzero((weight > 0.0) & own & ((weight != weights[0]) | (not filled)))
-        rows += [
-            _of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known, filled=bool(filled))
-        ]
+        for at in _unlike(scene, weight, zones, known):
+            row = _row(scene, at, weight, scene.law_names[at], filled=bool(filled))
+            rows.append(row | _of_element(scene, arrays, zones, at, float(weight[at])))
         rows += _of_nodes(scene, weight, filled=bool(filled))
     return rows[:_TABLE_ROWS]
 
@@ -242,7 +232,8 @@ class _Zones(NamedTuple):
         return cls(half_width, one_sided)
 
 
-def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, filled: bool) -> list[_EmbeddedElements]:
+def _unlike(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[int]:
+    """Return the first of the elements that share a law, a weight per length and a diameter."""
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
@@ -250,28 +241,27 @@ def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices, *, fi
     keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
     begins = np.flatnonzero(np.append(True, (keys[1:] != keys[:-1]).any(axis=1)))
     firsts = np.sort(np.unique(keys[begins], axis=0, return_index=True)[1])[:_TABLE_ROWS]
-    shown = elements[begins[firsts]].tolist()
-    return [_EmbeddedElements(scene.law_sets[at], scene.law_names[at], float(weight[at]), at, filled) for at in shown]
+    shown: list[int] = elements[begins[firsts]].tolist()
+    return shown
 
 
-def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _EmbeddedElements) -> dict[str, Any]:
-    diameter = float(scene.diameter[case.element])
+def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, at: int, weight: float) -> dict[str, Any]:
+    diameter = float(scene.diameter[at])
     with np.errstate(all="ignore"):
-        if scene.law[case.element] == LawKind.LINEAR:
-            stiffness = float(arrays.linear_stiffness[case.element])
-            law = stiffness, zones.half_width[case.element], zones.one_sided[case.element]
-            depth = float(penetration_under(np.float64(case.weight), *law))
+        if scene.law[at] == LawKind.LINEAR:
+            law = float(arrays.linear_stiffness[at]), zones.half_width[at], zones.one_sided[at]
+            depth = float(penetration_under(np.float64(weight), *law))
             slope = float(smoothed_reaction(depth, diameter, *law)[1])
-            return _row(scene, case, float(np.divide(depth, diameter)), depth, slope, None)
-        curve_index = int(arrays.curve_index[case.element])
-        ratios = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
+            return _embedment(float(np.divide(depth, diameter)), depth, slope)
+        curve_index = int(arrays.curve_index[at])
+        ratios = arrays.curves[curve_index].ratios_at_force(weight) if curve_index >= 0 else ()
         ratio = next((each for each in ratios if each >= 0.0), None)
         if ratio is None:
-            return _row(scene, case, np.nan, np.nan, np.nan, None)
+            return _embedment(np.nan, np.nan, np.nan)
         curve = arrays.curves[curve_index]
         slope = float(curve.evaluate(ratio)[1])
         side = CURVE_SIDES[int(curve.extrapolated(ratio))]
-        return _row(scene, case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
+        return _embedment(ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
 
 
 def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, Any]]:
@@ -295,21 +285,19 @@ def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, A
         order = usable[np.argsort(depth[usable], kind="stable")]
         for node in dict.fromkeys([*order[:1].tolist(), *order[-1:].tolist()]):
             at = int(elements[(ends[elements] == node).any(axis=1)][0])
-            case = _EmbeddedElements(scene.law_sets[at], "nodal", float(weight[at]), at, filled)
             ratio = float(np.divide(depth[node], scene.diameter[at]))
-            rows.append(_row(scene, case, ratio, float(depth[node]), float(slope[node]), None))
+            row = _row(scene, at, weight, "nodal", filled=filled)
+            rows.append(row | _embedment(ratio, float(depth[node]), float(slope[node])))
     return rows
 
 
-def _row(
-    scene: Scene, case: _EmbeddedElements, ratio: float, penetration: float, stiffness: float, side: str | None
-) -> dict[str, Any]:
+def _row(scene: Scene, at: int, weight: Floats, law: str, *, filled: bool) -> dict[str, Any]:
+    element, value = int(scene.element_ids[at]), float(weight[at])
+    return {"set": scene.law_sets[at], "element": element, "filled": filled, "weight": value, "law": law}
+
+
+def _embedment(ratio: float, penetration: float, stiffness: float, side: str | None = None) -> dict[str, Any]:
     return {
-        "set": case.set_name,
-        "element": int(scene.element_ids[case.element]),
-        "filled": case.filled,
-        "weight": case.weight,
-        "law": case.law,
         "ratio": finite(ratio),
         "penetration": finite(penetration),
         "stiffness": finite(stiffness),

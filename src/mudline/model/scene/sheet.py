@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -33,11 +33,19 @@ class SheetColumn(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """Columns, a value for each in every row (None if the deck gives none), and parts left out of the weights."""
+    """Columns by subject, a value for each in every row (None if the deck gives none), parts left out of the weights.
 
-    columns: Sequence[SheetColumn]
+    The first subject, "", has the columns of the run.
+    """
+
+    subjects: Mapping[str, Sequence[SheetColumn]]
     rows: Sequence[dict[str, Value]]
     left_out: Sequence[str]
+
+    @property
+    def columns(self) -> list[SheetColumn]:
+        """All columns, in order."""
+        return [column for columns in self.subjects.values() for column in columns]
 
 
 PIPE = (
@@ -112,9 +120,15 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
         column._replace(heading=f"{column.heading},\nload case {case}") if case and column.key in _OF_CASE else column
         for column in WEIGHTS
     ]
-    columns = [*RUN, *PIPE, *weights, *AROUND, *others]
-    ordered = [{column.key: row[column.key] for column in columns} for row in rows]
-    return Sheet(columns, ordered, left_out(scene))
+    subjects = {
+        "": RUN,
+        "pipe": PIPE,
+        "mass and submerged weight": weights,
+        "stiffness, water and seabed": AROUND,
+        "other load cases": others,
+    }
+    ordered = [{column.key: row[column.key] for columns in subjects.values() for column in columns} for row in rows]
+    return Sheet(subjects, ordered, left_out(scene))
 
 
 def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]:

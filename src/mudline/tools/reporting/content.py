@@ -6,7 +6,7 @@ gives the reason.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from hashlib import sha256
@@ -328,16 +328,18 @@ def _model(scene: Scene) -> dict[str, Any]:
 
 def _curves(scene: Scene) -> dict[str, Any]:
     """Return every curve as evaluated, and the laws of each set of elements with their lines in the deck."""
-    laws, keeps_it = [], scene.replacing < 0  # other elements have nodal springs or soil
+    return {"curves": curve_rows(scene, (), None), "laws": list(_laws(scene))}
+
+
+def _laws(scene: Scene) -> Iterator[dict[str, Any]]:
+    keeps_it = scene.replacing < 0  # other elements have nodal springs or soil
     stiffness_unit = unit_names(scene.units).behind("stiffness")
     for index, grant in enumerate(scene.laws.set_laws):
         values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
         words = f"stiffness {shown(grant.stiffness)}{stiffness_unit}" if values else ""
         follow = (scene.laws.of_element == index) & keeps_it
-        laws.append(
-            _law(scene, scene.law_name(grant), grant.set_.name, follow, grant.where)
-            | {"values": values, "words": words}
-        )
+        law = _law(scene, scene.law_name(grant), grant.set_.name, follow, grant.where)
+        yield law | {"values": values, "words": words}
     for index, (resistance, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
         values = {key.replace("_", " "): read for key, value in resistance._asdict().items() if (read := _given(value))}
         entry: Any = scene.deck.sections[where.section].blocks[where.block]
@@ -345,20 +347,15 @@ def _curves(scene: Scene) -> dict[str, Any]:
         if values:
             words = "; ".join(values_in_words(part, scene.units, ("set", "stiffness")))
             name: str | None = getattr(part, "set_name", None)
-            laws.append(
-                _law(scene, "resistance", name, scene.resistance.of_element == index, where)
-                | {"values": values, "words": words}
-            )
+            law = _law(scene, "resistance", name, scene.resistance.of_element == index, where)
+            yield law | {"values": values, "words": words}
     for keyword, extension in scene.extensions.items():
         for index, (record, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
             values = record.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_defaults=True)
             of_set = values.pop("set", None)
             words = "; ".join(values_in_words(record, scene.units, ("set",)))
-            laws.append(
-                _law(scene, f"*{keyword}", of_set, extension.of_element == index, where)
-                | {"values": values, "words": words}
-            )
-    return {"curves": curve_rows(scene, (), None), "laws": laws}
+            law = _law(scene, f"*{keyword}", of_set, extension.of_element == index, where)
+            yield law | {"values": values, "words": words}
 
 
 def _law(scene: Scene, law: str, set_name: str | None, follow: Mask, where: Where) -> dict[str, Any]:
