@@ -26,6 +26,7 @@ class DisplayColumn:
         left: aligned left and wrapped where too wide, as text; numbers are aligned right.
         whole: never wrapped, as a path.
         optional: left out where all its cells are empty.
+        missing: cell of a value that is None.
     """
 
     heading: str
@@ -34,6 +35,7 @@ class DisplayColumn:
     left: bool = False
     whole: bool = False
     optional: bool = False
+    missing: Cell = None
 
     @property
     def head(self) -> str:
@@ -43,10 +45,11 @@ class DisplayColumn:
     def cell(self, row: Any) -> Cell:  # noqa: ANN401 - rows of JSON, or objects
         """Return the cell of a row."""
         if callable(self.value):
-            return self.value(row)
-        by_name = isinstance(self.value, str) and not isinstance(row, Mapping)
-        cell: Cell = getattr(row, str(self.value)) if by_name else row[self.value]
-        return cell
+            cell = self.value(row)
+        else:
+            by_name = isinstance(self.value, str) and not isinstance(row, Mapping)
+            cell = getattr(row, str(self.value)) if by_name else row[self.value]
+        return self.missing if cell is None else cell
 
 
 number = DisplayColumn

@@ -320,7 +320,7 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
         number("length in\ncontact", "contact_length", names.length),
         *_largest("force", "largest_force", names),
         *(_largest("uplift", "largest_uplift", names) if pulled else ()),
-        number("total\nreaction", lambda row: NOT_KNOWN if row.reaction is None else row.reaction, names.force),
+        number("total\nreaction", "reaction", names.force, missing=NOT_KNOWN),
         number("submerged\nweight", "submerged_weight", names.force),
         *([number("weight,\nempty", "empty_weight", names.force)] if filled else []),
         number("ratio", "ratio"),

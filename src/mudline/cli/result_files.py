@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -59,7 +59,7 @@ def result_files(
     if the form has no place for all rows.
     """
     tables = tables_of(evaluation, suffix_of(path))
-    with _opened(path, [*beside(path).values()], contents_of(evaluation, tables), view, synced=synced) as writer:
+    with _opened(path, contents_of(evaluation, tables), view, synced=synced) as writer:
         yield Sink(evaluation, tables, writer, suffix_of(path), comparison)
 
 
@@ -73,18 +73,23 @@ def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
 
     Raises click.ClickException as `result_files` does.
     """
-    _, *others = tables.columns
-    further = {table: table_path(path, table) for table in others} if beside(path) else {}
-    with _opened(path, [*further.values()], tables.contents, View(quiet=True), synced=True) as writer:
+    with _opened(path, tables.contents, View(quiet=True), synced=True) as writer:
         tables.write(writer)
-    return further
+    return _further(path, tables.contents)
+
+
+def _further(path: Path, contents: FileContent) -> dict[str, Path]:
+    _, *others = contents.rows
+    return {table: table_path(path, table) for table in others} if beside(path) else {}
 
 
 @contextmanager
-def _opened(path: Path, others: Sequence[Path], contents: FileContent, view: View, *, synced: bool) -> Iterator[Writer]:
+def _opened(path: Path, contents: FileContent, view: View, *, synced: bool) -> Iterator[Writer]:
     """Open a file and further files next to it, and yield their writer."""
     with ExitStack() as stack:
-        streams = [stack.enter_context(writing(file, synced=synced)) for file in (path, *others)]
+        streams = [
+            stack.enter_context(writing(file, synced=synced)) for file in (path, *_further(path, contents).values())
+        ]
         output = ResultOutput(suffix_of(path), contents, streams, path.parent, partial(tracked, view=view))
         try:
             writer = stack.enter_context(output.opened())

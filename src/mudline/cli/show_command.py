@@ -59,7 +59,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     else:
         if not sheet:
             _print_summary(summary, view)
-        tables = sheet_tables(elements, units)
+        tables = sheet_tables(elements)
         if sheet and not tables:
             notify(f"{summary['file']}: the deck has no elements to list in a sheet")
         for table in tables:

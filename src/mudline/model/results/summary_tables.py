@@ -28,11 +28,7 @@ def set_table(sets: Rows, names: UnitNames) -> DisplayTable:
 
 def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> DisplayTable:
     """Return the table of external diameters; `none` is the text for an unknown diameter."""
-
-    def diameter(row: dict[str, Any]) -> Cell:
-        return none if row["diameter"] is None else row["diameter"]
-
-    columns = (number("diameter", diameter, names.length), number("elements", "elements"))
+    columns = (number("diameter", "diameter", names.length, missing=none), number("elements", "elements"))
     return DisplayTable("External diameters", columns, diameters)
 
 

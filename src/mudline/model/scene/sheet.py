@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.basics.display import DisplayColumn, number, text
 from mudline.basics.quantities import finite
 from mudline.language.keywords.format import unit_text
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_values import number
+from mudline.model.scene.deck_values import number as number_of
 from mudline.model.scene.numbering import Floats, Indices, picked
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.sections import stiffnesses
@@ -20,73 +22,68 @@ from mudline.model.scene.weights import NOT_READ, attached, contents, contents_c
 Value = str | int | float | None
 
 
-class SheetColumn(NamedTuple):
-    """Column: its key, its heading for people, and the dimension of its values as that of a field, "" for none."""
-
-    key: str
-    heading: str
-    dimension: str = ""
-
-    def unit(self, units: str) -> str:
-        """Return the unit in a deck's units; "" for user units, and if there is none."""
-        return unit_text(self.dimension, units) if self.dimension and units != "user" else ""
-
-
 class Sheet(NamedTuple):
     """Columns by subject, a value for each in every row (None if the deck gives none), parts left out of the weights.
 
     The first subject, "", has the columns of the run.
     """
 
-    subjects: Mapping[str, Sequence[SheetColumn]]
+    subjects: Mapping[str, Sequence[DisplayColumn]]
     rows: Sequence[dict[str, Value]]
     left_out: Sequence[str]
 
     @property
-    def columns(self) -> list[SheetColumn]:
-        """All columns, in order."""
-        return [column for columns in self.subjects.values() for column in columns]
+    def columns(self) -> dict[str, DisplayColumn]:
+        """All columns by key, in order."""
+        return {str(column.value): column for columns in self.subjects.values() for column in columns}
 
 
-PIPE = (
-    SheetColumn("section", "section"),
-    SheetColumn("length", "length", "L"),
-    SheetColumn("outer_diameter", "outer\ndiameter", "L"),
-    SheetColumn("inner_diameter", "inner\ndiameter", "L"),
-    SheetColumn("diameter_over_wall", "D/t"),
-    SheetColumn("drag_diameter", "drag\ndiameter", "L"),
-    SheetColumn("buoyancy_diameter", "buoyancy\ndiameter", "L"),
-)
-"""Columns of the sheet about the pipe; diameters of drag and buoyancy only where they differ from the outer one."""
-WEIGHTS = (
-    SheetColumn("mass", "mass,\nempty", "M/L"),
-    SheetColumn("contents", "contents", "M/L3"),
-    SheetColumn("filled_mass", "mass,\nfilled", "M/L"),
-    SheetColumn("masses_at_nodes", "masses\nat nodes", "M"),
-    SheetColumn("empty_weight", "weight,\nempty", "F/L"),
-    SheetColumn("filled_weight", "weight,\nfilled", "F/L"),
-)
-"""Columns about mass and submerged weight; contents are those of the last load case, and are only given with a bore."""
-AROUND = (
-    SheetColumn("bending", "EI", "FL2"),
-    SheetColumn("axial", "EA", "F"),
-    SheetColumn("drag", "Cd"),
-    SheetColumn("added_mass", "Ca"),
-    SheetColumn("law", "seabed law"),
-    SheetColumn("stiffness", "stiffness", "F/L2"),
-    SheetColumn("axial_friction", "friction\nalong"),
-    SheetColumn("lateral_friction", "friction\nacross"),
-)
-"""Columns about stiffness, water and seabed; `stiffness` is that of a linear law."""
-RUN = (
-    SheetColumn("first_element", "first\nelement"),
-    SheetColumn("last_element", "last\nelement"),
-    SheetColumn("elements", "elements"),
-)
-"""Columns of each run: the elements at its ends, and their number."""
+def _columns(units: str, case: int | None) -> dict[str, list[DisplayColumn]]:
+    """Return the columns by subject, without those of other load cases; `case` is the last one if these differ.
+
+    Contents are those of the last load case, and are only given with a bore; `stiffness` is that of a linear law.
+    Diameters of drag and buoyancy are given only where they differ from the outer one.
+    """
+    unit, last = partial(_unit, units=units), f",\nload case {case}" if case else ""
+    none, unknown = ("none", "bold yellow"), ("unknown", "bold yellow")  # gaps of the deck
+    return {
+        "": [
+            number("first\nelement", "first_element"),
+            number("last\nelement", "last_element"),
+            number("elements", "elements"),
+        ],
+        "pipe": [
+            text("section", "section", missing=none),
+            number("length", "length", unit("L")),
+            number("outer\ndiameter", "outer_diameter", unit("L")),
+            number("inner\ndiameter", "inner_diameter", unit("L")),
+            number("D/t", "diameter_over_wall"),
+            number("drag\ndiameter", "drag_diameter", unit("L"), optional=True),
+            number("buoyancy\ndiameter", "buoyancy_diameter", unit("L"), optional=True),
+        ],
+        "mass and submerged weight": [
+            number("mass,\nempty", "mass", unit("M/L"), missing=unknown),
+            number(f"contents{last}", "contents", unit("M/L3")),
+            number(f"mass,\nfilled{last}", "filled_mass", unit("M/L"), missing=unknown),
+            number("masses\nat nodes", "masses_at_nodes", unit("M"), optional=True),
+            number("weight,\nempty", "empty_weight", unit("F/L"), missing=unknown),
+            number(f"weight,\nfilled{last}", "filled_weight", unit("F/L"), missing=unknown),
+        ],
+        "stiffness, water and seabed": [
+            number("EI", "bending", unit("FL2")),
+            number("EA", "axial", unit("F")),
+            number("Cd", "drag", missing=none),
+            number("Ca", "added_mass", missing=none),
+            text("seabed law", "law", missing=none),
+            number("stiffness", "stiffness", unit("F/L2"), optional=True),
+            number("friction\nalong", "axial_friction"),
+            number("friction\nacross", "lateral_friction"),
+        ],
+    }
 
 
-_OF_CASE = {"contents", "filled_mass", "filled_weight"}
+def _unit(dimension: str, units: str) -> str:
+    return "" if units == "user" else unit_text(dimension, units)
 
 
 def sheet_of(scene: ResolvedDeck) -> Sheet:
@@ -115,27 +112,16 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
                 }
                 | {key: finite(float(values[first])) for key, values in numbers.items()}
             )
-    case = contents_case(scene)
-    weights = [
-        column._replace(heading=f"{column.heading},\nload case {case}") if case and column.key in _OF_CASE else column
-        for column in WEIGHTS
-    ]
-    subjects = {
-        "": RUN,
-        "pipe": PIPE,
-        "mass and submerged weight": weights,
-        "stiffness, water and seabed": AROUND,
-        "other load cases": others,
-    }
-    ordered = [{column.key: row[column.key] for columns in subjects.values() for column in columns} for row in rows]
-    return Sheet(subjects, ordered, left_out(scene))
+    subjects = _columns(scene.units, contents_case(scene)) | {"other load cases": others}
+    sheet = Sheet(subjects, rows, left_out(scene))
+    return sheet._replace(rows=[{key: row[key] for key in sheet.columns} for row in rows])
 
 
-def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]:
+def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn]]:
     """Return the values (m,) of all elements by column, and the columns of other load cases."""
     table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
     entries = [section.entry.section for section in table.sections]
-    inner = picked((number(each, "di") or np.nan for each in entries), table.of_element)
+    inner = picked((number_of(each, "di") or np.nan for each in entries), table.of_element)
     own = [stiffnesses(scene.deck, section) for section in table.sections]
     friction = scene.resistance.column("friction")
     if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
@@ -144,7 +130,7 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
     last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
     not_read = (last == 0.0) if set(NOT_READ) & set(left_out(scene)) else np.zeros(len(last), np.bool_)
     outer, drag_diameter, buoyancy = (
-        picked((number(each, name) for each in entries), table.of_element) for name in ("do", "dd", "db")
+        picked((number_of(each, name) for each in entries), table.of_element) for name in ("do", "dd", "db")
     )
     values_by_column = {
         "outer_diameter": scene.diameter,
@@ -169,11 +155,13 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[SheetColumn]]
     for case_contents in filled[:-1]:
         if (case_contents.density != last).any():
             case = f"load case {case_contents.number}"
-            dense = SheetColumn(f"contents_load_case_{case_contents.number}", f"contents,\n{case}", "M/L3")
-            heavy = SheetColumn(f"weight_load_case_{case_contents.number}", f"weight,\n{case}", "F/L")
-            others += [dense, heavy]
-            values_by_column[dense.key] = case_contents.density
-            values_by_column[heavy.key] = scene.submerged_weight + case_contents.mass * scene.surroundings.gravity
+            density, weight = (f"{what}_load_case_{case_contents.number}" for what in ("contents", "weight"))
+            others += [
+                number(f"contents,\n{case}", density, _unit("M/L3", scene.units)),
+                number(f"weight,\n{case}", weight, _unit("F/L", scene.units)),
+            ]
+            values_by_column[density] = case_contents.density
+            values_by_column[weight] = scene.submerged_weight + case_contents.mass * scene.surroundings.gravity
     return values_by_column, others
 
 

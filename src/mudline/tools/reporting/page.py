@@ -17,7 +17,7 @@ from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
-from mudline.tools.reporting.content import SECTIONS, Look, LookError, PageContent
+from mudline.tools.reporting.content import Look, LookError, PageContent
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
@@ -33,8 +33,8 @@ from mudline.tools.reporting.tables import (
 from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
-MOST_BEFORE_APPENDIX = {"rows": 8, "inputs": 16, "findings": 6, "inferred": 20}
-"""Rows before the appendix, which has all: of a table, of the inputs, of findings and of deductions."""
+_FEW_FINDINGS, _FEW_INFERRED = 6, 20
+"""Findings and deductions before the appendix, which has all."""
 _LONGEST_LINE = 160
 """Characters of a line of the deck that a page shows."""
 _AROUND = 1
@@ -51,16 +51,14 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
         for each in (TABLES, DETAILS)
     )
     if inputs := sections.get("inputs"):
-        tables["inputs"] = list(input_tables(inputs, report.sheet, content["deck"], content["units"]))
+        tables["inputs"] = list(input_tables(inputs, report.sheet, content["deck"]))
     figures = content.get("figures")
     findings = _groups(report, "reported", lambda severity: severity != "info")
     hidden = _groups(report, "hidden")
-    for name in [name for name in SECTIONS if name in tables]:
-        kinds = ["inputs" if name == "inputs" and table == tables[name][0] else "rows" for table in tables[name]]
-        limited = [(table, MOST_BEFORE_APPENDIX[kind]) for table, kind in zip(tables[name], kinds, strict=True)]
-        if long := [table for table, most in limited if len(table.rows) > most]:
+    for name, each in tables.items():
+        if long := [table for table in each if len(table.rows) > table.most]:
             details[name] = [*long, *details.get(name, ())]
-        tables[name] = [each.first(most, f"more-{name}") if len(each.rows) > most else each for each, most in limited]
+        tables[name] = [table.first(f"more-{name}") for table in each]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(
@@ -77,7 +75,7 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
         infos=_groups(report, "reported", lambda severity: severity == "info"),
         hidden=hidden,
         by_rule={"findings": _by_rule(report, findings), "hidden": _by_rule(report, hidden)},
-        most_inferred=MOST_BEFORE_APPENDIX["inferred"],
+        most_inferred=_FEW_INFERRED,
         rules=report.named,
         pictures=[picture._replace(markup=Markup(picture.markup)) for picture in pictures],  # noqa: S704 - made from our figures
         pictures_left=left_out,
@@ -195,7 +193,7 @@ def _groups(
 def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> PageTable | None:
     """Return many findings as a table of the rules behind them, errors first; None for few findings."""
     findings = [shown.found for _, group in groups for shown in group]
-    if len(findings) <= MOST_BEFORE_APPENDIX["findings"]:
+    if len(findings) <= _FEW_FINDINGS:
         return None
     codes = sorted({(SEVERITIES.index(finding["severity"]), finding["code"]) for finding in findings})
     lines = [(at, code, [finding["line"] for finding in findings if finding["code"] == code]) for at, code in codes]
@@ -206,7 +204,7 @@ def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]])
         number("findings", lambda row: len(row[2])),
         text("lines", lambda row: ", ".join(map(str, row[2][:_FEW])) + (" ..." if len(row[2]) > _FEW else "")),
     )
-    return on_page(DisplayTable("By rule", columns, lines), 2 * MOST_BEFORE_APPENDIX["rows"], longest=LONGEST)
+    return on_page(DisplayTable("By rule", columns, lines), 16, longest=LONGEST)
 
 
 _FEW = 4

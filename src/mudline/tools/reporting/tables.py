@@ -45,6 +45,7 @@ class PageTable(NamedTuple):
         numeric: places of columns that are aligned right.
         more: sentence on rows that are not on the page.
         whole: anchor of the section with the whole table.
+        most: rows before the appendix, which has all.
     """
 
     caption: str
@@ -56,10 +57,13 @@ class PageTable(NamedTuple):
     numeric: Collection[int] = ()
     more: str = ""
     whole: str = ""
+    most: int = 8
 
-    def first(self, most: int, whole: str) -> PageTable:
-        """Return the first rows, without their anchors; `whole` is the anchor of the section with the whole table."""
-        return self._replace(rows=self.rows[:most], anchors=(), more="", whole=whole)
+    def first(self, whole: str) -> PageTable:
+        """Return the rows before the appendix, of a longer table without anchors; `whole` is that of the whole table."""
+        if len(self.rows) <= self.most:
+            return self
+        return self._replace(rows=self.rows[: self.most], anchors=(), more="", whole=whole)
 
 
 def on_page(
@@ -96,7 +100,7 @@ def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
         number("touchdown at arc length", lambda _: words, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest penetration", "depth", names.length),
-        number("total reaction", lambda _: _known(content["reaction"]), names.force),
+        number("total reaction", "reaction", names.force, missing=NOT_KNOWN),
         number("reaction over submerged weight", "ratio"),
     )
     return on_page(DisplayTable("Contact in five numbers", columns, [content], "; ".join(notes)))
@@ -111,7 +115,7 @@ def four_digits(value: float | None) -> str:
 _PLAIN = 1e7
 
 
-def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units: str) -> Iterator[PageTable]:
+def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator[PageTable]:
     """Yield the inputs of a deck and of the decks that it continues, and the sheet of the elements."""
     columns = (
         text("section", "section"),
@@ -120,8 +124,8 @@ def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str, units:
         text("line", lambda row: str(row["line"]) if row["file"] == deck else f"{row['line']} of {row['file']}"),
     )
     table = DisplayTable("Water, conditions, loads, vessels and times", columns, content["inputs"])
-    yield on_page(table, MOST_CURVES, longest=LONGEST)
-    for table in () if sheet is None else sheet_tables(sheet, units):
+    yield on_page(table, MOST_CURVES, longest=LONGEST)._replace(most=16)
+    for table in () if sheet is None else sheet_tables(sheet):
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
@@ -187,7 +191,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     weight = f"submerged weight of the elements in contact, with contents{masses}"
     figures = [
-        (labelled("total reaction", names.force), _known(content["reaction"])),
+        (labelled("total reaction", names.force), NOT_KNOWN if content["reaction"] is None else content["reaction"]),
         (labelled(weight, names.force), content["weight"]),
         (labelled("the same, empty", names.force), content["empty_weight"]),
         ("reaction over weight with contents", content["ratio"]),
@@ -205,7 +209,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
         number("touchdown at arc length", _touchdown_of_line, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest force", lambda row: (row["largest_force"] or {}).get("force"), names.line_force),
-        number("reaction", lambda row: _known(row["reaction"]), names.force),
+        number("reaction", "reaction", names.force, missing=NOT_KNOWN),
         number("weight", "submerged_weight", names.force),
         number("weight, empty", "empty_weight", names.force),
         number("ratio", "ratio"),
@@ -219,10 +223,6 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
 def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
     yield on_page(DisplayTable("States", columns, content["states"]))
-
-
-def _known(reaction: float | None) -> float | str:
-    return NOT_KNOWN if reaction is None else reaction
 
 
 def _touchdown_of_line(line: dict[str, Any]) -> str:
