@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -23,8 +23,9 @@ from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.results.cases import CaseSummary, case_summary
 from mudline.model.results.forms import FORMS
-from mudline.model.results.series import SeriesSummary, series_summary, series_tables
+from mudline.model.results.series import SERIES, SeriesSummary, series_tables
 from mudline.model.results.warnings import ContactWarning, ContactWatch
+from mudline.tools.running.remembered import state
 
 SUMMARY = "summary"
 """Name, without suffix, of the file with the rows of all decks."""
@@ -156,14 +157,14 @@ class Done(NamedTuple):
     Attributes:
         row: the row of the summary.
         warnings: codes and texts of its warnings.
+        written: states of its result files, by paths relative to the output folder.
         read: files that the deck names.
-        written: result files, relative to the output folder.
     """
 
     row: CaseSummary
     warnings: Sequence[tuple[str, str]] = ()
+    written: Mapping[str, str] = {}
     read: Sequence[str] = ()
-    written: Sequence[str] = ()
 
 
 def evaluate_case(order: Order) -> Done:
@@ -184,7 +185,7 @@ def evaluate_case(order: Order) -> Done:
         except OSError as error:
             why = reason(error)
         else:
-            return Done(row, [(each.diagnostic.code, str(each)) for each in warnings], list(looked_at), written)
+            return Done(row, [(each.diagnostic.code, str(each)) for each in warnings], written, list(looked_at))
     for path in results_of(order.case, order.output):
         with suppress(OSError):
             path.unlink()
@@ -202,18 +203,18 @@ def results_of(case: BatchCase, output: Path) -> list[Path]:
     return [path, *beside(path).values()]
 
 
-def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[str]]:
-    """Return row, warnings and result files of a deck; raises DeckError, click.ClickException, OSError."""
+def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], dict[str, str]]:
+    """Return row, warnings, states of the result files; raises DeckError, click.ClickException, OSError."""
     file = order.case.file
     deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     evaluation = order.inputs.evaluation(deck)
     path = order.output / order.case.result
     path.parent.mkdir(parents=True, exist_ok=True)
-    watch = ContactWatch.of(evaluation)
+    watch = ContactWatch(evaluation)
     if order.summary_only:
         if evaluation.time is None:
             raise click.ClickException(f"--summary-only is for time steps: {order.inputs.positions} is one state")
-        series = series_summary(evaluation, "case")
+        series = SeriesSummary(evaluation, *SERIES, "case")
         evaluation.run([series, watch])
         written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]
     else:
@@ -223,8 +224,8 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[st
             sink.finish(watch.warnings())
         written = [path, *beside(path).values()]
     warnings = watch.warnings()
-    names = [result.relative_to(order.output).as_posix() for result in written]
-    return case_summary(series, file.name, warnings, order.case.result), warnings, names
+    states = {result.relative_to(order.output).as_posix(): state(str(result)) for result in written}
+    return case_summary(series, file.name, warnings, order.case.result), warnings, states
 
 
 def _reason(diagnostics: Sequence[Diagnostic], name: str) -> str:

@@ -45,6 +45,7 @@ from mudline.tools.running.remembered import Memory, state
 _FORMS = ("csv", "json", "npz", "parquet")
 _MEMORY = ".mudline-batch"
 """File in the result folder that records the inputs of each result."""
+_REMEMBERED = TypeAdapter(Done)
 
 
 @options.command("batch")
@@ -190,8 +191,7 @@ def _evaluated(
             if result is not None:
                 done[task.file] = result
                 if not result.row.failed:
-                    written = {name: state(str(first.output / name)) for name in result.written}
-                    held = {"row": result.row.row(), "warnings": result.warnings, "written": written}
+                    held = _REMEMBERED.dump_python(result._replace(read=()), mode="json")
                     memory.put(task.key, held, [*result.read, *task.files])
             elif task.known is not None:
                 done[task.file] = task.known
@@ -218,19 +218,11 @@ def _saved(memory: Memory, cases: Sequence[BatchCase], folder: Path) -> Iterator
 def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
     """Return the result of an earlier run, if its result files are still unchanged."""
     try:
-        row, warnings, written = TypeAdapter(_RememberedCase).validate_python(memory.get(key))
+        done = _REMEMBERED.validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
-    unchanged = all(state(str(output / name)) == mark for name, mark in written.items())
-    return Done(row, warnings) if unchanged and row.deck == file.name and not row.failed else None
-
-
-class _RememberedCase(NamedTuple):
-    """Remembered data of a deck."""
-
-    row: CaseSummary
-    warnings: list[tuple[str, str]]
-    written: dict[str, str]
+    unchanged = all(state(str(output / name)) == mark for name, mark in done.written.items())
+    return done if unchanged and done.row.deck == file.name and not done.row.failed else None
 
 
 # ------------------------------------------------------------------------------------------------------------ output

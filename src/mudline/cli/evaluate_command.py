@@ -28,7 +28,7 @@ from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsume
 from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
 from mudline.model.results.forms.text import text_writer, write_text
 from mudline.model.results.plot_data import PlotData
-from mudline.model.results.series import SeriesSummary, series_summary, series_tables
+from mudline.model.results.series import SERIES, SeriesSummary, series_tables
 from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
@@ -158,7 +158,7 @@ def _evaluate_one(
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form
     screen = Screen(evaluation, wanted.table, view, every=wanted.every) if shown == "text" else None
-    slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
+    slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch(evaluation)
     with _sink(evaluation, comparison, wanted) as sink:
         consumers = [comparison, drawing, slow, watch, screen, sink]
         _run(evaluation, consumers, view, bar=shown in {"", "text"})
@@ -182,7 +182,7 @@ def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarn
     output, form, table, view, _ = wanted
     if not view.quiet:
         _notify_before(evaluation, None)
-    summary, watch = series_summary(evaluation, "suction"), ContactWatch.of(evaluation)
+    summary, watch = SeriesSummary(evaluation, *SERIES, "suction"), ContactWatch(evaluation)
     _run(evaluation, [summary, watch], view, bar=True)
     warnings = watch.warnings()
     tables = series_tables(summary, warnings)
@@ -207,7 +207,7 @@ def _sink(
     if wanted.form == "text":
         return nullcontext()
     tables = tables_of(evaluation, wanted.form, wanted.table)
-    writer = text_writer(wanted.form, contents_of(evaluation, tables), emit, wanted.table)
+    writer = text_writer(wanted.form, contents_of(evaluation, tables), {wanted.table: emit})
     return nullcontext(Sink(evaluation, tables, writer, wanted.form, comparison))
 
 

@@ -18,7 +18,7 @@ def test_elements_without_positions_are_counted() -> None:
     present = np.arange(11) != 3  # node 3
     places[:, ~present] = np.nan
     evaluation = evaluate_scene(scene, Positions(places, present, None))
-    evaluation.run([watch := ContactWatch.of(evaluation)])
+    evaluation.run([watch := ContactWatch(evaluation)])
     (found,) = watch.warnings()
     assert found.row() == {
         "code": "RUN007",

@@ -8,7 +8,7 @@ import pytest
 from mudline import ContactWarning
 from mudline.model.contact.arrays import Positions
 from mudline.model.contact.result import ResultPart
-from mudline.model.results.evaluation import evaluate_scene
+from mudline.model.results.evaluation import Evaluation, evaluate_scene
 from mudline.model.results.warnings import ContactWatch, contact_warnings, seabed_warnings
 from mudline.model.scene.numbering import Floats
 from tests.helpers.builders.scenes import legal_scene, scene_of
@@ -56,7 +56,7 @@ def watched(text: str, positions: Floats | None = None) -> tuple[list[ContactWar
     if positions is not None:
         given = Positions(positions, np.ones(len(scene.nodes), dtype=bool), np.arange(float(len(positions))))
     evaluation = evaluate_scene(scene, given)
-    watch = ContactWatch.of(evaluation)
+    watch = ContactWatch(evaluation)
     for part in evaluation.parts():
         watch.take(part)
     return watch.warnings(), watch.note()
@@ -383,7 +383,7 @@ def test_curve_that_a_parameter_chooses() -> None:
 def test_pieces_give_what_the_whole_series_gives() -> None:
     scene, places = legal_scene(pipe("")), heights(0.5, 0.2, -0.01, 0.1)
     result = scene.contact().evaluate(places)
-    watch = ContactWatch(scene, result.known, result.present, places, "file")
+    watch = ContactWatch(Evaluation(scene, scene.contact(), places, result.present))
     for start in range(4):
         watch.take(ResultPart(start, result.steps(start, start + 1)))
     assert watch.warnings() == contact_warnings(scene, result, places)

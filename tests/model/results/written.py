@@ -24,7 +24,7 @@ def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterat
     """All that a form of text writes, piece by piece as it comes."""
     written: list[Iterator[str]] = []
     tables = tables_of(evaluation, form, table)
-    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), written.append, table), form)
+    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), {table: written.append}), form)
     for part in evaluation.parts():
         sink.take(part)
         yield from written.pop()

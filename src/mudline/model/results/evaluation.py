@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.short_repr import counted, cut, outline, short_repr
+from mudline.basics.short_repr import counted, cut, outline
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.arrays import Positions, StepReader
@@ -37,15 +37,12 @@ class ResultConsumer(Protocol):
         """Take some steps."""
 
 
-@dataclass(frozen=True)
-class Prepared:
+class Prepared(NamedTuple):
     """A scene that can be evaluated, its evaluator, and the number of lengths taken from the first positions."""
 
     scene: Scene
     model: ContactModel
     lengths_from_positions: int
-
-    __repr__ = short_repr
 
 
 @dataclass(frozen=True)
@@ -77,11 +74,6 @@ class Evaluation:
     def steps(self) -> int:
         """Number of steps; 1 for a single state."""
         return len(self.positions)
-
-    @property
-    def length(self) -> Floats:
-        """Lengths (m,) used; 0 for an element without a spring and without a finite length."""
-        return self.model.input.length
 
     @cached_property
     def elements(self) -> Indices:
@@ -184,7 +176,7 @@ def evaluate_scene(
         from mudline.model.scene.weights import pipe_of  # noqa: PLC0415 - other positions do without it
 
         weighed = replace(ready.model.input, weight=pipe_of(scene).weight)
-        ready = replace(ready, model=ContactModel(weighed))
+        ready = ready._replace(model=ContactModel(weighed))
     used = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
     if ready.model.plan.history:
         _require_clock(ready, used)

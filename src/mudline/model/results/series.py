@@ -246,6 +246,8 @@ class SeriesSummary:
 
 SERIES_FORMAT = "mudline-series/1"
 """Name and version of the format of files with the summary of a series."""
+SERIES = ("elements", "nodes", "summary", "totals")
+"""Tables with the figures of `series_tables`."""
 
 _OF_LINES = {
     "first": "first_touchdown",
@@ -254,11 +256,6 @@ _OF_LINES = {
     "uplift": "largest_uplift",
 }
 """Quantities of `LINES` whose names differ from the figures of a line."""
-
-
-def series_summary(evaluation: Evaluation, *more: str) -> SeriesSummary:
-    """Return a consumer for the figures of `series_tables`, and of additional tables."""
-    return SeriesSummary(evaluation, "elements", "nodes", "summary", "totals", *more)
 
 
 def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> ResultTables:

@@ -81,7 +81,7 @@ def totals(evaluation: Evaluation, result: ContactResult) -> list[dict[str, Any]
     rows = []
     with np.errstate(over="ignore", invalid="ignore"):
         for (law, name), members in groups.items():
-            force = float((result.force[members] * evaluation.length[members]).sum())
+            force = float((result.force[members] * evaluation.model.input.length[members]).sum())
             rows.append(
                 {
                     "law": law,

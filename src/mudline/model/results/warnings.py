@@ -13,7 +13,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mudline.basics.arguments import as_array
 from mudline.basics.quantities import shown, unit_names
@@ -22,11 +21,9 @@ from mudline.language.codes.contact import GEO005, GEO017, RUN003, RUN004, RUN00
 from mudline.language.codes.lines import SYN009
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import holds_in_soil
-from mudline.model.contact import ContactResult, LawKind
-from mudline.model.contact.arrays import StepReader
-from mudline.model.contact.input import ContactInput
+from mudline.model.contact import ContactModel, ContactResult, LawKind
 from mudline.model.contact.result import ResultPart
-from mudline.model.results.evaluation import Evaluation, evaluate_scene
+from mudline.model.results.evaluation import Evaluation, PositionSource, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.given_positions import Doubt, position_doubts
 from mudline.model.scene.model import Scene
@@ -97,9 +94,10 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
         raise ValueError(f"positions must be numbers (nodes, 3) or (steps, nodes, 3), not of shape {places.shape}")
     if not len(places):
         raise ValueError("positions must have one step or more")
-    source = "deck" if positions is None else "file"
+    source: PositionSource = "deck" if positions is None else "file"
     steps = places.reshape(-1, *places.shape[-2:])
-    watch = ContactWatch(scene, result.known, result.present, steps, source)
+    model = ContactModel(result.known, backend="numpy")
+    watch = ContactWatch(Evaluation(scene, model, steps, result.present, source=source))
     watch.take(ResultPart(0, result.as_series()))
     return watch.warnings()
 
@@ -119,8 +117,7 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
         return []
     try:
         evaluation = evaluate_scene(scene)
-        watch = ContactWatch.of(evaluation)
-        evaluation.run([watch])
+        evaluation.run([watch := ContactWatch(evaluation)])
     except DeckError:
         return []
     return [warning for warning in watch.warnings() if warning.diagnostic.code in codes]
@@ -152,37 +149,23 @@ class _Balance(NamedTuple):
 
 
 class ContactWatch:
-    """Consumer of the results of a few steps at a time that keeps the data of the warnings.
+    """Consumer of the results of a few steps at a time that keeps the data of the warnings of an evaluation.
 
-    Args:
-        scene: the scene.
-        given: the input of the evaluator.
-        present: (n,) nodes that have a position.
-        places: (steps, n, 3) positions; those of a file are judged by the last step.
-        source: source of the positions: "deck", "file" or "rest shape", which is in equilibrium.
-        times: (steps,) times, if known.
+    Positions of a file are judged by the last step; those of a resting shape are in equilibrium.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        given: ContactInput,
-        present: Mask,
-        places: NDArray[np.floating] | StepReader,
-        source: str,
-        times: Floats | None = None,
-    ) -> None:
-        self._scene, self._source, self._times = scene, source, times
-        self._positions, self._places = places, np.asarray(places[0], dtype=np.float64)
-        self._own, self._weight = source == "deck", operating_weight(scene) if given.weight is None else given.weight
-        evaluated = np.asarray(present[scene.element_nodes].all(axis=1))
-        self._elements = np.flatnonzero(evaluated)
-        self._rows = self._elements if len(self._elements) < len(evaluated) else slice(None)
+    def __init__(self, evaluation: Evaluation) -> None:
+        scene, given, positions = evaluation.scene, evaluation.model.input, evaluation.positions
+        self._scene, self._source, self._times = scene, evaluation.source, evaluation.time
+        self._positions, self._places = positions, np.asarray(positions[0], dtype=np.float64)
+        self._own = evaluation.source == "deck"
+        self._weight = operating_weight(scene) if given.weight is None else given.weight
+        self._elements = evaluation.elements
+        self._rows = self._elements if len(self._elements) < len(scene.element_ids) else slice(None)
         self._nodes = np.unique(scene.element_nodes[self._elements])
         self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
         self._lightest, self._case = self._least_weight()
-        self._judged = bool((evaluated & ((scene.law == LawKind.NONE) | (self._lightest < 0.0))).any())
-        self._touched = np.zeros(len(evaluated), dtype=np.bool_)
+        self._touched = np.zeros(len(scene.element_ids), dtype=np.bool_)
         self._restrained = np.zeros(len(scene.nodes), dtype=np.bool_)
         self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
         self._sprung |= bool((scene.resistance.column("suction") > 0.0).any())
@@ -196,21 +179,14 @@ class ContactWatch:
         self._thickest = float(np.fmax.reduce(scene.diameter[lawful], initial=0.0))
         self._left, self._left_at = np.zeros(len(scene.nodes), dtype=np.bool_), -1
         self._doubts: list[Doubt] = []
-        if source == "file":
-            last = np.asarray(places[len(places) - 1], dtype=np.float64)
-            self._doubts = position_doubts(given, scene, present, last)
-
-    @classmethod
-    def of(cls, evaluation: Evaluation) -> ContactWatch:
-        """Return the watch of an evaluation."""
-        one = evaluation
-        return cls(one.scene, one.model.input, one.present, one.positions, one.source, one.time)
+        if self._source == "file":
+            last = np.asarray(positions[evaluation.steps - 1], dtype=np.float64)
+            self._doubts = position_doubts(given, scene, evaluation.present, last)
 
     def take(self, part: ResultPart) -> None:
         """Add some steps."""
         result = part.result
-        if self._judged or not self._acts:
-            self._touched |= result.contact.any(axis=0)
+        self._touched |= result.contact.any(axis=0)
         if result.restrained is not None:
             self._restrained |= result.restrained.any(axis=0)
         if not self._acts:

@@ -385,7 +385,7 @@ def _contact(scene: Scene, content: PageContent) -> dict[str, Any]:
     else:
         evaluation = evaluate_scene(scene, tension=_tension(scene))
     content.drawn = PlotData.of_evaluation(evaluation)
-    watch = ContactWatch.of(evaluation)
+    watch = ContactWatch(evaluation)
     (part,) = evaluation.parts()
     for consumer in (content.drawn, watch):
         consumer.take(part)

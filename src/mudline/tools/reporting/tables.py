@@ -60,7 +60,7 @@ class PageTable(NamedTuple):
     most: int = 8
 
     def first(self, whole: str) -> PageTable:
-        """Return the rows before the appendix, of a longer table without anchors; `whole` is that of the whole table."""
+        """Return the rows before the appendix, without anchors if that has more, at the anchor `whole`."""
         if len(self.rows) <= self.most:
             return self
         return self._replace(rows=self.rows[: self.most], anchors=(), more="", whole=whole)

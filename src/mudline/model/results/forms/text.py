@@ -28,20 +28,18 @@ Row = tuple[str, ...]
 
 def opened(output: ResultOutput) -> AbstractContextManager[Writer]:
     """Return a context with the writer of a CSV for each table, or of one JSON."""
-    contents, writes = output.contents, [text_into(stream) for stream in output.streams]
-    if output.form == "json":
-        return nullcontext(JsonWriter(contents, writes[0]))
-    return nullcontext(CsvWriter(contents, dict(zip(contents.rows, writes, strict=True))))
+    writes = dict(zip(output.contents.rows, map(text_into, output.streams), strict=False))  # JSON has one stream
+    return nullcontext(text_writer(output.form, output.contents, writes))
 
 
-def text_writer(form: str, contents: FileContent, write: Write, table: str = "elements") -> Writer:
-    """Return the writer of one table as "csv", or of all tables as "json"."""
-    return CsvWriter(contents, {table: write}) if form == "csv" else JsonWriter(contents, write)
+def text_writer(form: str, contents: FileContent, writes: Mapping[str, Write]) -> Writer:
+    """Return the writer of some tables as "csv", or of all tables as "json" into the first of the texts."""
+    return CsvWriter(contents, writes) if form == "csv" else JsonWriter(contents, next(iter(writes.values())))
 
 
 def write_text(tables: ResultTables, form: str, write: Write, table: str) -> None:
     """Write whole tables as "json", or one of them as "csv"."""
-    tables.write(text_writer(form, tables.contents, write, table))
+    tables.write(text_writer(form, tables.contents, {table: write}))
 
 
 def text_into(stream: BinaryIO) -> Write:
