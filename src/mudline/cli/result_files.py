@@ -90,9 +90,9 @@ def _opened(path: Path, contents: FileContent, view: View, *, synced: bool) -> I
         streams = [
             stack.enter_context(writing(file, synced=synced)) for file in (path, *_further(path, contents).values())
         ]
-        output = ResultOutput(suffix_of(path), contents, streams, path.parent, partial(tracked, view=view))
+        output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
         try:
-            writer = stack.enter_context(output.opened())
+            writer = output.writer()
         except FormError as error:
             raise click.ClickException(f"{path.as_posix()}: {error}") from error
         yield writer

@@ -45,7 +45,7 @@ def write(evaluation: Evaluation, path: Path) -> Path:
     with ExitStack() as stack:
         paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
         streams = [stack.enter_context(one.open("wb")) for one in paths]
-        writer = stack.enter_context(ResultOutput(form, contents_of(evaluation, tables), streams, path.parent).opened())
+        writer = ResultOutput(form, contents_of(evaluation, tables), streams, path.parent, stack).writer()
         sink = Sink(evaluation, tables, writer, form)
         for part in evaluation.parts():
             sink.take(part)

@@ -1,13 +1,13 @@
 """Formats of result files: their contents, and the writers they share.
 
-Each format has a module, imported when needed, with `opened(output)`: a context with a `Writer`. It takes columns of a
+Each format has a module, imported when needed, with `writer(output)`, which returns a `Writer`. It takes columns of a
 few steps at a time and writes them at once, so that a long series is never in memory as text.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -191,19 +191,21 @@ def contents_of(evaluation: Evaluation, tables: NamedTables) -> FileContent:
 class ResultOutput:
     """Destination of the contents of a file: its format, and open files in a folder, one for each table or one for all.
 
-    `tracked` shows the progress of a long loop over a list.
+    `open` closes what a writer opens besides, in front of the files. `tracked` shows the progress of a long loop over a
+    list.
     """
 
     form: str
     contents: FileContent
     streams: Sequence[BinaryIO]
     folder: Path
+    open: ExitStack
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
 
-    def opened(self) -> AbstractContextManager[Writer]:
-        """Return a context with the writer. Raises FormError, and ImportError as `form_module` does."""
-        context: AbstractContextManager[Writer] = form_module(self.form).opened(self)
-        return context
+    def writer(self) -> Writer:
+        """Return the writer. Raises FormError, and ImportError as `form_module` does."""
+        writer: Writer = form_module(self.form).writer(self)
+        return writer
 
 
 def form_module(form: str) -> ModuleType:

@@ -4,24 +4,16 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
 from tempfile import TemporaryFile
 from typing import IO, Any
 
 import numpy as np
 
 from mudline.model.contact.columns import ResultColumn, Values
-from mudline.model.results.forms import Columns, More, ResultOutput, Writer
+from mudline.model.results.forms import Columns, More, ResultOutput
 
 _PACKED = 1 << 18
 """Values packed at a time."""
-
-
-@contextmanager
-def opened(output: ResultOutput) -> Iterator[Writer]:
-    """Yield the writer of an archive."""
-    with ExitStack() as temporary:
-        yield NpzWriter(output, temporary)
 
 
 class NpzWriter:
@@ -31,8 +23,8 @@ class NpzWriter:
     takes one array after the other, so values that change are in nameless files in its folder until the end.
     """
 
-    def __init__(self, output: ResultOutput, temporary: ExitStack) -> None:
-        self._output, self._contents, self._temporary = output, output.contents, temporary
+    def __init__(self, output: ResultOutput) -> None:
+        self._output, self._contents = output, output.contents
         self._arrays: dict[str, _Array] = {}
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
@@ -58,7 +50,10 @@ class NpzWriter:
                 _pack(archive, name, values.dtype, values.shape, [values])
 
     def _file(self) -> IO[bytes]:
-        return self._temporary.enter_context(TemporaryFile(dir=self._output.folder))
+        return self._output.open.enter_context(TemporaryFile(dir=self._output.folder))
+
+
+writer = NpzWriter
 
 
 class _Array:

@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
-from typing import BinaryIO
+from collections.abc import Mapping, Sequence
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from mudline.model.contact.frames import arrow_of
-from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, Writer
+from mudline.model.results.forms import Columns, More, ResultOutput
 
 GROUP = 1 << 18
 """Rows from which on a group is written."""
 
 
-@contextmanager
-def opened(output: ResultOutput) -> Iterator[Writer]:
-    """Yield the writer of a file for each table."""
-    with ExitStack() as files:
-        yield ParquetWriter(output.contents, dict(zip(output.contents.rows, output.streams, strict=True)), files)
-
-
 class ParquetWriter:
     """Writer of the columns of CSV: vectors as three, missing values as null; texts are stored once per group."""
 
-    def __init__(self, contents: FileContent, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
-        self._contents, self._streams, self._files = contents, streams, files
+    def __init__(self, output: ResultOutput) -> None:
+        self._contents, self._open = output.contents, output.open
+        self._streams = dict(zip(output.contents.rows, output.streams, strict=True))
         self._writers: dict[str, pq.ParquetWriter] = {}
-        self._waiting: dict[str, list[pa.Table]] = {table: [] for table in streams}
+        self._waiting: dict[str, list[pa.Table]] = {table: [] for table in self._streams}
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps. Raises OSError."""
@@ -53,6 +45,9 @@ class ParquetWriter:
         group = pa.concat_tables(self._waiting[table])
         if table not in self._writers:
             opened_writer = pq.ParquetWriter(self._streams[table], group.schema, compression="zstd")
-            self._writers[table] = self._files.enter_context(opened_writer)
+            self._writers[table] = self._open.enter_context(opened_writer)
         self._writers[table].write_table(group, row_group_size=max(len(group), 1))
         self._waiting[table] = []
+
+
+writer = ParquetWriter

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -26,10 +25,10 @@ T = TypeVar("T")
 Row = tuple[str, ...]
 
 
-def opened(output: ResultOutput) -> AbstractContextManager[Writer]:
-    """Return a context with the writer of a CSV for each table, or of one JSON."""
+def writer(output: ResultOutput) -> Writer:
+    """Return the writer of a CSV for each table, or of one JSON."""
     writes = dict(zip(output.contents.rows, map(text_into, output.streams), strict=False))  # JSON has one stream
-    return nullcontext(text_writer(output.form, output.contents, writes))
+    return text_writer(output.form, output.contents, writes)
 
 
 def text_writer(form: str, contents: FileContent, writes: Mapping[str, Write]) -> Writer:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -32,23 +31,26 @@ _CREATED = datetime(2000, 1, 1, tzinfo=UTC)
 """Fixed date of workbooks: the same results give the same bytes."""
 
 
-@contextmanager
-def opened(output: ResultOutput) -> Iterator[Writer]:
-    """Yield the writer of a workbook. Raises FormError if a sheet cannot hold all rows of a table."""
+def writer(output: ResultOutput) -> Writer:
+    """Return the writer of a workbook. Raises FormError if a sheet cannot hold all rows of a table."""
     contents = output.contents
     for table, rows in contents.rows.items():
         if contents.steps * rows > SHEET_ROWS - _HEADINGS:
             most = f"a sheet of a workbook holds {SHEET_ROWS - _HEADINGS}; write .parquet instead"
             raise FormError(f"{contents.steps * rows} rows of {table}: {most}")
-    with TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True) as temporary:
-        plain = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
-        book = xlsxwriter.Workbook(output.streams[0], {"constant_memory": True, "tmpdir": temporary, **plain})
-        try:
-            yield WorkbookWriter(book, contents)
-        finally:
-            for sheet in book.worksheets():
-                sheet.row_data_fh.close()
-            book.fileclosed = True  # after an error it must not write itself when it is deleted
+    folder = TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True)
+    temporary = output.open.enter_context(folder)
+    plain = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    book = xlsxwriter.Workbook(output.streams[0], {"constant_memory": True, "tmpdir": temporary, **plain})
+    output.open.callback(_discard, book)
+    return WorkbookWriter(book, contents)
+
+
+def _discard(book: Any) -> None:  # noqa: ANN401 - xlsxwriter has no types
+    """Close the temporary files; after an error the workbook must not write itself when it is deleted."""
+    for sheet in book.worksheets():
+        sheet.row_data_fh.close()
+    book.fileclosed = True
 
 
 class WorkbookWriter:
@@ -58,7 +60,7 @@ class WorkbookWriter:
     cell. The rows are in temporary files in the folder of the workbook until the end.
     """
 
-    def __init__(self, book: Any, contents: FileContent) -> None:  # noqa: ANN401 - xlsxwriter has no types
+    def __init__(self, book: Any, contents: FileContent) -> None:  # noqa: ANN401 - as above
         self._book, self._contents = book, contents
         book.use_zip64()
         book.set_properties({"created": _CREATED})
