@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from itertools import islice
+from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
@@ -229,7 +229,7 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
         follows = at > 0 and numbers[at] == numbers[at - 1] + 1
         if not follows or not all(map(_alike, row, rest[starts[-1]], tolerances)):
             starts.append(at)
-    for start, end in zip(starts, [*starts[1:], len(rest)], strict=True):
+    for start, end in pairwise([*starts, len(rest)]):
         columns = list(zip(*rest[start:end], strict=True))
         yield (
             (_span(numbers[start], numbers[end - 1]), *map(_of_run, columns)),
