@@ -7,8 +7,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from mudline.basics.quantities import headed
-
 Cell = str | int | float | tuple[str, str] | None
 """Content of a cell: a text, a number, a text with its style, or nothing."""
 Value = str | int | Callable[[Any], Cell]
@@ -40,7 +38,7 @@ class DisplayColumn:
     @property
     def head(self) -> str:
         """The heading with its unit."""
-        return headed(self.heading, self.unit)
+        return f"{self.heading}\n[{self.unit}]" if self.unit else self.heading
 
     def cell(self, row: Any) -> Cell:  # noqa: ANN401 - rows of JSON, or objects
         """Return the cell of a row."""

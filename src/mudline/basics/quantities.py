@@ -217,11 +217,6 @@ def labelled(text: str, unit: str) -> str:
     return f"{text} [{unit}]" if unit else text
 
 
-def headed(name: str, unit: str) -> str:
-    """Return a heading, with its unit in brackets on the next line if it has one."""
-    return f"{name}\n[{unit}]" if unit else name
-
-
 def shown(value: float | None, digits: int = 6) -> str:
     """Return a number in its shortest common form; "" for None and NaN."""
     if value is None or math.isnan(value):

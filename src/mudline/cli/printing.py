@@ -71,11 +71,6 @@ class Printer:
         """Print a line; on a terminal a long line is wrapped between words."""
         self._console.print(Text.assemble(*parts), soft_wrap=not fold)
 
-    def lines(self, lines: Iterable[Line]) -> None:
-        """Print lines; on a terminal long lines are wrapped between words."""
-        for line in lines:
-            self._console.print(Text.assemble(*line), soft_wrap=False)
-
     def table(self, table: DisplayTable) -> None:
         """Print cells under their headings, with a blank line after the table.
 

@@ -41,7 +41,9 @@ class View(NamedTuple):
     def lines(self, lines: Iterable[Line]) -> None:
         """Print lines for people; without terminal and colour rich is not loaded, as that takes half of a short run."""
         if self.color == "always" or sys.stdout.isatty():
-            self.printer().lines(lines)
+            printer = self.printer()
+            for line in lines:
+                printer.line(*line)
         else:
             texts = ((part if isinstance(part, str) else part[0] for part in line) for line in lines)
             sys.stdout.writelines(f"{''.join(pieces)}\n" for pieces in texts)

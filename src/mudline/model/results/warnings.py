@@ -27,7 +27,7 @@ from mudline.model.results.evaluation import Evaluation, PositionSource, evaluat
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.given_positions import Doubt, position_doubts
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import (
@@ -140,7 +140,7 @@ class _Balance(NamedTuple):
     weight: float
     empty: float
     elements: Indices
-    steps: int = 1
+    steps: int
 
     @property
     def ratio(self) -> float:
@@ -172,7 +172,7 @@ class ContactWatch:
         self._acts = False
         self._clearance = (math.inf, -1, 0)
         """The smallest distance of a node above the seabed, the index of the node, and the step."""
-        self.balance: _Balance | None = None
+        self.balance = _Balance(0.0, 0.0, 0.0, np.zeros(0, np.intp), 0)
         self._survey = survey_of(scene.seabed)
         lawful = self._elements[scene.law[self._elements] != LawKind.NONE]
         self._lawful = np.unique(scene.element_nodes[lawful])
@@ -199,7 +199,7 @@ class ContactWatch:
                 if least < self._clearance[0]:
                     step, column = np.argwhere(gap == least)[0].tolist()
                     self._clearance = (least, int(self._nodes[column]), part.start + step)
-        self.balance = self._weigh(result.contact, result.normal_force, self.balance)
+        self._weigh(result)
         if self._survey is not None:
             for step, places in enumerate(self._positions[part.steps], part.start):
                 left = self._survey.left(np.asarray(places, dtype=np.float64)[self._lawful], self._thickest)
@@ -219,25 +219,23 @@ class ContactWatch:
         floating = next((case for weight, case in cases if (weight[self._elements] < 0.0).any()), None)
         return np.minimum.reduce([weight for weight, _ in cases]), floating
 
-    def _weigh(self, contact: Mask, normal_force: Floats, before: _Balance | None) -> _Balance:
-        """Return reaction and weights of some steps, (steps, m) and (steps, n), added to those of earlier steps."""
-        scene = self._scene
+    def _weigh(self, result: ContactResult) -> None:
+        """Add reaction and weights of some steps."""
+        scene, before = self._scene, self.balance
         law = scene.law[self._elements]
-        held = contact[:, self._rows] & (law != LawKind.NONE)
+        held = result.contact[:, self._rows] & (law != LawKind.NONE)
         times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
         times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
             weight, empty = (float((times * per[here]).sum()) for per in (self._weight, empty_weight(scene)))
-            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[:, self._columns].sum())
-            balance = _Balance(reaction, weight, empty, here, len(contact))
-            if before is None:
-                return balance
-            return _Balance(
+            rigid = (law == LawKind.RIGID).any()
+            reaction = math.nan if rigid else float(result.normal_force[:, self._columns].sum())
+            self.balance = _Balance(
                 before.reaction + reaction,
                 before.weight + weight,
                 before.empty + empty,
                 np.union1d(before.elements, here),
-                before.steps + balance.steps,
+                before.steps + len(held),
             )
 
     # ----------------------------------------------------------------------------------------------- what it found
@@ -259,14 +257,14 @@ class ContactWatch:
         Return "" for positions of a file, and together with RUN003.
         """
         balance = self.balance
-        if not self._own or (balance and self._is_unbalanced(balance)):
+        if not self._own or self._is_unbalanced():
             return ""
         note = "the positions are the deck's own coordinates, not a solved shape"
-        if not balance or not balance.elements.size:
+        if not balance.elements.size:
             return note
         near = NEAR[0] <= balance.ratio <= NEAR[1] or math.isnan(balance.ratio)
         advice = "" if near else "; --rest-shape gives a shape of the line's own weight"
-        return f"{note}: {self._balanced(balance)}{advice}"
+        return f"{note}: {self._balanced()}{advice}"
 
     def _warning(self, code: Code, message: str, where: Where | None, elements: Indices, brief: str) -> ContactWarning:
         problem = Problem(code, message, None, Severity.WARNING, where)
@@ -338,24 +336,25 @@ class ContactWatch:
     def _unbalanced(self) -> Iterator[ContactWarning]:
         """Yield a warning about positions far from equilibrium: the deck's own, or those of a file in the mean."""
         balance = self.balance
-        if balance is None or not self._is_unbalanced(balance):
+        if not self._is_unbalanced():
             return
         whose = "the deck's own, " if self._own else "" if balance.steps == 1 else "in the mean of all steps "
-        message = f"the positions are {whose}far from equilibrium: {self._balanced(balance)}"
+        message = f"the positions are {whose}far from equilibrium: {self._balanced()}"
         solved = "give a solved shape with --positions, or try --rest-shape"
         advice = self._turned() or (f"; {solved}" if self._own else "; check their datum and units, and the weights")
         brief = f"reaction / submerged weight {shown(balance.ratio, 3)}"
         yield self._warning(RUN003, message + advice, None, balance.elements, brief)
 
-    def _is_unbalanced(self, balance: _Balance) -> bool:
-        known = self._source != "rest shape" and not self._left_out
-        return known and (balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1])
+    def _is_unbalanced(self) -> bool:
+        known, ratio = self._source != "rest shape" and not self._left_out, self.balance.ratio
+        return known and (ratio < BALANCED[0] or ratio > BALANCED[1])
 
     @cached_property
     def _left_out(self) -> list[str]:
         return left_out(self._scene)
 
-    def _balanced(self, balance: _Balance) -> str:
+    def _balanced(self) -> str:
+        balance = self.balance
         behind = unit_names(self._scene.units).behind("force")
         elements = counted(len(balance.elements), "element")
         reaction, weight, empty = (each / balance.steps for each in (balance.reaction, balance.weight, balance.empty))
