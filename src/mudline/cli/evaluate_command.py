@@ -134,13 +134,14 @@ def command(
 
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:
     """Print what a deck needs, and what is left out."""
-    rows = plan_rows(prepared.model.plan)
+    _, model, _ = prepared
+    rows = plan_rows(model.plan)
     if form == "json":
-        emit_json({"units": prepared.scene.units, "plan": rows})
+        emit_json({"units": model.input.units, "plan": rows})
     elif form == "csv":
         emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
     else:
-        print_plan(prepared.model.plan, view)
+        print_plan(model.plan, view)
 
 
 def _evaluate_one(

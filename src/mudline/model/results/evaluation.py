@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple, Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,8 @@ from mudline.model.scene.weights import contents_case, left_out
 
 Tension = Literal["keep", "cut"]
 PositionSource = Literal["deck", "file", "rest shape"]
+Prepared = tuple[Scene, ContactModel, int]
+"""A scene with all lengths, its evaluator, and the number of lengths taken from the first positions."""
 
 _HISTORY = "this deck has laws whose result depends on the steps before, which need ascending times"
 
@@ -35,14 +37,6 @@ class ResultConsumer(Protocol):
 
     def take(self, part: ResultPart) -> None:
         """Take some steps."""
-
-
-class Prepared(NamedTuple):
-    """A scene that can be evaluated, its evaluator, and the number of lengths taken from the first positions."""
-
-    scene: Scene
-    model: ContactModel
-    lengths_from_positions: int
 
 
 @dataclass(frozen=True)
@@ -171,37 +165,36 @@ def evaluate_scene(
             example = int(scene.node_ids[np.argmax(missing)])
             message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one"
             raise scene.refusal(f"{message}: give them with --positions")
-    ready = prepare(scene, positions, tension)
+    complete, model, filled = prepare(scene, positions, tension)
     if at_rest is not None:
         from mudline.model.scene.weights import pipe_of  # noqa: PLC0415 - other positions do without it
 
-        weighed = replace(ready.model.input, weight=pipe_of(scene).weight)
-        ready = ready._replace(model=ContactModel(weighed))
+        model = ContactModel(replace(model.input, weight=pipe_of(scene).weight))
     used = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
-    if ready.model.plan.history:
-        _require_clock(ready, used)
+    if model.plan.history:
+        _require_clock(complete, model.input.needs_velocities, used)
     return Evaluation(
-        ready.scene,
-        ready.model,
+        complete,
+        model,
         used.values,
         used.present,
         used.time,
         used.velocities,
-        ready.lengths_from_positions,
+        filled,
         source="deck" if positions is None else "file" if at_rest is None else "rest shape",
         notes=tuple(at_rest or ()),
     )
 
 
 def prepare(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Prepared:
-    """Return the evaluator of a scene.
+    """Return a scene with its evaluator.
 
     Raises DeckError: errors in the deck, elements without known nodes.
     """
     require_elements(scene.require_evaluable(tension))
     complete, filled = _with_lengths(scene, positions)
     with as_deck_errors(complete):
-        return Prepared(complete, complete.contact(tension), filled)
+        return complete, complete.contact(tension), filled
 
 
 @contextmanager
@@ -254,21 +247,21 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
     return replace(scene, table=scene.table._replace(length=length)), int((~np.isnan(between)).sum())
 
 
-def _require_clock(ready: Prepared, positions: Positions) -> None:
+def _require_clock(scene: Scene, needing: Sequence[str], positions: Positions) -> None:
     """Raise DeckError for times or velocities that a law with a history cannot use.
 
-    Steps need ascending times; a law that needs velocities needs these, or times.
+    Steps need ascending times; the laws `needing` velocities need these, or times.
     """
     if positions.time is None or len(positions.time) < 2:
         return
-    laws = ready.model.input.needs_velocities if positions.velocities is None else []
+    laws = needing if positions.velocities is None else []
     if not positions.timed:
         if laws:
             message = f"{laws[0]} needs velocities, or the times of the steps: the positions have neither"
-            raise ready.scene.refusal(message)
+            raise scene.refusal(message)
         return
     falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
     if falls.size:
         before, after = positions.time[falls[0] : falls[0] + 2].tolist()
         what = f"{laws[0]} needs velocities, or ascending times" if laws else _HISTORY
-        raise ready.scene.refusal(f"{what}: {after!r} follows {before!r}")
+        raise scene.refusal(f"{what}: {after!r} follows {before!r}")

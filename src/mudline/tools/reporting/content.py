@@ -217,8 +217,8 @@ def _section(name: str, scene: Scene, content: PageContent) -> dict[str, Any]:
         rows, without = list(content.sheet.rows), list(content.sheet.left_out)
         return {"inputs": inputs_of(scene), "sheet": rows, "weights_without": without}
     if name == "plan":
-        plan = prepare(scene, None, _tension(scene)).model.plan
-        return {"stages": plan_rows(plan), "steps": plan.steps}
+        _, model, _ = prepare(scene, None, _tension(scene))
+        return {"stages": plan_rows(model.plan), "steps": model.plan.steps}
     return _model(scene) if name == "model" else _curves(scene)
 
 
