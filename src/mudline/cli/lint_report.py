@@ -14,9 +14,11 @@ import click
 from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
 from mudline.basics.version import __version__
+from mudline.checks.configuration import Configured
 from mudline.checks.output import TEXT, form, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.finding_lines import print_findings, print_summary
+from mudline.cli.inputs import Input
 from mudline.cli.streams import counted, emit, notify, say, write_text
 from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
@@ -63,6 +65,8 @@ class LintReport:
 
     outputs: Outputs
     view: View
+    configured: Configured
+    fail_on: str | None
     _: KW_ONLY
     statistics: bool
     aside: bool
@@ -74,9 +78,10 @@ class LintReport:
     failing: bool = False
     coverage: Coverage = field(default_factory=Coverage)
 
-    def add(self, name: str, data: bytes, findings: list[Diagnostic], fixed: int, limit: Severity) -> None:
+    def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
         self.files += 1
+        name, limit = file.name, Severity(self.fail_on or self.configured.of(file.path or file.name).fail_on)
         # Text output does not need the names of files, of which there may be very many.
         if self.aside or self.view.quiet or self.outputs.form != TEXT or self.outputs.files:
             self.names.append(name)
