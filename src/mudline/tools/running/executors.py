@@ -18,7 +18,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from ipaddress import ip_address
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
@@ -57,6 +57,7 @@ _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for on Windows."""
 
 _SAFE_PATH = "PYTHONSAFEPATH"
+"""Variable by which Python processes that this one starts import no modules of the working folder."""
 
 _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
 """Strict pattern of addresses: a form that Dask parses differently would escape the check."""
@@ -98,9 +99,9 @@ class Pool:
         return self._threads
 
     def submit(
-        self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
-    ) -> Future[tuple[float, list[_Made | Crash]]]:
-        """Submit work for each order; the future has seconds and results. Raises RunError."""
+        self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given] | None]
+    ) -> Future[tuple[float, list[_Made | Crash | None]]]:
+        """Submit work for each order that is not None; the future has seconds and results. Raises RunError."""
         if self._executor is None:
             if self.scheduler is None:
                 self._executor = self._stack.enter_context(_processes(self.size, work.__module__))
@@ -159,31 +160,28 @@ def many(
     spent, done, number = 0.0, 0, 0
     with ExitStack() as stack:
         pool = Pool(jobs, scheduler, stack)
-        for item, given in rest if scheduler is None else ():
-            seconds, results = _timed(work, [] if given is None else [given])
-            spent, done, number = spent + seconds, done + len(results), number + 1
-            yield item, results[0] if results else None
+        for item, given in rest:
+            if scheduler is not None and given is not None:
+                rest = chain([(item, given)], rest)
+                break
+            seconds, (result,) = _timed(work, [given])
+            spent, done, number = spent + seconds, done + (given is not None), number + 1
+            yield item, result
             if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
                 break
-        waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
-        under_way = 0
+        waiting = deque[tuple[list[_Item], "Future[tuple[float, list[_Made | Crash | None]]]"]]()
         while True:
             pace = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
             share = (count - number) / (2 * pool.size)
             part = list(islice(rest, max(1, min(int(pace), int(share), _TOGETHER))))
             number += len(part)
             if part:
-                orders = [given for _, given in part if given is not None]
-                sent = [(item, given is not None) for item, given in part]
-                waiting.append((sent, pool.submit(work, orders) if orders else None))
-                under_way += bool(orders)
-            while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
+                waiting.append(([item for item, _ in part], pool.submit(work, [given for _, given in part])))
+            while waiting and (not part or len(waiting) > _AHEAD * pool.size):
                 sent, future = waiting.popleft()
-                seconds, results = (0.0, []) if future is None else pool.result(future)
-                under_way -= future is not None
+                seconds, results = pool.result(future)
                 spent, done = spent + seconds, done + len(results)
-                in_order = iter(results)
-                yield from ((item, next(in_order) if is_sent else None) for item, is_sent in sent)
+                yield from zip(sent, results, strict=True)
             if not part:
                 return
 
@@ -207,13 +205,15 @@ NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
 """Exceptions that end a run, whatever the item."""
 
 
-def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tuple[float, list[_Made | Crash]]:
-    """Return the seconds of the work, and for each order its result or its crash."""
+def _timed(
+    work: Callable[[*_Given], _Made], orders: list[tuple[*_Given] | None]
+) -> tuple[float, list[_Made | Crash | None]]:
+    """Return the seconds of the work, and for each order its result or its crash; None where there is no work."""
     start = time.perf_counter()
-    results: list[_Made | Crash] = []
+    results: list[_Made | Crash | None] = []
     for given in orders:
         try:
-            results.append(work(*given))
+            results.append(None if given is None else work(*given))
         except NO_CRASH:
             raise
         except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
@@ -222,8 +222,8 @@ def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tu
 
 
 def _done(
-    version: str, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
-) -> tuple[float, list[_Made | Crash]]:
+    version: str, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given] | None]
+) -> tuple[float, list[_Made | Crash | None]]:
     """Do the work in a process or a worker, and return the seconds and the results."""
     if version != __version__:
         raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
@@ -270,29 +270,15 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     if method == "forkserver":
         context.set_forkserver_preload([module])
     executor = ProcessPoolExecutor(count, context, _begin, (outputs(),))
+    os.environ[_SAFE_PATH] = "1"
     try:
-        with _safe_path():
-            yield executor
+        yield executor
     except BaseException:
         for child in set(multiprocessing.active_children()) - before:
             child.kill()
         raise
     finally:
         executor.shutdown(cancel_futures=True)
-
-
-@contextmanager
-def _safe_path() -> Iterator[None]:
-    """Keep Python processes started in the block from importing modules of the working folder."""
-    before = os.environ.get(_SAFE_PATH)
-    os.environ[_SAFE_PATH] = "1"
-    try:
-        yield
-    finally:
-        if before is None:
-            os.environ.pop(_SAFE_PATH, None)
-        else:
-            os.environ[_SAFE_PATH] = before
 
 
 def _begin(known: ClaimedOutputs) -> None:
