@@ -57,7 +57,7 @@ def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[type
     if origin is None:
         return []
     document = analysis.document
-    line = document.line_span(document.line_at(offset))
+    line = document.source.line_span(document.line_at(offset) + 1)
     here = spot(origin.tree, max(line.start - 1, 0))
     cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
