@@ -140,7 +140,7 @@ def test_a_text_beyond_the_limit_is_not_checked(monkeypatch: pytest.MonkeyPatch)
     found = decks.analysis("untitled:deck")
     assert found is not None
     assert found.document.is_too_large
-    assert (found.deck, found.found) == (None, ())
+    assert (found.context, found.found) == (None, ())
 
 
 # ------------------------------------------------------------------------------------- position encodings, and the end

@@ -150,8 +150,8 @@ def snippet(declared: type[Block]) -> str:
 
 def _in_equation(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
     parameters = cursor.analysis.parameters
-    for key, definition in parameters.definitions.items() if parameters else ():
-        value = value_text(parameters.values[key]) if parameters and key in parameters.values else "no value"
+    for key, definition in parameters.definitions.items():
+        value = value_text(parameters.values[key]) if key in parameters.values else "no value"
         yield cursor.item(definition.name, types.CompletionItemKind.Variable, definition.name, start, f"= {value}")
     for name, form in {**FUNCTIONS, **FORMS}.items():
         yield cursor.item(name, types.CompletionItemKind.Function, f"{name}(", start, form.meaning)
@@ -188,7 +188,9 @@ def _settings(cursor: _Cursor, declared: type[Block], start: int, *, inline: boo
         slot = slot_of_key(declared, key)
         if slot is not None and (not inline or (isinstance(slot.about, Setting) and slot.about.inline)):
             item = cursor.item(f"{key}=", types.CompletionItemKind.Property, f"{key}=", start, slot.about.meaning)
-            item.documentation = types.MarkupContent(types.MarkupKind.Markdown, field_help(slot, cursor.analysis.units))
+            item.documentation = types.MarkupContent(
+                types.MarkupKind.Markdown, field_help(slot, cursor.analysis.deck.units)
+            )
             item.sort_text = f" {key}"
             yield item
 
@@ -203,8 +205,6 @@ def _values(cursor: _Cursor, slot: FieldSpec, start: int) -> Iterator[types.Comp
 def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
     """Yield the names allowed in a field, each with a description."""
     scene, parameters = cursor.analysis.scene, cursor.analysis.parameters
-    if scene is None or parameters is None:
-        return
     if kind in (Names.SET, Names.SETS, Names.SUBSET):
         yield from ((each.name, f"{len(each.elements)} elements") for each in _first(scene.set_table.named.values()))
     elif kind is Names.CURVE:

@@ -57,8 +57,8 @@ class Analysis:
         settings: settings of the check.
         unsaved: texts of all open decks.
         excluded: True if the configuration excludes the document.
-        deck: the deck; None until it is read, and for a text that is not a deck or too large.
-        context: context of the rules, likewise.
+        deck: the deck; empty until it is read, and for a text that is not a deck or too large.
+        context: context of the rules; None as long as the deck is empty for that reason.
         found: findings; empty until the deck is checked.
         looked_at: files that the findings depend on.
     """
@@ -67,7 +67,7 @@ class Analysis:
     settings: LintSettings
     unsaved: Mapping[str, Unsaved]
     excluded: bool = False
-    deck: Deck | None = None
+    deck: Deck = field(default_factory=lambda: Deck(""))
     context: LintContext | None = None
     found: tuple[Diagnostic, ...] = ()
     looked_at: frozenset[str] = frozenset()
@@ -106,35 +106,28 @@ class Analysis:
         return self.context.text if self.context else None
 
     @cached_property
-    def scene(self) -> Scene | None:
+    def scene(self) -> Scene:
         """Scene, as far as it can be resolved."""
         with self.reading():
-            return self.context.scene if self.context else None
+            return (self.context or LintContext(self.deck)).scene
 
     @cached_property
     def names(self) -> list[Occurrence]:
         """Places where a set, a curve or a parameter is named."""
-        return occurrences(self.deck) if self.deck else []
+        return occurrences(self.deck)
 
     @cached_property
-    def parameters(self) -> Parameters | None:
+    def parameters(self) -> Parameters:
         """Evaluated parameters."""
-        return Parameters(self.deck) if self.deck else None
+        return Parameters(self.deck)
 
     def evaluated(self, equation: Equation) -> str:
         """Return the value of an equation in words, or why it has none."""
-        if self.parameters is None:
-            return ""
         try:
             value = self.parameters.evaluate(equation, Where())
         except NoValueError as reason:
             return f"no value: {reason}" if reason.problem else "no value: a parameter in it has none"
         return value_text(value)
-
-    @property
-    def units(self) -> str:
-        """Unit system of the deck."""
-        return self.deck.units if self.deck else "user"
 
 
 @dataclass

@@ -70,9 +70,9 @@ def _block(
 ) -> types.DocumentSymbol:
     children: list[types.DocumentSymbol] = []
     read = origin.read.get(at)
-    block = analysis.deck.sections[at[0]].blocks[at[1]] if analysis.deck and read else None
-    if read is not None and block is not None and type(block) is not Opaque and not analysis.document.is_long:
-        children = list(_records(analysis, cast("Block", block), read, stop))
+    if read is not None and not analysis.document.is_long:
+        block = analysis.deck.sections[at[0]].blocks[at[1]]
+        children = [] if type(block) is Opaque else list(_records(analysis, cast("Block", block), read, stop))
     return _symbol(analysis, f"*{raw.name}", types.SymbolKind.Class, raw.head.span, stop, children)
 
 
@@ -141,7 +141,7 @@ def _comments(origin: TextOrigin) -> Iterator[Span]:
 def formatting(analysis: Analysis) -> list[types.TextEdit]:
     """Return the change to canonical layout; raises JsonRpcException for a deck that cannot be formatted."""
     document = analysis.document
-    if analysis.deck is None:
+    if analysis.context is None:
         return []
     try:
         after = formatted(document.as_file(), document.name)

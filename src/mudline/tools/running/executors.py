@@ -307,21 +307,15 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def interrupt_deferred() -> Iterator[None]:
-    """Defer Ctrl-C until the block ends; processes started in the block do not receive it until they ignore it."""
-    if threading.current_thread() is not threading.main_thread():
+    """Defer Ctrl-C until the block ends, but on Windows; processes started in the block never receive it."""
+    if sys.platform == "win32":
         yield
         return
-    received: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
-    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        if sys.platform != "win32":
-            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
-        signal.signal(signal.SIGINT, before)
-        if received:
-            signal.raise_signal(signal.SIGINT)
+        signal.pthread_sigmask(signal.SIG_SETMASK, masked)
 
 
 # ---------------------------------------------------------------------------------------------------------- scheduler

@@ -47,10 +47,6 @@ class Memory:
         self._state = cache(state)  # many results may depend on the same file
         self._changed = False
 
-    def __bool__(self) -> bool:
-        """Return True if anything is remembered."""
-        return bool(self._entries)
-
     def key(self, *parts: str | bytes) -> str:
         """Return the key of a result from its inputs; two lists of parts have the same key only if they are equal."""
         digest = blake2b(self._start, digest_size=_KEY // 2)
@@ -63,8 +59,8 @@ class Memory:
     def get(self, key: str) -> Any:  # noqa: ANN401 - what JSON holds
         """Return the result; None if it is unknown, or if a file that it depends on has changed."""
         held = self._entries.get(key)
-        if not held:
-            return held if held is None else []
+        if held is None:
+            return None
         try:
             result, states = json.loads(held)
             for path in states:
@@ -86,7 +82,7 @@ class Memory:
             if changed_since(self._began, path):
                 return
             states[path] = self._state(path)
-        held = json.dumps([result, states], separators=(",", ":")) if result or states else ""
+        held = json.dumps([result, states], separators=(",", ":"))
         if len(held) <= LONGEST_REMEMBERED:
             self._entries[key] = held
             self._changed = True
