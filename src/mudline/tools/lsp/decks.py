@@ -15,7 +15,6 @@ from pygls.exceptions import JsonRpcException
 
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
-from mudline.basics.patterns import matches
 from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_context, read_deck
@@ -165,12 +164,10 @@ class Decks:
 
     def begun(self, document: OpenDocument) -> Analysis:
         """Return an analysis of a document in its present state, not read yet."""
-        configuration, settings = self._settings(document)
-        opened = [each for each in self.documents.values() if each.path]
-        unsaved = {str(each.path.absolute()): Unsaved(each.revision, each.text.encode) for each in opened if each.path}
-        exclude = configuration.words("exclude")
-        excluded = exclude and document.path and matches(configuration.relative(str(document.path)), exclude)
-        return Analysis(copy(document), settings, unsaved, bool(excluded))
+        settings, excluded = self._settings(document)
+        opened = ((each.path, each) for each in self.documents.values())
+        unsaved = {str(path.absolute()): Unsaved(each.revision, each.text.encode) for path, each in opened if path}
+        return Analysis(copy(document), settings, unsaved, excluded)
 
     def keep(self, analysis: Analysis) -> None:
         """Keep an analysis of an open document for its text."""
@@ -200,15 +197,17 @@ class Decks:
         analysis = self._analyses.get(uri)
         return analysis is not None and os.path.abspath(path) in analysis.looked_at  # noqa: PTH100 - as `look` records them
 
-    def _settings(self, document: OpenDocument) -> tuple[Configuration, LintSettings]:
-        """Return configuration and settings of a document; a faulty configuration is recorded and left out."""
-        if document.path is None:
-            return Configuration(), merged_settings(Configuration(), CallerSettings())
+    def _settings(self, document: OpenDocument) -> tuple[LintSettings, bool]:
+        """Return the settings of a document, and True if its configuration excludes it.
+
+        A faulty configuration is recorded and left out.
+        """
         try:
-            path = str(document.path)
-            return self._configured.configured.of(path), self._configured.of(path)
+            if document.path is not None:
+                path = str(document.path)
+                return self._configured.of(path), self._configured.configured.excludes(path)
         except (ConfigurationError, UnknownRule) as error:
             if str(error) not in self._shown:
                 self._shown.add(str(error))
                 self.faults.append(str(error))
-        return Configuration(), merged_settings(Configuration(), CallerSettings())
+        return merged_settings(Configuration(), CallerSettings()), False

@@ -15,7 +15,7 @@ import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.util import find_spec
 from ipaddress import ip_address
 from itertools import chain, islice
@@ -51,8 +51,6 @@ _SECONDS = {False: 0.2, True: 1.0}
 _FIRST = 4
 _TOGETHER = 500
 """Number of items sent together, before their pace is known and at most."""
-_COUNTED = 5.0
-"""Seconds after which the workers of a scheduler are counted again: their number changes."""
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for on Windows."""
 
@@ -85,18 +83,13 @@ class Pool:
     _stack: ExitStack
     _executor: Executor | None = None
     _client: Client | None = None
-    _threads: int = 1
-    _counted: float = field(default=0.0, init=False)
 
     @property
     def size(self) -> int:
-        """Number of items that may be in progress at a time."""
+        """Number of items that may be in progress at a time; that of a scheduler's workers changes."""
         if self.scheduler is None:
             return processors(self.jobs)
-        if self._client is not None and time.monotonic() - self._counted > _COUNTED:
-            self._threads = max(1, sum(self._client.nthreads().values()))
-            self._counted = time.monotonic()
-        return self._threads
+        return max(1, sum(self._client.nthreads().values())) if self._client else 1
 
     def submit(
         self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given] | None]
@@ -172,12 +165,13 @@ def many(
         waiting = deque[tuple[list[_Item], "Future[tuple[float, list[_Made | Crash | None]]]"]]()
         while True:
             pace = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
-            share = (count - number) / (2 * pool.size)
+            size = pool.size
+            share = (count - number) / (2 * size)
             part = list(islice(rest, max(1, min(int(pace), int(share), _TOGETHER))))
             number += len(part)
             if part:
                 waiting.append(([item for item, _ in part], pool.submit(work, [given for _, given in part])))
-            while waiting and (not part or len(waiting) > _AHEAD * pool.size):
+            while waiting and (not part or len(waiting) > _AHEAD * size):
                 sent, future = waiting.popleft()
                 seconds, results = pool.result(future)
                 spent, done = spent + seconds, done + len(results)
