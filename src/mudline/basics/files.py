@@ -86,6 +86,15 @@ def unsaved(path: Path) -> Unsaved | None:
     return files.get(os.path.abspath(path)) if files else None  # noqa: PTH100 - as in `look`
 
 
+def version_of(path: str) -> tuple[int, ...]:
+    """Return what changes with a file, its date and its size; nothing for a file that is not there."""
+    try:
+        status = os.stat(path)  # noqa: PTH116 - asked for many files
+    except (OSError, ValueError):  # a name that no file has
+        return ()
+    return status.st_mtime_ns, status.st_size
+
+
 def suffix_of(path: str | os.PathLike[str]) -> str:
     """Return the suffix of a file, which names its format, in lower case without the dot."""
     return PurePath(path).suffix.lower().removeprefix(".")

@@ -7,11 +7,11 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
-from stat import S_ISREG
 from typing import TYPE_CHECKING, NoReturn
 
 import click
 
+from mudline.basics.files import version_of
 from mudline.basics.overwriting import claim
 from mudline.checks.configuration import CallerSettings, ConfigurationError, Configured
 from mudline.checks.output import TEXT, form_names
@@ -150,8 +150,8 @@ WAIT = 0.3
 _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _PRINTED = (TEXT, "concise")
 
-State = dict[str, tuple[int, int]]
-"""Modification time of each file, in nanoseconds, and its size."""
+State = dict[str, tuple[int, ...]]
+"""What changes with each file."""
 
 
 def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None:
@@ -190,24 +190,15 @@ def wait_for_change(paths: Sequence[str], before: State) -> None:
 
 
 def state(paths: Sequence[str]) -> State:
-    """Return the state of the given files, of decks below folders and next to files, and of their configurations.
-
-    Missing and unreadable files are left out.
-    """
-    states: State = {}
-    for file in (*paths, *(file for path in paths for file in _near(path))):
-        try:
-            status = os.stat(file)  # noqa: PTH116 - asked for many files
-        except (OSError, ValueError):
-            continue
-        if S_ISREG(status.st_mode):
-            states[file] = (status.st_mtime_ns, status.st_size)
-    return states
+    """Return the state of the given files, of decks below folders and next to files, and of their configurations."""
+    return {file: version_of(file) for path in paths for file in _near(path)}
 
 
 def _near(given: str) -> Iterator[str]:
-    """Yield the decks and configurations in or below a folder, or next to a file; and the configurations above."""
+    """Yield the decks and configurations in or below a folder, or a file and those next to it; and those above."""
     folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
+    if folder != given:
+        yield given
     for place, folders, names in os.walk(folder):
         yield from (os.path.join(place, name) for name in names if is_deck(name) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files
         if folder != given:

@@ -19,7 +19,7 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
-from mudline.basics.files import write_atomically
+from mudline.basics.files import version_of, write_atomically
 from mudline.basics.installed import metadata_folders
 from mudline.basics.limits import LARGEST_MEMORY, LARGEST_NEIGHBOUR, LONGEST_REMEMBERED, MOST_MEMORIES, MOST_REMEMBERED
 from mudline.basics.overwriting import reading
@@ -152,12 +152,8 @@ def program() -> str:
 
 
 def _version(path: str) -> str:
-    """Return the identity of a file from its name, size and date."""
-    try:
-        status = os.stat(path)  # noqa: PTH116 - hundreds of files
-    except OSError:  # not there, or inside an archive
-        return path
-    return f"{path} {status.st_size} {status.st_mtime_ns}"
+    """Return the identity of a file from its name, date and size; those inside archives have none."""
+    return f"{path} {version_of(path)}"
 
 
 def state(path: str) -> str:
