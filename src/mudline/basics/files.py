@@ -134,8 +134,6 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
             yield stream
         return
     target = Path(os.path.realpath(path))
-    if target.is_symlink():
-        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
     old = target.stat() if target.exists() else None
@@ -216,23 +214,12 @@ def _sync_folder(folder: Path) -> None:
 
 
 def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:
-    """Give a new file the permissions of the old one, and its owner and group as far as this user may.
-
-    If owner or group cannot be set, setuid and setgid bits are dropped.
-    """
-    bits = old.st_mode & 0o7777
+    """Give a new file the permissions of the old one, and its owner and group as far as this user may."""
     if sys.platform != "win32":
-        new = os.fstat(handle)
-        if new.st_gid != old.st_gid:
+        for owner, group in ((-1, old.st_gid), (old.st_uid, -1)):
             with suppress(OSError):
-                os.fchown(handle, -1, old.st_gid)
-        if new.st_uid != old.st_uid:
-            with suppress(OSError):
-                os.fchown(handle, old.st_uid, -1)
-        new = os.fstat(handle)
-        if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
-            bits &= 0o1777
-    temporary.chmod(bits)
+                os.fchown(handle, owner, group)
+    temporary.chmod(old.st_mode & 0o777)
 
 
 # ------------------------------------------------------------------------------------------------- temporary files
@@ -251,8 +238,6 @@ def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
             if _locked(handle) is not False and path.exists():
                 return handle, path
             os.close(handle)
-        except FileExistsError:
-            continue
         except BaseException:
             with suppress(OSError):
                 path.unlink()
