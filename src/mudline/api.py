@@ -90,8 +90,7 @@ class Deck(TypedDeck):
             DeckError: a name, comment or raw line cannot be written in a keyword file.
         """
         file = given_path(path)
-        form = form_of(file.name)
-        write_atomically(file, keyword_file(self.alone) if form == KEYWORD else dump(self.alone, form).encode())
+        write_atomically(file, content_as(self, file.name))
 
     def scene(self) -> Scene:
         """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
@@ -421,6 +420,12 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
 def given_deck(deck: Deck | str | os.PathLike[str], name: str = "deck") -> Deck:
     """Return the deck passed as an argument, read from its file if the argument is a path."""
     return deck if isinstance(deck, Deck) else read(given_path(deck, name=name))
+
+
+def content_as(deck: Deck, name: str) -> bytes:
+    """Return the content of a deck's file in the form given by a file name."""
+    form = form_of(name)
+    return keyword_file(deck.alone) if form == KEYWORD else dump(deck.alone, form).encode()
 
 
 def public(deck: model.Deck) -> Deck:

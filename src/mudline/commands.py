@@ -11,14 +11,13 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal
 
-from mudline.api import Deck, decks_in, given_deck, given_rules, given_units, public
+from mudline.api import Deck, content_as, decks_in, given_deck, given_rules, given_units, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
 from mudline.checks.engine import naming_causes, read_deck
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
-from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.scene import model as scenes
 
@@ -99,7 +98,7 @@ def format(deck: GivenDeck) -> Deck:  # noqa: A001 - the name of the command
         ValueError: formatting would lose or change something; the message names it.
     """
     given = given_deck(deck)
-    return _again(given, formatted_file(_content(given), given.file))
+    return _again(given, formatted_file(content_as(given, given.file), given.file))
 
 
 def formatted_file(data: bytes, name: str) -> bytes:
@@ -136,7 +135,7 @@ def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = 
     expect(unsafe, "unsafe", bool, "True or False")
     settings = LintSettings(given_rules(select, ignore), fixing=Fixing.UNSAFE if unsafe else Fixing.SAFE)
     if isinstance(deck, Deck):
-        given, data = deck, _content(deck)
+        given, data = deck, content_as(deck, deck.file)
     else:
         path = given_path(deck, name="deck")
         given, data = Deck(path.as_posix(), path.name, folder=path.parent), path.read_bytes()
@@ -156,11 +155,11 @@ def migrate(deck: GivenDeck, *, verify: bool = False) -> Migrated:
     """
     expect(verify, "verify", bool, "True or False")
     given = given_deck(deck)
-    result = migrated(_again(given, _content(given)), verify=verify)
+    result = migrated(_again(given, content_as(given, given.file)), verify=verify)
     if result.verified and result.verified.differences:
         texts = "; ".join(f"{difference.what}: {difference.text}" for difference in result.verified.differences[:3])
         raise ValueError(f"old and new deck differ: {texts}")
-    return result if result.replaced else replace(result, content=_content(given))
+    return result if result.replaced else replace(result, content=content_as(given, given.file))
 
 
 def migrated(deck: Deck, *, verify: bool, among: Continuations | None = None) -> Migrated:
@@ -186,14 +185,8 @@ def expand(deck: GivenDeck) -> Iterator[tuple[str, Deck]]:
     from mudline.editing.variations.planning import plan  # noqa: PLC0415 - as above
 
     given = given_deck(deck)
-    planned = plan(_again(given, _content(given)))
+    planned = plan(_again(given, content_as(given, given.file)))
     return ((each.path, _again(given, planned.content(each), each.path)) for each in planned.decks)
-
-
-def _content(deck: Deck) -> bytes:
-    """Return the content of a deck's file as `Deck.write` would write it."""
-    form = form_of(deck.file)
-    return keyword_file(deck.alone) if form == KEYWORD else dump(deck.alone, form).encode()
 
 
 def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
@@ -434,7 +427,7 @@ def report(  # noqa: PLR0913 - as many as the command has options
     many = len(listed) > 1
     for each in listed:
         if isinstance(each, Deck):
-            inputs.append(content.DeckFile(_content(each), each.file, each.folder))
+            inputs.append(content.DeckFile(content_as(each, each.file), each.file, each.folder))
         else:
             place = given_path(each, "save it to a file", name="decks")
             inputs += [content.DeckFile(file.read_bytes(), file.as_posix(), file.parent) for file in decks_in(place)]

@@ -86,6 +86,15 @@ def unsaved(path: Path) -> Unsaved | None:
     return files.get(os.path.abspath(path)) if files else None  # noqa: PTH100 - as in `look`
 
 
+def version_of(path: str) -> tuple[int, ...]:
+    """Return what changes with a file, its date and its size; nothing for a file that is not there."""
+    try:
+        status = os.stat(path)  # noqa: PTH116 - asked for many files
+    except (OSError, ValueError):  # a name that no file has
+        return ()
+    return status.st_mtime_ns, status.st_size
+
+
 def suffix_of(path: str | os.PathLike[str]) -> str:
     """Return the suffix of a file, which names its format, in lower case without the dot."""
     return PurePath(path).suffix.lower().removeprefix(".")
@@ -125,8 +134,6 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
             yield stream
         return
     target = Path(os.path.realpath(path))
-    if target.is_symlink():
-        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
     old = target.stat() if target.exists() else None
@@ -207,23 +214,12 @@ def _sync_folder(folder: Path) -> None:
 
 
 def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:
-    """Give a new file the permissions of the old one, and its owner and group as far as this user may.
-
-    If owner or group cannot be set, setuid and setgid bits are dropped.
-    """
-    bits = old.st_mode & 0o7777
+    """Give a new file the permissions of the old one, and its owner and group as far as this user may."""
     if sys.platform != "win32":
-        new = os.fstat(handle)
-        if new.st_gid != old.st_gid:
+        for owner, group in ((-1, old.st_gid), (old.st_uid, -1)):
             with suppress(OSError):
-                os.fchown(handle, -1, old.st_gid)
-        if new.st_uid != old.st_uid:
-            with suppress(OSError):
-                os.fchown(handle, old.st_uid, -1)
-        new = os.fstat(handle)
-        if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
-            bits &= 0o1777
-    temporary.chmod(bits)
+                os.fchown(handle, owner, group)
+    temporary.chmod(old.st_mode & 0o777)
 
 
 # ------------------------------------------------------------------------------------------------- temporary files
@@ -242,8 +238,6 @@ def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
             if _locked(handle) is not False and path.exists():
                 return handle, path
             os.close(handle)
-        except FileExistsError:
-            continue
         except BaseException:
             with suppress(OSError):
                 path.unlink()

@@ -74,32 +74,25 @@ def equally_near(word: str, known: Collection[str], effort: Effort | None = None
 def edits(first: str, second: str, most: int) -> int:
     """Return how many letters to change, insert, drop or swap with a neighbour to turn `first` into `second`.
 
-    More than `most` edits count as `most` + 1. Only the diagonals within `most` of the main diagonal are computed:
-    letter j of `second` is at j - i + `most` in row i.
+    More than `most` edits count as `most` + 1. Row i of the table of distances is computed within `most` letters of i.
     """
     far = most + 1
     if abs(len(first) - len(second)) > most:
         return far
-    start = next((i for i, pair in enumerate(zip(first, second, strict=False)) if pair[0] != pair[1]), None)
-    if start is None:
-        return abs(len(first) - len(second))
+    pairs = enumerate(zip(first, second, strict=False))
+    start = next((i for i, (one, other) in pairs if one != other), min(len(first), len(second)))
     first, second = first[start:], second[start:]
-    width = 2 * most + 1
-    # A row has one more place, which is also the place before its first (index -1) and keeps the value `far`.
-    before: list[int] = []
-    row = [far] * most + list(range(far)) + [far]
+    two_before: list[int] = []
+    before = list(range(len(second) + 1))
     for i, letter in enumerate(first, 1):
-        two_before, before, row = before, row, [far] * (width + 1)
-        for k in range(max(0, most - i), min(width, len(second) + most - i + 1)):
-            j = i + k - most
-            if j == 0:
-                row[k] = i
-                continue
+        row = [far] * len(before)
+        row[0] = i
+        for j in range(max(1, i - most), min(len(second), i + most) + 1):
             target = second[j - 1]
-            cost = min(before[k + 1] + 1, row[k - 1] + 1, before[k] + (letter != target))
+            row[j] = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (letter != target))
             if i > 1 and j > 1 and letter == second[j - 2] and first[i - 2] == target:
-                cost = min(cost, two_before[k] + 1)
-            row[k] = cost
+                row[j] = min(row[j], two_before[j - 2] + 1)
         if min(row) > most:
             return far
-    return min(row[len(second) - len(first) + most], far)
+        two_before, before = before, row
+    return min(before[-1], far)

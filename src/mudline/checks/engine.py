@@ -50,7 +50,6 @@ class LintSettings:
     units: the unit system of the decks; None for that of each file.
     dialect: the deck language that decks must keep to.
     severities: severities by code, which override those of the rules.
-    fail_on: the least severity of findings that fail a run.
     fixing: the fixes that are made.
     unfixable: codes whose fixes are never made.
     no_outside: decks may name no file outside of their project.
@@ -60,7 +59,6 @@ class LintSettings:
     units: str | None = None
     dialect: str = "mudline"
     severities: Mapping[str, Severity] = field(default_factory=dict)
-    fail_on: Severity = Severity.WARNING
     fixing: Fixing = Fixing.NONE
     unfixable: frozenset[str] = frozenset()
     no_outside: bool = False

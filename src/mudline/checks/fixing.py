@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -25,32 +25,10 @@ from mudline.checks.suppression import MARK
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import read_source
-from mudline.language.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity, Span
+from mudline.language.diagnostics import Diagnostic, FileReport, Problem, Repair, Severity, Span
 from mudline.language.syntax.edits import TextEdit, Undoing, edited_bytes, with_line_ends
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import LeafKind, SyntaxTree, parse
-
-
-@dataclass(frozen=True, slots=True)
-class FileReport:
-    """Outcome of linting and fixing one file.
-
-    file: name of the file.
-    found: findings in the content as it is after fixing, in their order.
-    fixed: findings that are gone.
-    changed: the new content, None if nothing was changed.
-    note: the reason why fixes were not made, or ""; a deck in JSON or YAML has none.
-    looked_at: the paths on which the findings depend, in addition to the content.
-    coverage: how many keywords were read.
-    """
-
-    file: str
-    found: tuple[Diagnostic, ...]
-    fixed: tuple[Diagnostic, ...] = ()
-    changed: bytes | None = None
-    note: str = ""
-    looked_at: tuple[str, ...] = ()
-    coverage: Coverage = field(default_factory=Coverage)
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:

@@ -24,7 +24,6 @@ def merged_settings(
     given: CallerSettings,
     hidden: tuple[str, ...] = (),
     *,
-    fail_on: str | None = None,
     fixing: Fixing = Fixing.NONE,
 ) -> LintSettings:
     """Return a configuration overridden by a caller's settings; raises UnknownRule.
@@ -50,7 +49,6 @@ def merged_settings(
         given.units,
         given.dialect or found.values.get("dialect", "mudline"),
         severities,
-        Severity(fail_on or found.fail_on),
         fixing,
         _unfixable(found),
         given.no_outside or bool(found.values.get(NO_OUTSIDE)),
@@ -73,7 +71,6 @@ class Settings:
 
     configured: Configured
     given: CallerSettings
-    fail_on: str | None = None
     fixing: Fixing = Fixing.NONE
     _made: dict[object, LintSettings] = field(default_factory=dict)
     _of_folder: dict[str, LintSettings] = field(default_factory=dict)
@@ -93,7 +90,7 @@ class Settings:
 
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
         """Return a configuration overridden by the caller's settings; `hidden` are codes that it ignores in a file."""
-        return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
+        return merged_settings(found, self.given, hidden, fixing=self.fixing)
 
 
 def nearest_settings() -> Settings:

@@ -64,7 +64,7 @@ def _headline(finding: Diagnostic, encoding: str) -> list[Part]:
 
 def excerpt(finding: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Line]:
     """Yield the source line with a mark under the fault; a long line is cut around it."""
-    line = _line_span(source, finding.line)
+    line = source.line_span(finding.line)
     number = str(finding.line)
     width = max(_NARROWEST_LINE, width - len(f" {number} | "))
     start = min(line.start + finding.column - 1, line.end)
@@ -82,17 +82,6 @@ def excerpt(finding: Diagnostic, source: Source, width: int, encoding: str = "ut
     marks = "^" * max(1, _cells(shown(start, min(end, piece.end))))
     yield [(f" {number} | ", "cyan"), left + shown(*piece) + right]
     yield [(f" {' ' * len(number)} | ", "cyan"), " " * before, (marks, STYLES[finding.severity])]
-
-
-def _line_span(source: Source, number: int) -> Span:
-    """Return the offsets of a line without its end: a line may be the whole of a large file, and is not copied."""
-    starts, text = source.line_starts, source.text
-    if number > len(starts):
-        return Span(len(text), len(text))
-    start, end = starts[number - 1], starts[number] if number < len(starts) else len(text)
-    while end > start and text[end - 1] in "\r\n":
-        end -= 1
-    return Span(start, end)
 
 
 def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Span:

@@ -48,7 +48,7 @@ def command(
     require("mudline index", "archive", "duckdb", "pyarrow")
     if "-" in decks.paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
-    settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
+    settings = checked_settings(config, CallerSettings(units=decks.units), isolated=isolated)
     inputs = decks.collect(is_in_any_form)
     from mudline.tools.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 

@@ -74,21 +74,19 @@ class Input(NamedTuple):
         return self._in_utf8(sys.stdin.buffer.read())
 
     def _in_utf8(self, data: bytes) -> bytes:
-        if not self.encoding or form_of(self.name) != "keyword":
-            return data
-        try:
-            return data.decode(self.encoding).encode()
-        except UnicodeError as error:
-            raise OSError(errno.EILSEQ, f"it is not in {self.encoding}: {error}") from error
+        return self._recoded(data, self.encoding, "utf-8", f"it is not in {self.encoding}")
 
     def own_bytes(self, content: bytes) -> bytes:
         """Return a content in the encoding of the file; raises OSError for a letter that the encoding lacks."""
+        return self._recoded(content, "utf-8", self.encoding, f"{self.encoding} lacks a letter of it")
+
+    def _recoded(self, data: bytes, before: str, after: str, fault: str) -> bytes:
         if not self.encoding or form_of(self.name) != "keyword":
-            return content
+            return data
         try:
-            return content.decode().encode(self.encoding)
+            return data.decode(before).encode(after)
         except UnicodeError as error:
-            raise OSError(errno.EILSEQ, f"{self.encoding} lacks a letter of it: {error}") from error
+            raise OSError(errno.EILSEQ, f"{fault}: {error}") from error
 
 
 @lru_cache(maxsize=64)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
-from stat import S_ISREG
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import click
 
+from mudline.basics.files import version_of
 from mudline.basics.overwriting import claim
 from mudline.checks.configuration import CallerSettings, ConfigurationError, Configured
 from mudline.checks.output import TEXT, form_names
@@ -19,10 +19,14 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import LintReport, complete, outputs
+from mudline.cli.lint_run import checked_settings, lint_files
 from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
+
+if TYPE_CHECKING:
+    from mudline.checks.settings import Settings
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
@@ -113,6 +117,9 @@ def command(
         claim(baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
 
+    def settings() -> Settings:
+        return checked_settings(config, given, fixing, isolated=isolated)
+
     def once() -> int:
         configured = Configured(config, isolated)
         skipped: list[str] | None = [] if view.verbose else None
@@ -120,27 +127,16 @@ def command(
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = LintReport(requested, view, statistics=statistics, aside=aside, fixing=fix or diff)
-        known = None if uncached or fix or diff else known_findings(inputs, given, configured)
-        if known is not None and known.whole and not (baseline or recording):
-            for file in inputs.files:
-                data, (findings, coverage) = known.known[file]
-                limit = Severity(fail_on or configured.of(file.path).fail_on)
-                report.add(file.name, data, [*findings], 0, limit)
-                report.coverage.add(coverage)
-            report.finish()
-            return max(inputs.code, FOUND if report.failing and not exit_zero else DONE)
-        from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not linted
-
-        settings = lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
+        report = LintReport(
+            requested, view, configured, fail_on, statistics=statistics, aside=aside, fixing=fix or diff
+        )
+        known = None if uncached or fix or diff else known_findings(given, configured)
         words = {"recording": recording, "diff": diff}
-        failing = lint_run.lint_files(inputs, settings, report, known, baseline, jobs=jobs, **words)
+        failing = lint_files(inputs, cache(settings), report, known, baseline, jobs=jobs, **words)
         return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 
     if watch:
-        from mudline.cli import lint_run  # noqa: PLC0415 - as above
-
-        lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
+        settings()
         refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, requested.form)
         watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
     return once()
@@ -154,8 +150,8 @@ WAIT = 0.3
 _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _PRINTED = (TEXT, "concise")
 
-State = dict[str, tuple[int, int]]
-"""Modification time of each file, in nanoseconds, and its size."""
+State = dict[str, tuple[int, ...]]
+"""What changes with each file."""
 
 
 def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None:
@@ -194,24 +190,15 @@ def wait_for_change(paths: Sequence[str], before: State) -> None:
 
 
 def state(paths: Sequence[str]) -> State:
-    """Return the state of the given files, of decks below folders and next to files, and of their configurations.
-
-    Missing and unreadable files are left out.
-    """
-    states: State = {}
-    for file in (*paths, *(file for path in paths for file in _near(path))):
-        try:
-            status = os.stat(file)  # noqa: PTH116 - asked for many files
-        except (OSError, ValueError):
-            continue
-        if S_ISREG(status.st_mode):
-            states[file] = (status.st_mtime_ns, status.st_size)
-    return states
+    """Return the state of the given files, of decks below folders and next to files, and of their configurations."""
+    return {file: version_of(file) for path in paths for file in _near(path)}
 
 
 def _near(given: str) -> Iterator[str]:
-    """Yield the decks and configurations in or below a folder, or next to a file; and the configurations above."""
+    """Yield the decks and configurations in or below a folder, or a file and those next to it; and those above."""
     folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
+    if folder != given:
+        yield given
     for place, folders, names in os.walk(folder):
         yield from (os.path.join(place, name) for name in names if is_deck(name) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files
         if folder != given:

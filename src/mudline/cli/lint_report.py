@@ -14,9 +14,11 @@ import click
 from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
 from mudline.basics.version import __version__
+from mudline.checks.configuration import Configured
 from mudline.checks.output import TEXT, form, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.finding_lines import print_findings, print_summary
+from mudline.cli.inputs import Input
 from mudline.cli.streams import counted, emit, notify, say, write_text
 from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
@@ -63,6 +65,8 @@ class LintReport:
 
     outputs: Outputs
     view: View
+    configured: Configured
+    fail_on: str | None
     _: KW_ONLY
     statistics: bool
     aside: bool
@@ -74,12 +78,11 @@ class LintReport:
     failing: bool = False
     coverage: Coverage = field(default_factory=Coverage)
 
-    def add(self, name: str, data: bytes, findings: list[Diagnostic], fixed: int, limit: Severity) -> None:
+    def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
         self.files += 1
-        # Text output does not need the names of files, of which there may be very many.
-        if self.aside or self.view.quiet or self.outputs.form != TEXT or self.outputs.files:
-            self.names.append(name)
+        name, limit = file.name, Severity(self.fail_on or self.configured.of(file.path or file.name).fail_on)
+        self.names.append(name)
         self.found += findings
         self.fixed += fixed
         self.failing = self.failing or any(finding.severity.rank >= limit.rank for finding in findings)
@@ -95,14 +98,15 @@ class LintReport:
         findings = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
         for name, path in self.outputs.files:
             write_text(path, self._in_form(name, findings))
+        printed = "concise" if self.outputs.form == TEXT else self.outputs.form
+        pieces = statistics_lines(findings) if self.statistics else self._in_form(printed, findings)
         if self.aside:
-            self._print_aside(findings)
-        elif self.statistics:
-            emit(statistics_lines(findings))
-        elif self.outputs.form != TEXT:
-            emit(self._in_form(self.outputs.form, findings))
-        elif self.view.quiet:
-            emit(self._in_form("concise", findings))
+            for piece in pieces:
+                click.echo(piece, err=True, nl=False)
+            if self.fixing and not self.view.quiet and printed == "concise":
+                click.echo(self._fixed_summary(findings), err=True)
+        elif self.statistics or self.view.quiet or self.outputs.form != TEXT:
+            emit(pieces)
         elif self.files:
             self._summary(findings)
 
@@ -111,14 +115,7 @@ class LintReport:
             from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
 
             rules()
-        return form(name, self.names, __version__)(findings)
-
-    def _print_aside(self, findings: list[Diagnostic]) -> None:
-        name = "concise" if self.outputs.form == TEXT else self.outputs.form
-        for piece in statistics_lines(findings) if self.statistics else self._in_form(name, findings):
-            click.echo(piece, err=True, nl=False)
-        if self.fixing and not self.view.quiet and name == "concise":
-            click.echo(self._fixed_summary(findings), err=True)
+        yield from form(name, self.names, __version__)(findings)
 
     def _summary(self, findings: list[Diagnostic]) -> None:
         if self.fixing and (self.fixed or findings):

@@ -38,19 +38,19 @@ def many_files(
     processes as soon as the command ends. Raises RunError.
     """
 
-    def items() -> Iterator[tuple[tuple[Input, list[_Item]], tuple[*_Given] | None]]:
+    def items() -> Iterator[tuple[tuple[Input, _Item], tuple[*_Given] | None]]:
         for file in inputs.files:
             try:
                 item, given = prepared(file)
             except OSError as error:
                 progress.hide()
                 inputs.unreadable(file, error)
-                yield (file, []), None
+                progress.advance()
             else:
-                yield (file, [item]), given
+                yield (file, item), given
 
     with progress, closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results:
-        for (file, items_found), result in results:
+        for (file, item), result in results:
             if isinstance(result, Crash):
                 progress.hide()
                 inputs.undone[file] = f"internal error: {result.summary}"
@@ -58,7 +58,7 @@ def many_files(
                 if progress.view.verbose:
                     notify(result.traceback)
             else:
-                yield from ((item, result) for item in items_found)
+                yield item, result
             progress.advance()
 
 

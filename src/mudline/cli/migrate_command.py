@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 
@@ -58,69 +57,62 @@ def command(*, decks: GivenDecks, output: str | None, diff: bool, proved: bool, 
     for file, data, made in each_deck(inputs, work, progress):
         progress.hide()
         given = file.path if output is None else output
-        target = _Target(inputs, file, data, None if given is None else Path(given), view)
-        code = max(code, FOUND if made is None else target.take(*made, diff=diff))
+        path = None if given is None else Path(given)
+        code = max(code, FOUND if made is None else _deliver(inputs, file, data, *made, path, view=view, diff=diff))
     return max(inputs.code, code)
 
 
-class _Target(NamedTuple):
-    """A deck of a run, and the file to which it is written; `path` None is standard output."""
-
-    inputs: Inputs
-    file: Input
-    data: bytes
-    path: Path | None
-    view: View
-
-    def take(self, result: Migrated, content: bytes, *, diff: bool) -> int:
-        """Print or write the result, and return the exit code."""
-        in_place = self.path is not None and self.path == Path(self.file.path or "")
-        if not result.replaced:
-            self.view.note(f"{self.file.name}: no legacy seabed keyword")
-            if diff or in_place:
-                return DONE
-        elif result.verified and not self._proved(result.verified):
-            return FOUND
-        if diff:
-            print_changes(self.data, content, self.file.name, self.view)
-            for name, data in result.files.items():
-                print_changes(b"", data, Path(self.file.name).with_name(name).as_posix(), self.view, created=True)
+def _deliver(
+    inputs: Inputs, file: Input, old: bytes, result: Migrated, new: bytes, path: Path | None, *, view: View, diff: bool
+) -> int:
+    """Print a migrated deck, or write it to a file, None for standard output; return the exit code."""
+    in_place = path is not None and path == Path(file.path or "")
+    if not result.replaced:
+        view.note(f"{file.name}: no legacy seabed keyword")
+        if diff or in_place:
             return DONE
-        if self.path is None:
-            if result.files:
-                why = "its profile needs a file of its own, and standard input has no folder"
-                notify(f"{self.file.name}: left unchanged: {why}: give the deck as a file")
-                return FOUND
-            emit_deck(content)
-            return DONE
-        beside = {self.path.with_name(name): data for name, data in result.files.items()}
-        for path, data in beside.items():
-            write_bytes(path, data)
-        if not in_place:
-            write_bytes(self.path, content)
-        elif not self.inputs.replaced(self.file, self.data, content):
-            for path in beside:
-                path.unlink(missing_ok=True)
-            return WRONG_USAGE
-        if result.replaced:
-            replaced = ", ".join(f"{count} *{keyword}" for keyword, count in result.replaced.items())
-            self.view.note(
-                f"{self.file.name}: {replaced} -> {', '.join(path.as_posix() for path in (self.path, *beside))}"
-            )
+    elif result.verified and not _proved(file.name, result.verified, view):
+        return FOUND
+    if diff:
+        print_changes(old, new, file.name, view)
+        for name, data in result.files.items():
+            print_changes(b"", data, Path(file.name).with_name(name).as_posix(), view, created=True)
         return DONE
+    if path is None:
+        if result.files:
+            why = "its profile needs a file of its own, and standard input has no folder"
+            notify(f"{file.name}: left unchanged: {why}: give the deck as a file")
+            return FOUND
+        emit_deck(new)
+        return DONE
+    beside = {path.with_name(name): data for name, data in result.files.items()}
+    for each, data in beside.items():
+        write_bytes(each, data)
+    if not in_place:
+        write_bytes(path, new)
+    elif not inputs.replaced(file, old, new):
+        for each in beside:
+            each.unlink(missing_ok=True)
+        return WRONG_USAGE
+    if result.replaced:
+        replaced = ", ".join(f"{count} *{keyword}" for keyword, count in result.replaced.items())
+        view.note(f"{file.name}: {replaced} -> {', '.join(each.as_posix() for each in (path, *beside))}")
+    return DONE
 
-    def _proved(self, verdict: Verification) -> bool:
-        for difference in verdict.differences[:SHOWN_ROWS]:
-            notify(f"{self.file.name}: {difference.what}: {difference.text}")
-        if verdict.differences:
-            count = counted(len(verdict.differences), "difference")
-            notify(f"{self.file.name}: left unchanged: {count} between the old deck and the new one")
-        else:
-            given = verdict.representatives
-            more = f", and {given} representative elements for its sets" if given else ""
-            self.view.note(
-                f"{self.file.name}: verified: {counted(verdict.elements, 'element')} of "
-                f"{counted(verdict.kinds, 'kind')}{more}, at {verdict.positions} positions: forces, stiffnesses, "
-                "friction, lateral resistance, suction and seabed are bitwise equal"
-            )
-        return not verdict.differences
+
+def _proved(name: str, verdict: Verification, view: View) -> bool:
+    """Report the verification of a deck; return True if old and new deck agree."""
+    for difference in verdict.differences[:SHOWN_ROWS]:
+        notify(f"{name}: {difference.what}: {difference.text}")
+    if verdict.differences:
+        count = counted(len(verdict.differences), "difference")
+        notify(f"{name}: left unchanged: {count} between the old deck and the new one")
+    else:
+        given = verdict.representatives
+        more = f", and {given} representative elements for its sets" if given else ""
+        view.note(
+            f"{name}: verified: {counted(verdict.elements, 'element')} of "
+            f"{counted(verdict.kinds, 'kind')}{more}, at {verdict.positions} positions: forces, stiffnesses, "
+            "friction, lateral resistance, suction and seabed are bitwise equal"
+        )
+    return not verdict.differences

@@ -82,7 +82,7 @@ def command(
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
     if html:
         require("report", "report", "jinja2", "matplotlib")
-    settings = checked_settings(config, CallerSettings(units=decks.units), "none", isolated=isolated, fail_on=None)
+    settings = checked_settings(config, CallerSettings(units=decks.units), isolated=isolated)
     inputs = decks.collect(is_in_any_form)
     for path in filter(None, (template, logo)) if html else ():
         reading(path)

@@ -9,7 +9,6 @@ from lsprotocol import types
 
 from mudline.language.diagnostics import Span
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.language.syntax.source import Source
 from mudline.tools.lsp.documents import OpenDocument, characters_of, file_of, units_of
 
 ENCODINGS = ["utf-8", "utf-16", "utf-32"]
@@ -50,12 +49,6 @@ def test_a_place_beyond_the_text_stands_at_its_end(line: int, character: int) ->
     assert made.position(offset).line <= line
 
 
-def test_lines_of_a_long_text_are_found_with_arrays() -> None:
-    piece = "ab\r\nc\rd\n\n\r\r\nä😋\n"
-    text = piece * 150_000
-    assert document(text).starts.tolist() == list(Source("deck", text).line_starts)
-
-
 @given(LETTERS, st.lists(st.tuples(st.integers(0, 12), st.integers(0, 12), LETTERS), max_size=4))
 def test_changes_keep_lines_and_text(text: str, changes: list[tuple[int, int, str]]) -> None:
     made = document(text)
@@ -66,7 +59,7 @@ def test_changes_keep_lines_and_text(text: str, changes: list[tuple[int, int, st
         expected = made.text[:start] + new + made.text[end:]
         made.change(types.Range(range_.end, range_.start) if first > last else range_, new)
         assert made.text == expected
-        assert made.starts.tolist() == document(expected).starts.tolist()
+        assert made.source.line_starts == document(expected).source.line_starts
 
 
 @given(st.lists(LETTERS), st.lists(LETTERS))

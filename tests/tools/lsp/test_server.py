@@ -140,7 +140,7 @@ def test_a_text_beyond_the_limit_is_not_checked(monkeypatch: pytest.MonkeyPatch)
     found = decks.analysis("untitled:deck")
     assert found is not None
     assert found.document.is_too_large
-    assert (found.deck, found.found) == (None, ())
+    assert (found.context, found.found) == (None, ())
 
 
 # ------------------------------------------------------------------------------------- position encodings, and the end
@@ -252,12 +252,10 @@ def test_a_refusal_that_has_no_address_is_no_fault_of_the_server(client: RawClie
     [
         b"Content-Length: -5\r\n\r\n",
         b"Content-Length: abc\r\n\r\n",
-        b"Content-Length: " + b"9" * 5000 + b"\r\n\r\n",
-        b"content-length:" + b"9" * 20 + b"\r\n\r\n",
         b"Foo: bar\r\n\r\n",
         b"x" * 1_000_000 + b"\r\n\r\n",
     ],
-    ids=["negative", "word", "digits", "large", "none", "noise"],
+    ids=["negative", "word", "none", "noise"],
 )
 def test_headers_that_no_editor_sends(client: RawClient, header: bytes) -> None:
     client.write(header)

@@ -59,8 +59,7 @@ def items(count: int, taken: list[int]) -> Iterator[tuple[int, tuple[int] | None
 
 
 @pytest.mark.usefixtures("eager")
-def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_TOGETHER", 5)
+def test_results_are_in_order_and_few_are_taken_ahead() -> None:
     taken: list[int] = []
     used = set()
     with closing(many(squared, items(200, taken), 200, 2)) as results:
@@ -71,7 +70,7 @@ def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.Monkey
             if made is not None:
                 assert made[0] == number * number
                 used.add(made[1])
-            assert len(taken) - done <= 5 * (executors._AHEAD * 2 + 2)
+            assert len(taken) - done <= executors._AHEAD * 2 + 2
     assert os.getpid() in used
     assert len(used) > 1
     assert multiprocessing.active_children() == []
@@ -108,8 +107,7 @@ def sleep(seconds: float) -> None:
 
 
 @pytest.mark.usefixtures("eager")
-def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_TOGETHER", 1)
+def test_processes_end_at_once_with_the_block() -> None:
     results = many(sleep, ((number, (1000.0 * (number > 1),)) for number in range(9)), 9, 2)
     with pytest.raises(KeyboardInterrupt), closing(results):  # noqa: PT012 - what is under way is ended
         for number, _ in results:
@@ -199,4 +197,4 @@ def test_what_goes_wrong_at_a_scheduler_is_named(error: BaseException, why: str)
 
 def test_a_worker_of_another_version_is_named() -> None:
     with pytest.raises(RunError, match=r"a worker has mudline .*, the command 9\.9: install the same version"):
-        executors._done("9.9", squared, [(1,)])
+        executors._done("9.9", squared, (1,))

@@ -132,7 +132,7 @@ def test_working_folders_have_memories_of_their_own(tmp_path: Path, monkeypatch:
         monkeypatch.chdir(tmp_path / name)
         memory = of_working_folder("lint", "")
         assert memory is not None
-        assert not memory
+        assert memory.get(memory.key("a")) is None
         memory.put(memory.key("a"), [])
         memory.save()
     assert len(list((tmp_path / "cache").iterdir())) == 2

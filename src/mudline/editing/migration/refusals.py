@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from mudline.basics.files import recording_looks
+from mudline.basics.files import recording_looks, version_of
 from mudline.basics.limits import LARGEST_NEIGHBOUR
 from mudline.language.codes import MIG001
 from mudline.language.deck.forms import SUFFIXES
@@ -188,9 +187,9 @@ class Continuations:
 
     def _visit(self, file: Path) -> None:
         states = self._states.get(file)
-        if states and all(_state(path) == before for path, before in states.items()):
+        if states and all(version_of(path) == before for path, before in states.items()):
             return
-        states = {str(file): _state(str(file))}
+        states = {str(file): version_of(str(file))}
         self._found.pop(file, None)
         with recording_looks() as looks, suppress(OSError, DeckError):  # an unreadable deck continues nothing
             if file.stat().st_size <= LARGEST_NEIGHBOUR and b"RESTART" in file.read_bytes().upper():
@@ -198,16 +197,7 @@ class Continuations:
                 if keywords := deck.keywords():
                     seabed = bool(keywords & _NEWER) or any(map(is_superseded, keywords))
                     self._found[file] = [base.resolve() for base in decks_before(deck)], seabed
-        self._states[file] = states | {path: _state(path) for path in looks}
-
-
-def _state(path: str) -> tuple[int, ...]:
-    """Return what changes with a file; nothing for a file that is not there."""
-    try:
-        status = os.stat(path)  # noqa: PTH116 - asked for many files
-    except (OSError, ValueError):
-        return ()
-    return status.st_ino, status.st_mtime_ns, status.st_size
+        self._states[file] = states | {path: version_of(path) for path in looks}
 
 
 def continuations_beside(deck: Deck, among: Continuations | None = None) -> tuple[list[str], bool]:

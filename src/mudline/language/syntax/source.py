@@ -7,6 +7,7 @@ from array import array
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 
 from mudline.basics.limits import LARGEST_DECK, LONGEST_LINE, MOST_LINES, MOST_WORDED
 from mudline.basics.short_repr import short_repr
@@ -119,11 +120,21 @@ class Source:
         """Return the offset of a line and column, both from 1."""
         return self.line_starts[line - 1] + column - 1
 
+    def line_span(self, number: int) -> Span:
+        """Return the span of a line (from 1) without its end; an empty one at the end of the text beyond it."""
+        starts, text = self.line_starts, self.text
+        start, end = (starts[at] if at < len(starts) else len(text) for at in (number - 1, number))
+        while end > start and text[end - 1] in "\r\n":
+            end -= 1
+        return Span(start, end)
+
     def line(self, number: int) -> str:
         """Return the text of a line (from 1) without its end."""
-        start = self.line_starts[number - 1]
-        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
-        return self.text[start:end].rstrip("\r\n")
+        return self.text[slice(*self.line_span(number))]
+
+    def lines(self) -> list[str]:
+        """Return all lines with their ends."""
+        return [self.text[start:end] for start, end in pairwise([*self.line_starts, len(self.text)])]
 
 
 def _ended(text: str) -> str:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TypeVar
+from itertools import islice
 
 from lsprotocol import types
 
@@ -21,8 +21,6 @@ from mudline.language.syntax.tree import LeafKind
 from mudline.tools.lsp.decks import Analysis, value_text
 from mudline.tools.lsp.help import field_help, keyword_help, section_help
 from mudline.tools.lsp.sites import Spot, slot_of_key, spot
-
-T = TypeVar("T")
 
 TRIGGERS = ["$", "*", "=", "[", ",", "{", "%"]
 _HEAD = re.compile(r"[ \t]*([$*])[^\r\n]*$")
@@ -57,7 +55,7 @@ def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[type
     if origin is None:
         return []
     document = analysis.document
-    line = document.line_span(document.line_at(offset))
+    line = document.source.line_span(document.line_at(offset) + 1)
     here = spot(origin.tree, max(line.start - 1, 0))
     cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
@@ -150,8 +148,8 @@ def snippet(declared: type[Block]) -> str:
 
 def _in_equation(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
     parameters = cursor.analysis.parameters
-    for key, definition in parameters.definitions.items() if parameters else ():
-        value = value_text(parameters.values[key]) if parameters and key in parameters.values else "no value"
+    for key, definition in parameters.definitions.items():
+        value = value_text(parameters.values[key]) if key in parameters.values else "no value"
         yield cursor.item(definition.name, types.CompletionItemKind.Variable, definition.name, start, f"= {value}")
     for name, form in {**FUNCTIONS, **FORMS}.items():
         yield cursor.item(name, types.CompletionItemKind.Function, f"{name}(", start, form.meaning)
@@ -188,7 +186,9 @@ def _settings(cursor: _Cursor, declared: type[Block], start: int, *, inline: boo
         slot = slot_of_key(declared, key)
         if slot is not None and (not inline or (isinstance(slot.about, Setting) and slot.about.inline)):
             item = cursor.item(f"{key}=", types.CompletionItemKind.Property, f"{key}=", start, slot.about.meaning)
-            item.documentation = types.MarkupContent(types.MarkupKind.Markdown, field_help(slot, cursor.analysis.units))
+            item.documentation = types.MarkupContent(
+                types.MarkupKind.Markdown, field_help(slot, cursor.analysis.deck.units)
+            )
             item.sort_text = f" {key}"
             yield item
 
@@ -197,26 +197,19 @@ def _values(cursor: _Cursor, slot: FieldSpec, start: int) -> Iterator[types.Comp
     for choice in slot.choices:
         yield cursor.item(choice, types.CompletionItemKind.EnumMember, choice, start)
     kind = types.CompletionItemKind.Reference
-    yield from (cursor.item(name, kind, name, start, detail) for name, detail in _named(cursor, slot.about.names))
+    for name, detail in islice(_named(cursor, slot.about.names), MOST_OFFERED):
+        yield cursor.item(name, kind, name, start, detail)
 
 
 def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
     """Yield the names allowed in a field, each with a description."""
-    scene, parameters = cursor.analysis.scene, cursor.analysis.parameters
-    if scene is None or parameters is None:
-        return
+    scene, path = cursor.analysis.scene, cursor.analysis.document.path
     if kind in (Names.SET, Names.SETS, Names.SUBSET):
-        yield from ((each.name, f"{len(each.elements)} elements") for each in _first(scene.set_table.named.values()))
+        yield from ((each.name, f"{len(each.elements)} elements") for each in scene.set_table.named.values())
     elif kind is Names.CURVE:
         curves = (each for each in scene.laws.curves if not each.embedment and each.name)
-        yield from ((each.name, f"{len(each.points)} points") for each in _first(curves))
+        yield from ((each.name, f"{len(each.points)} points") for each in curves)
     elif kind is Names.PARAMETER:
-        yield from ((each.name, "") for each in _first(parameters.definitions.values()))
-    elif kind in (Names.FILE, Names.DECK) and cursor.analysis.document.path:
-        folder = cursor.analysis.document.path.parent
-        files = (path for path in sorted(folder.iterdir()) if path != cursor.analysis.document.path)
-        yield from ((path.name, "") for path in _first(path for path in files if path.is_file()))
-
-
-def _first(names: Iterable[T]) -> Iterator[T]:
-    yield from (name for _, name in zip(range(MOST_OFFERED), names, strict=False))
+        yield from ((each.name, "") for each in cursor.analysis.parameters.definitions.values())
+    elif kind in (Names.FILE, Names.DECK) and path:
+        yield from ((other.name, "") for other in sorted(path.parent.iterdir()) if other != path and other.is_file())

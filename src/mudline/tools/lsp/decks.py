@@ -15,7 +15,6 @@ from pygls.exceptions import JsonRpcException
 
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
-from mudline.basics.patterns import matches
 from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_context, read_deck
@@ -57,8 +56,8 @@ class Analysis:
         settings: settings of the check.
         unsaved: texts of all open decks.
         excluded: True if the configuration excludes the document.
-        deck: the deck; None until it is read, and for a text that is not a deck or too large.
-        context: context of the rules, likewise.
+        deck: the deck; empty until it is read, and for a text that is not a deck or too large.
+        context: context of the rules; None as long as the deck is empty for that reason.
         found: findings; empty until the deck is checked.
         looked_at: files that the findings depend on.
     """
@@ -67,7 +66,7 @@ class Analysis:
     settings: LintSettings
     unsaved: Mapping[str, Unsaved]
     excluded: bool = False
-    deck: Deck | None = None
+    deck: Deck = field(default_factory=lambda: Deck(""))
     context: LintContext | None = None
     found: tuple[Diagnostic, ...] = ()
     looked_at: frozenset[str] = frozenset()
@@ -106,35 +105,28 @@ class Analysis:
         return self.context.text if self.context else None
 
     @cached_property
-    def scene(self) -> Scene | None:
+    def scene(self) -> Scene:
         """Scene, as far as it can be resolved."""
         with self.reading():
-            return self.context.scene if self.context else None
+            return (self.context or LintContext(self.deck)).scene
 
     @cached_property
     def names(self) -> list[Occurrence]:
         """Places where a set, a curve or a parameter is named."""
-        return occurrences(self.deck) if self.deck else []
+        return occurrences(self.deck)
 
     @cached_property
-    def parameters(self) -> Parameters | None:
+    def parameters(self) -> Parameters:
         """Evaluated parameters."""
-        return Parameters(self.deck) if self.deck else None
+        return Parameters(self.deck)
 
     def evaluated(self, equation: Equation) -> str:
         """Return the value of an equation in words, or why it has none."""
-        if self.parameters is None:
-            return ""
         try:
             value = self.parameters.evaluate(equation, Where())
         except NoValueError as reason:
             return f"no value: {reason}" if reason.problem else "no value: a parameter in it has none"
         return value_text(value)
-
-    @property
-    def units(self) -> str:
-        """Unit system of the deck."""
-        return self.deck.units if self.deck else "user"
 
 
 @dataclass
@@ -172,12 +164,10 @@ class Decks:
 
     def begun(self, document: OpenDocument) -> Analysis:
         """Return an analysis of a document in its present state, not read yet."""
-        configuration, settings = self._settings(document)
-        opened = [each for each in self.documents.values() if each.path]
-        unsaved = {str(each.path.absolute()): Unsaved(each.revision, each.text.encode) for each in opened if each.path}
-        exclude = configuration.words("exclude")
-        excluded = exclude and document.path and matches(configuration.relative(str(document.path)), exclude)
-        return Analysis(copy(document), settings, unsaved, bool(excluded))
+        settings, excluded = self._settings(document)
+        opened = ((each.path, each) for each in self.documents.values())
+        unsaved = {str(path.absolute()): Unsaved(each.revision, each.text.encode) for path, each in opened if path}
+        return Analysis(copy(document), settings, unsaved, excluded)
 
     def keep(self, analysis: Analysis) -> None:
         """Keep an analysis of an open document for its text."""
@@ -207,15 +197,17 @@ class Decks:
         analysis = self._analyses.get(uri)
         return analysis is not None and os.path.abspath(path) in analysis.looked_at  # noqa: PTH100 - as `look` records them
 
-    def _settings(self, document: OpenDocument) -> tuple[Configuration, LintSettings]:
-        """Return configuration and settings of a document; a faulty configuration is recorded and left out."""
-        if document.path is None:
-            return Configuration(), merged_settings(Configuration(), CallerSettings())
+    def _settings(self, document: OpenDocument) -> tuple[LintSettings, bool]:
+        """Return the settings of a document, and True if its configuration excludes it.
+
+        A faulty configuration is recorded and left out.
+        """
         try:
-            path = str(document.path)
-            return self._configured.configured.of(path), self._configured.of(path)
+            if document.path is not None:
+                path = str(document.path)
+                return self._configured.of(path), self._configured.configured.excludes(path)
         except (ConfigurationError, UnknownRule) as error:
             if str(error) not in self._shown:
                 self._shown.add(str(error))
                 self.faults.append(str(error))
-        return Configuration(), merged_settings(Configuration(), CallerSettings())
+        return merged_settings(Configuration(), CallerSettings()), False

@@ -5,18 +5,16 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable
-from itertools import count, pairwise, takewhile
+from itertools import count, takewhile
 from pathlib import Path
 
-import numpy as np
 from lsprotocol import types
-from numpy.typing import NDArray
 from pygls.uris import from_fs_path, to_fs_path
 
 from mudline.basics.limits import LARGEST_AT_ONCE, LARGEST_OPEN
 from mudline.language.diagnostics import Span
+from mudline.language.syntax.source import Source
 
-_LINE_END = re.compile(r"\r\n?|\n")
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _BOM = "\ufeff"
 _REVISIONS = count(1)
@@ -25,11 +23,6 @@ _REVISIONS = count(1)
 def _valid(text: str) -> str:
     """Return a text in which halves of UTF-16 pairs, which no file can hold, are replacement characters."""
     return text if text.isascii() else _SURROGATE.sub("\ufffd", text)
-
-
-def _ends(text: str) -> NDArray[np.int64]:
-    """Return the offset after each line end."""
-    return np.fromiter((match.end() for match in _LINE_END.finditer(text)), np.int64)
 
 
 def units_of(text: str, encoding: str) -> int:
@@ -77,25 +70,16 @@ class OpenDocument:
         """Replace the whole text."""
         text = _valid(text)
         self.marked = text.startswith(_BOM)
-        self.text = text[1:] if self.marked else text
-        self.starts: NDArray[np.int64] = np.concatenate([np.zeros(1, np.int64), _ends(self.text)])
-        self.revision = next(_REVISIONS)
+        self._take(text[1:] if self.marked else text)
 
     def change(self, range_: types.Range, text: str) -> None:
         """Replace a range by a text. A range that ends before it begins is reversed."""
         start, end = sorted((self.offset(range_.start), self.offset(range_.end)))
-        text = _valid(text)
-        starts = self.starts
-        first, last = self.line_at(max(start - 1, 0)), self.line_at(end)
-        begin = int(starts[first])
-        stop = int(starts[last + 1]) if last + 1 < len(starts) else len(self.text)
-        piece = self.text[begin:start] + text + self.text[end:stop]
-        ends = begin + _ends(piece)
-        if last + 1 < len(starts) and len(ends) and ends[-1] == begin + len(piece):
-            ends = ends[:-1]
-        behind = starts[last + 1 :] + (len(piece) - (stop - begin))
-        self.starts = np.concatenate([starts[: first + 1], ends, behind])
-        self.text = self.text[:begin] + piece + self.text[stop:]
+        self._take(self.text[:start] + _valid(text) + self.text[end:])
+
+    def _take(self, text: str) -> None:
+        self.text = text
+        self.source = Source(self.name, text)
         self.revision = next(_REVISIONS)
 
     def as_file(self) -> bytes:
@@ -116,27 +100,13 @@ class OpenDocument:
 
     def line_at(self, offset: int) -> int:
         """Return the line of an offset, from 0."""
-        return int(np.searchsorted(self.starts, offset, side="right")) - 1
-
-    def line(self, number: int) -> str:
-        """Return the text of a line (from 0) without its end; "" beyond the last line."""
-        if not 0 <= number < len(self.starts):
-            return ""
-        return self.text[slice(*self.line_span(number))]
-
-    def line_span(self, number: int) -> Span:
-        """Return the span of a line (from 0) without its end."""
-        start = int(self.starts[number])
-        end = int(self.starts[number + 1]) if number + 1 < len(self.starts) else len(self.text)
-        while end > start and self.text[end - 1] in "\r\n":
-            end -= 1
-        return Span(start, end)
+        return self.source.position(offset)[0] - 1
 
     def offset(self, position: types.Position) -> int:
         """Return the offset of a position; a position beyond a line or the text counts as its end."""
-        if position.line >= len(self.starts):
+        if position.line >= len(self.source.line_starts):
             return len(self.text)
-        span = self.line_span(position.line)
+        span = self.source.line_span(position.line + 1)
         units = position.character
         if position.line == 0 and self.marked:
             units -= units_of(_BOM, self.encoding)
@@ -145,11 +115,11 @@ class OpenDocument:
     def position(self, offset: int) -> types.Position:
         """Return the position of an offset."""
         offset = min(max(offset, 0), len(self.text))
-        line = self.line_at(offset)
-        units = units_of(self.text[int(self.starts[line]) : offset], self.encoding)
-        if line == 0 and self.marked:
+        line, column = self.source.position(offset)
+        units = units_of(self.text[offset - column + 1 : offset], self.encoding)
+        if line == 1 and self.marked:
             units += units_of(_BOM, self.encoding)
-        return types.Position(line, units)
+        return types.Position(line - 1, units)
 
     def range(self, span: Span) -> types.Range:
         """Return the range of a span."""
@@ -157,14 +127,13 @@ class OpenDocument:
 
     def point(self, line: int, column: int) -> int:
         """Return the offset of a line and column from 1, in characters, as diagnostics have them."""
-        number = min(max(line - 1, 0), len(self.starts) - 1)
-        return min(int(self.starts[number]) + column - 1, len(self.text))
+        return min(self.source.offset(min(line, len(self.source.line_starts)), column), len(self.text))
 
     # ----------------------------------------------------------------------------------------------------- edits
 
     def difference(self, content: bytes) -> list[types.TextEdit]:
         """Return the edit that gives a file's content: one change from the first to the last differing line."""
-        old, new = _lines(self.text), _lines(content.decode("utf-8-sig"))
+        old, new = self.source.lines(), Source(self.name, content.decode("utf-8-sig")).lines()
         first = _same(zip(old, new, strict=False))
         last = _same(zip(reversed(old[first:]), reversed(new[first:]), strict=False))
         start = sum(map(len, old[:first]))
@@ -177,12 +146,6 @@ class OpenDocument:
 def _same(pairs: Iterable[tuple[str, str]]) -> int:
     """Return the number of pairs of equal lines before the first unequal pair."""
     return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
-
-
-def _lines(text: str) -> list[str]:
-    """Return the lines of a text with their ends; `str.splitlines` knows more line ends than decks have."""
-    edges = [0, *(match.end() for match in _LINE_END.finditer(text)), len(text)]
-    return [text[start:end] for start, end in pairwise(edges)]
 
 
 # --------------------------------------------------------------------------------------------------------- addresses

@@ -107,7 +107,7 @@ def field_help(slot: FieldSpec, units: str) -> str:
 
 
 def _value_help(analysis: Analysis, value_site: Site) -> Iterator[str]:
-    yield field_help(value_site.slot, analysis.units)
+    yield field_help(value_site.slot, analysis.deck.units)
     value = value_site.value
     if isinstance(value, Equation):
         yield f"`{value}` = {analysis.evaluated(value)}"
@@ -135,8 +135,8 @@ def parameter_help(analysis: Analysis, named: Occurrence) -> str:
     """Return the value of a parameter and its definition."""
     parameters = analysis.parameters
     key = named.thing.key
-    definition = parameters.definitions.get(key) if parameters else None
-    if parameters is None or definition is None:
+    definition = parameters.definitions.get(key)
+    if definition is None:
         return f"parameter `{named.name}` is not defined"
     value = value_text(parameters.values[key]) if key in parameters.values else "no value"
     written = "" if isinstance(definition.value, float) else f"\n\n`{definition.value}`"
@@ -150,8 +150,6 @@ def named_help(analysis: Analysis, value_site: Site, name: str) -> str:
     """Return the help on a name in a field."""
     scene = analysis.scene
     kind = value_site.slot.about.names or value_site.slot.about.defines
-    if scene is None or analysis.deck is None:
-        return ""
     if kind in (Names.SET, Names.SUBSET):
         return set_help(scene, name)
     if kind is Names.CURVE:
@@ -207,7 +205,7 @@ def _with_unit(what: str, value: float, unit: str) -> str:
 def segment_help(analysis: Analysis, value_site: Site) -> str:
     """Return slope and stiffness of a curve on both sides of the point of a value."""
     path, scene = value_site.where.path, analysis.scene
-    if scene is None or len(path) < 4 or path[0] != "curves" or path[2] != "points":
+    if len(path) < 4 or path[0] != "curves" or path[2] != "points":
         return ""
     where, curves = value_site.where._replace(path=path[:2]), scene.laws.curves
     index, entry = next(((at, curve) for at, curve in enumerate(curves) if curve.where == where), (-1, None))
@@ -272,7 +270,7 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
 def number_help(analysis: Analysis, value_site: Site, value: float) -> str:
     """Return the help on the node or element whose number stands in a field."""
     kind, scene = value_site.slot.about.names or value_site.slot.about.defines, analysis.scene
-    if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
+    if kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
         return ""
     return "\n\n".join(_node(scene, int(value)) if kind is Names.NODE else _element(scene, int(value)))
 
@@ -317,7 +315,7 @@ def _element(scene: Scene, number: int) -> Iterator[str]:
 def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
     """Return the values of the equations in a range."""
     document = analysis.document
-    if analysis.origin is None or analysis.deck is None:
+    if analysis.origin is None:
         return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
     spans = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)

@@ -42,8 +42,6 @@ class Linked(NamedTuple):
 
 def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
     """Return a deck, the decks that it continues, and the open decks that continue it."""
-    if analysis.deck is None or analysis.scene is None:
-        return []
     linked = [Linked(analysis.document, analysis.deck)]
     for base in analysis.scene.deck.bases:
         if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
@@ -59,7 +57,7 @@ def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
     """Yield the open decks that continue a deck."""
     for uri in list(decks.documents):
         analysis = decks.analysis(uri)
-        if analysis is not None and analysis.deck is not None and analysis.document.path != path:
+        if analysis is not None and analysis.document.path != path:
             with analysis.reading():
                 if os.path.abspath(path) in map(os.path.abspath, decks_before(analysis.deck)):  # noqa: PTH100 - links stay
                     yield Linked(analysis.document, analysis.deck)
@@ -114,8 +112,7 @@ class Navigator:
 
     def _linked(self, thing: Thing | None = None) -> list[Linked]:
         """Return the decks in which an object is the same: a parameter belongs to its deck."""
-        own = thing is not None and thing.kind is Names.PARAMETER
-        if own and self.analysis.deck is not None:
+        if thing is not None and thing.kind is Names.PARAMETER:
             return [Linked(self.analysis.document, self.analysis.deck)]
         return chain(self.decks, self.analysis)
 
@@ -129,7 +126,7 @@ class Navigator:
     def _numbered(self, value: Site) -> list[types.Location]:
         """Return the definition of the node or element whose number stands in a field."""
         scene, kind = self.analysis.scene, value.slot.about.names or value.slot.about.defines
-        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value.value):
+        if kind not in (Names.NODE, Names.ELEMENT) or not is_label(value.value):
             return []
         table = scene.nodes if kind is Names.NODE else scene.table.numbered
         index = int(table.indices(np.array([value.value], dtype=np.int64))[0])
@@ -138,15 +135,14 @@ class Navigator:
         where = table.where(index)
         deck, where = scene.deck.base_of(where) or (self.analysis.deck, where)
         document = next((linked.document for linked in self._linked() if linked.deck is deck), None)
-        origin = deck.origin if deck else None
-        if document is None or not isinstance(origin, TextOrigin):
+        if document is None or not isinstance(deck.origin, TextOrigin):
             return []
-        span = origin.span(where.inside(0)) or origin.span(where)
+        span = deck.origin.span(where.inside(0)) or deck.origin.span(where)
         return [_location(document, span)] if span else []
 
-    def _file(self, kind: Names | None, deck: Deck | None, name: object) -> Path | None:
+    def _file(self, kind: Names | None, deck: Deck, name: object) -> Path | None:
         """Return the existing file that a name of a kind in a deck stands for, or None."""
-        if deck is None or not isinstance(name, str):
+        if not isinstance(name, str):
             return None
         if kind is Names.DECK:
             return find_deck(deck, name)
@@ -202,8 +198,7 @@ class Navigator:
             raise failed(f"a name has at most {LONGEST_NAME} characters, found {len(name)}")
         if old.kind is Names.PARAMETER and not _is_parameter(name):
             raise failed(f"{shown(name)} cannot be used in an equation: use letters, digits and _")
-        scene = self.analysis.scene
-        opaque = scene is not None and old.kind is Names.SET and scene.set_table.find(name) is not None
+        opaque = old.kind is Names.SET and self.analysis.scene.set_table.find(name) is not None
         if new != old and (opaque or new == Thing(Names.SET, ALL) or any(True for _ in self._named(new))):
             raise failed(f"{word} {shown(name)} is already defined: choose another name")
 

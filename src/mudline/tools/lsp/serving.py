@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import logging
-import re
 import sys
 from collections.abc import Callable
 from copy import copy
-from typing import Any, BinaryIO
+from typing import Any
 
 from lsprotocol import types
 
@@ -140,29 +138,11 @@ def quiet_logs() -> None:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
 
-_NO_LENGTH = re.compile(rb"content-length:\s*[0-9]{12}", re.IGNORECASE)
-
-
-class _GuardedInput(io.BufferedReader):
-    """Standard input that hides message lengths too large for memory, which would end the server."""
-
-    def readline(self, size: int | None = -1, /) -> bytes:
-        """Read a line of a header."""
-        line = super().readline(size)
-        return b"Length: too large\r\n" if _NO_LENGTH.match(line) else line
-
-
-def take_streams() -> tuple[BinaryIO, BinaryIO]:
-    """Return standard input and output for the protocol; other output goes to standard error from now on."""
-    streams = _GuardedInput(io.FileIO(sys.stdin.fileno(), closefd=False)), sys.stdout.buffer
-    sys.stdout = sys.stderr
-    return streams
-
-
 def serve() -> int:
     """Serve until the editor ends it; return 0 if the editor announced the end, as the protocol requires, else 1."""
     quiet_logs()
-    stdin, stdout = take_streams()
+    stdin, stdout = sys.stdin.buffer, sys.stdout.buffer
+    sys.stdout = sys.stderr  # what is printed must not come between the messages
     sys.setswitchinterval(_SWITCH)
     server = DeckServer()
     register(server)

@@ -77,29 +77,23 @@ class Site:
 def site(analysis: Analysis, offset: int) -> Site | None:
     """Return the value at an offset, also if its KEY= is there."""
     origin = analysis.origin
-    if origin is None or analysis.deck is None:
+    if origin is None:
         return None
     here = spot(origin.tree, offset)
-    block = _model(analysis, here)
     read = origin.read.get((here.section, here.block))
     leaf = leaf_at(here, offset)
-    if block is None or read is None or leaf is None or leaf.kind is LeafKind.COMMENT:
+    if read is None or leaf is None or leaf.kind is LeafKind.COMMENT:
+        return None
+    block = analysis.deck.sections[here.section].blocks[here.block]
+    if type(block) is Opaque:
         return None
     place = read.places.at(offset)
     if place is not None:
         path, span = place
-        slot, value = block.at(path)
+        slot, value = cast("Block", block).at(path)
         if slot is not None and not isinstance(value, Part | list):
             return Site(here.where.inside(*path), span, slot, value)
     return _of_key(origin, here, leaf, offset)
-
-
-def _model(analysis: Analysis, here: Spot) -> Block | None:
-    if here.raw is None or analysis.deck is None or here.section >= len(analysis.deck.sections):
-        return None
-    blocks = analysis.deck.sections[here.section].blocks
-    block = blocks[here.block] if here.block < len(blocks) else None
-    return None if block is None or type(block) is Opaque else cast("Block", block)
 
 
 def _of_key(origin: TextOrigin, here: Spot, leaf: Leaf, offset: int) -> Site | None:

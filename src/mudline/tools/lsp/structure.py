@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import islice
+from itertools import groupby, islice
 from typing import cast
 
 from lsprotocol import types
@@ -17,7 +17,7 @@ from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
+from mudline.language.syntax.tree import LeafKind, RawBlock, RawSection
 from mudline.tools.lsp.decks import Analysis, failed
 
 # ----------------------------------------------------------------------------------------------------------- outline
@@ -70,9 +70,9 @@ def _block(
 ) -> types.DocumentSymbol:
     children: list[types.DocumentSymbol] = []
     read = origin.read.get(at)
-    block = analysis.deck.sections[at[0]].blocks[at[1]] if analysis.deck and read else None
-    if read is not None and block is not None and type(block) is not Opaque and not analysis.document.is_long:
-        children = list(_records(analysis, cast("Block", block), read, stop))
+    if read is not None and not analysis.document.is_long:
+        block = analysis.deck.sections[at[0]].blocks[at[1]]
+        children = [] if type(block) is Opaque else list(_records(analysis, cast("Block", block), read, stop))
     return _symbol(analysis, f"*{raw.name}", types.SymbolKind.Class, raw.head.span, stop, children)
 
 
@@ -125,14 +125,10 @@ def folding(analysis: Analysis) -> list[types.FoldingRange]:
 
 
 def _comments(origin: TextOrigin) -> Iterator[Span]:
-    first: Leaf | None = None
-    last: Leaf | None = None
-    for leaf in (*origin.tree.leaves(), None):
-        if leaf is not None and leaf.kind is LeafKind.COMMENT:
-            first, last = first or leaf, leaf
-        elif first is not None and last is not None:
-            yield Span(first.span.start, last.span.end)
-            first = None
+    for is_comment, leaves in groupby(origin.tree.leaves(), lambda leaf: leaf.kind is LeafKind.COMMENT):
+        if is_comment:
+            spans = [leaf.span for leaf in leaves]
+            yield Span(spans[0].start, spans[-1].end)
 
 
 # -------------------------------------------------------------------------------------------------------- formatting
@@ -141,7 +137,7 @@ def _comments(origin: TextOrigin) -> Iterator[Span]:
 def formatting(analysis: Analysis) -> list[types.TextEdit]:
     """Return the change to canonical layout; raises JsonRpcException for a deck that cannot be formatted."""
     document = analysis.document
-    if analysis.deck is None:
+    if analysis.context is None:
         return []
     try:
         after = formatted(document.as_file(), document.name)

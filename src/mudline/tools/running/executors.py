@@ -15,10 +15,9 @@ import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.util import find_spec
-from ipaddress import ip_address
-from itertools import islice
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
@@ -44,23 +43,19 @@ TRIED = 0.05
 CONNECTING = 10.0
 """Seconds to wait for a scheduler, and for its first worker."""
 
-_AHEAD = 3
-"""Parts sent ahead for each process or worker thread."""
-_SECONDS = {False: 0.2, True: 1.0}
-"""Target seconds for items sent together: to a process, and to a worker on another machine."""
-_FIRST = 4
-_TOGETHER = 500
-"""Number of items sent together, before their pace is known and at most."""
-_COUNTED = 5.0
-"""Seconds after which the workers of a scheduler are counted again: their number changes."""
+_AHEAD = 10
+"""Items sent ahead for each process or worker thread."""
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for on Windows."""
 
 _SAFE_PATH = "PYTHONSAFEPATH"
+"""Variable by which Python processes that this one starts import no modules of the working folder."""
 
 _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
 """Strict pattern of addresses: a form that Dask parses differently would escape the check."""
 
+_LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
+"""Hosts that nobody else reaches."""
 _ENDED = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
 
 _Item = TypeVar("_Item")
@@ -84,23 +79,16 @@ class Pool:
     _stack: ExitStack
     _executor: Executor | None = None
     _client: Client | None = None
-    _threads: int = 1
-    _counted: float = field(default=0.0, init=False)
 
     @property
     def size(self) -> int:
-        """Number of items that may be in progress at a time."""
+        """Number of items that may be in progress at a time; that of a scheduler's workers changes."""
         if self.scheduler is None:
             return processors(self.jobs)
-        if self._client is not None and time.monotonic() - self._counted > _COUNTED:
-            self._threads = max(1, sum(self._client.nthreads().values()))
-            self._counted = time.monotonic()
-        return self._threads
+        return max(1, sum(self._client.nthreads().values())) if self._client else 1
 
-    def submit(
-        self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
-    ) -> Future[tuple[float, list[_Made | Crash]]]:
-        """Submit work for each order; the future has seconds and results. Raises RunError."""
+    def submit(self, work: Callable[[*_Given], _Made], given: tuple[*_Given]) -> Future[_Made | Crash]:
+        """Submit work for an item; raises RunError."""
         if self._executor is None:
             if self.scheduler is None:
                 self._executor = self._stack.enter_context(_processes(self.size, work.__module__))
@@ -112,17 +100,17 @@ class Pool:
 
         try:
             with interrupt_deferred():
-                return self._executor.submit(_done, __version__, work, orders)
+                return self._executor.submit(_done, __version__, work, given)
         except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also from the forkserver
             raise RunError(_ENDED) from error
 
-    def result(self, future: Future[_Made]) -> _Made:
-        """Return the result of a future; raises RunError, and any exception of the function."""
+    def result(self, future: Future[_Made] | None) -> _Made | None:
+        """Return the result of a future, None for none; raises RunError, and any exception of the function."""
         from concurrent.futures import CancelledError  # noqa: PLC0415 - most runs are too small for it
         from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - as above
 
         try:
-            return future.result()
+            return None if future is None else future.result()
         except BrokenProcessPool as error:
             raise RunError(_ENDED) from error
         except CancelledError as error:
@@ -159,33 +147,23 @@ def many(
     spent, done, number = 0.0, 0, 0
     with ExitStack() as stack:
         pool = Pool(jobs, scheduler, stack)
-        for item, given in rest if scheduler is None else ():
-            seconds, results = _timed(work, [] if given is None else [given])
-            spent, done, number = spent + seconds, done + len(results), number + 1
-            yield item, results[0] if results else None
+        for item, given in rest:
+            if scheduler is not None and given is not None:
+                rest = chain([(item, given)], rest)
+                break
+            start = time.perf_counter()
+            result = None if given is None else _tried(work, given)
+            spent, done, number = spent + time.perf_counter() - start, done + (given is not None), number + 1
+            yield item, result
             if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
                 break
-        waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
-        under_way = 0
-        while True:
-            pace = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
-            share = (count - number) / (2 * pool.size)
-            part = list(islice(rest, max(1, min(int(pace), int(share), _TOGETHER))))
-            number += len(part)
-            if part:
-                orders = [given for _, given in part if given is not None]
-                sent = [(item, given is not None) for item, given in part]
-                waiting.append((sent, pool.submit(work, orders) if orders else None))
-                under_way += bool(orders)
-            while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
-                sent, future = waiting.popleft()
-                seconds, results = (0.0, []) if future is None else pool.result(future)
-                under_way -= future is not None
-                spent, done = spent + seconds, done + len(results)
-                in_order = iter(results)
-                yield from ((item, next(in_order) if is_sent else None) for item, is_sent in sent)
-            if not part:
-                return
+        waiting = deque[tuple[_Item, "Future[_Made | Crash] | None"]]()
+        for item, given in rest:
+            waiting.append((item, None if given is None else pool.submit(work, given)))
+            if len(waiting) > _AHEAD * pool.size:
+                first, future = waiting.popleft()
+                yield first, pool.result(future)
+        yield from ((item, pool.result(future)) for item, future in waiting)
 
 
 class Crash(NamedTuple):
@@ -207,30 +185,24 @@ NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
 """Exceptions that end a run, whatever the item."""
 
 
-def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tuple[float, list[_Made | Crash]]:
-    """Return the seconds of the work, and for each order its result or its crash."""
-    start = time.perf_counter()
-    results: list[_Made | Crash] = []
-    for given in orders:
-        try:
-            results.append(work(*given))
-        except NO_CRASH:
-            raise
-        except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
-            results.append(Crash.of(error))
-    return time.perf_counter() - start, results
+def _tried(work: Callable[[*_Given], _Made], given: tuple[*_Given]) -> _Made | Crash:
+    """Return the result of the work, or its crash."""
+    try:
+        return work(*given)
+    except NO_CRASH:
+        raise
+    except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
+        return Crash.of(error)
 
 
-def _done(
-    version: str, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
-) -> tuple[float, list[_Made | Crash]]:
-    """Do the work in a process or a worker, and return the seconds and the results."""
+def _done(version: str, work: Callable[[*_Given], _Made], given: tuple[*_Given]) -> _Made | Crash:
+    """Do the work in a process or a worker, and return the result."""
     if version != __version__:
         raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
     from mudline.checks.configuration import refuses_outside  # noqa: PLC0415 - only where there are workers
 
     with refusing_outside(refuses_outside):
-        return _timed(work, orders)
+        return _tried(work, given)
 
 
 # ---------------------------------------------------------------------------------------------------------- processes
@@ -270,29 +242,15 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     if method == "forkserver":
         context.set_forkserver_preload([module])
     executor = ProcessPoolExecutor(count, context, _begin, (outputs(),))
+    os.environ[_SAFE_PATH] = "1"
     try:
-        with _safe_path():
-            yield executor
+        yield executor
     except BaseException:
         for child in set(multiprocessing.active_children()) - before:
             child.kill()
         raise
     finally:
         executor.shutdown(cancel_futures=True)
-
-
-@contextmanager
-def _safe_path() -> Iterator[None]:
-    """Keep Python processes started in the block from importing modules of the working folder."""
-    before = os.environ.get(_SAFE_PATH)
-    os.environ[_SAFE_PATH] = "1"
-    try:
-        yield
-    finally:
-        if before is None:
-            os.environ.pop(_SAFE_PATH, None)
-        else:
-            os.environ[_SAFE_PATH] = before
 
 
 def _begin(known: ClaimedOutputs) -> None:
@@ -321,21 +279,15 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def interrupt_deferred() -> Iterator[None]:
-    """Defer Ctrl-C until the block ends; processes started in the block do not receive it until they ignore it."""
-    if threading.current_thread() is not threading.main_thread():
+    """Defer Ctrl-C until the block ends, but on Windows; processes started in the block never receive it."""
+    if sys.platform == "win32":
         yield
         return
-    received: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
-    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        if sys.platform != "win32":
-            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
-        signal.signal(signal.SIGINT, before)
-        if received:
-            signal.raise_signal(signal.SIGINT)
+        signal.pthread_sigmask(signal.SIG_SETMASK, masked)
 
 
 # ---------------------------------------------------------------------------------------------------------- scheduler
@@ -351,9 +303,8 @@ def check_address(address: str) -> None:
         raise RunError(f"--scheduler {address}: expected tcp://HOST:PORT or tls://HOST:PORT")
     if find_spec("distributed") is None:
         raise RunError(f"--scheduler needs dask.distributed: {install_hint('cluster')}")
-    if match["protocol"] == "tls" or _is_loopback(match["host"].strip("[]")):
+    if match["protocol"] == "tls" or match["host"] in _LOOPBACK:
         return
-
     import dask.config  # noqa: PLC0415 - as above
     import distributed  # noqa: F401, PLC0415 - brings its defaults, in which this is null
 
@@ -363,15 +314,6 @@ def check_address(address: str) -> None:
             "tls:// with the certificates of Dask's configuration; on a network that nobody else reaches, set "
             "distributed.comm.require-encryption to false there"
         )
-
-
-def _is_loopback(host: str) -> bool:
-    if host == "localhost":
-        return True
-    try:
-        return ip_address(host).is_loopback
-    except ValueError:  # a name, which may belong to anybody
-        return False
 
 
 @contextmanager

@@ -19,7 +19,7 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
-from mudline.basics.files import write_atomically
+from mudline.basics.files import version_of, write_atomically
 from mudline.basics.installed import metadata_folders
 from mudline.basics.limits import LARGEST_MEMORY, LARGEST_NEIGHBOUR, LONGEST_REMEMBERED, MOST_MEMORIES, MOST_REMEMBERED
 from mudline.basics.overwriting import reading
@@ -47,10 +47,6 @@ class Memory:
         self._state = cache(state)  # many results may depend on the same file
         self._changed = False
 
-    def __bool__(self) -> bool:
-        """Return True if anything is remembered."""
-        return bool(self._entries)
-
     def key(self, *parts: str | bytes) -> str:
         """Return the key of a result from its inputs; two lists of parts have the same key only if they are equal."""
         digest = blake2b(self._start, digest_size=_KEY // 2)
@@ -63,8 +59,8 @@ class Memory:
     def get(self, key: str) -> Any:  # noqa: ANN401 - what JSON holds
         """Return the result; None if it is unknown, or if a file that it depends on has changed."""
         held = self._entries.get(key)
-        if not held:
-            return held if held is None else []
+        if held is None:
+            return None
         try:
             result, states = json.loads(held)
             for path in states:
@@ -86,7 +82,7 @@ class Memory:
             if changed_since(self._began, path):
                 return
             states[path] = self._state(path)
-        held = json.dumps([result, states], separators=(",", ":")) if result or states else ""
+        held = json.dumps([result, states], separators=(",", ":"))
         if len(held) <= LONGEST_REMEMBERED:
             self._entries[key] = held
             self._changed = True
@@ -156,12 +152,8 @@ def program() -> str:
 
 
 def _version(path: str) -> str:
-    """Return the identity of a file from its name, size and date."""
-    try:
-        status = os.stat(path)  # noqa: PTH116 - hundreds of files
-    except OSError:  # not there, or inside an archive
-        return path
-    return f"{path} {status.st_size} {status.st_mtime_ns}"
+    """Return the identity of a file from its name, date and size; those inside archives have none."""
+    return f"{path} {version_of(path)}"
 
 
 def state(path: str) -> str:
