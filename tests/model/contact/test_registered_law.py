@@ -178,7 +178,7 @@ def test_a_law_of_nodes() -> None:
     tangent = contact.tangent(at_depths([0.02] * 3), None, contact.initial_state()).by_position.dense()
     assert np.diag(tangent)[::3].tolist() == [-1e4, 0.0, -2e4]
     positions, velocities, _ = journey(2, 10, 3)
-    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 3, 5, 1))
+    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 5, 1))
     assert compare(scene, plain=True) == []
 
 
