@@ -23,7 +23,6 @@ class Sizes(NamedTuple):
     """How much the drivers do at a time, and on how many threads."""
 
     block: int
-    width: int
     batch: int
     threads: int
 
@@ -54,13 +53,11 @@ def plain_loops() -> Iterator[None]:
 def divided(sizes: Sizes) -> Iterator[None]:
     """The drivers do so much at a time, and use threads for the smallest series."""
     with (
-        patch.multiple(numpy_driver, BLOCK=sizes.block, _WIDTH=sizes.width),
+        patch.object(numpy_driver, "BLOCK", sizes.block),
         patch.multiple(
             compiled_driver,
-            _RANGE=sizes.width,
-            _RANGE_OF_ONE=sizes.width,
             _STEPS=sizes.batch,
-            _BATCH=sizes.block * sizes.width,
+            _BATCH=sizes.block,
             _WORTH_THREADS=0,
         ),
     ):

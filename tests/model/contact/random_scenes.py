@@ -419,7 +419,7 @@ def random_scene(seed: int, names: frozenset[str] | None = None, *, flat: bool |
         None if timed else rates,
         np.cumsum(random.rng.uniform(0.01, 0.5, steps)) if timed else None,
         random.rng.random(nodes) < 0.8 if random.chance(0.2) else None,
-        Sizes(random.pick((8, 16384)), random.pick((3, 4096)), random.pick((1, 5, 16)), random.pick((1, 2, 4))),
+        Sizes(random.pick((8, 16384)), random.pick((1, 5, 16)), random.pick((1, 2, 4))),
     )
 
 

@@ -26,7 +26,7 @@ from tests.model.contact.random_scenes import SUBSETS, random_scene
 pytestmark = pytest.mark.slow
 
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
-USUAL = Sizes(16384, 4096, 16, 2)
+USUAL = Sizes(16384, 16, 2)
 seeds = st.integers(0, 2**32 - 1)
 
 
@@ -61,7 +61,7 @@ def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
     curve = ForceCurve([(0.0, -1.7e308), (2.5, 1.7e308)])
     inputs = chain([CURVE], on("lateral", 1, stiffness=1.0), curves=(curve,), diameter=1.0, length=1e-3)
     positions = at_depths([[2.0, 2.0], [2.1, 2.1]])
-    assert compare(scene(inputs, positions)) == []
+    assert compare(scene(inputs, positions), plain=True) == []
     result = ContactModel(inputs, backend="fast").evaluate(positions)
     assert result.force.ravel() == pytest.approx([1.02e308, 1.156e308])
 

@@ -124,7 +124,7 @@ def everything_beside(elements: int, seabed: SlopingSeabed | None = None) -> Con
 def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool) -> None:
     positions, velocities, _ = journey(elements, 12, seed)
     inputs = everything_beside(elements, SlopingSeabed(0.2, 30.0) if slopes else None)
-    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 3, 5, 2))
+    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 5, 2))
     assert compare(scene, plain=True) == []
 
 
@@ -132,7 +132,7 @@ def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool)
 def test_its_loops_are_compiled() -> None:
     """Alone: with more laws that takes seconds."""
     inputs = chain([NONE, LINEAR, NONE], on("hyperbolic", [0, 2], stiffness=[K, 2e4], reference=Z0))
-    assert compare(Scene(inputs, journey(3, 12, 1)[0], None, None, None, Sizes(8, 3, 5, 2))) == []
+    assert compare(Scene(inputs, journey(3, 12, 1)[0], None, None, None, Sizes(8, 5, 2))) == []
 
 
 # ----------------------------------------------------------------------------------------------------- laws that differ
@@ -178,7 +178,7 @@ def test_a_law_of_nodes() -> None:
     tangent = contact.tangent(at_depths([0.02] * 3), None, contact.initial_state()).by_position.dense()
     assert np.diag(tangent)[::3].tolist() == [-1e4, 0.0, -2e4]
     positions, velocities, _ = journey(2, 10, 3)
-    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 3, 5, 1))
+    scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 5, 1))
     assert compare(scene, plain=True) == []
 
 

@@ -37,7 +37,7 @@ def directions_of(tables: LawTables, points: FloatArray, normals: FloatArray) ->
     with np.errstate(all="ignore"):
         spans = (points[line.second] - points[line.first]).T
         unit = units(spans)
-        total = np.ascontiguousarray(line.sums(np.pad(unit, ((0, 0), (1, 1))), 0, nodes, directed=True).T)
+        total = np.ascontiguousarray(line.sums(np.pad(unit, ((0, 0), (1, 1))), directed=True).T)
         flat = total - (total * normals).sum(axis=1)[:, None] * normals
         along = projected(total, normals)
         follows = np.ones(nodes, np.bool_)

@@ -1,32 +1,15 @@
 """Incidence of elements and nodes: values of nodes at the ends of elements, sums of element values at nodes.
 
-Along most lines an element runs from one node to the next, so that slices of arrays replace indices. Slices also serve
-several lines, and a GEN= that numbers the ends of a line before the nodes between them.
+Along most lines an element runs from one node to the next, so that slices of arrays replace indices.
 """
 
 from __future__ import annotations
 
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray, IndexArray, SmallIndexArray
-
-_FEW_RUNS = 16
-"""Number of runs below which slices of arrays are copied one by one."""
-
-
-class _ElementRun(NamedTuple):
-    """Elements start <= e < stop whose nodes are e + first and e + second."""
-
-    start: int
-    stop: int
-    first: int
-    second: int
-
-
-_Parts = list[tuple[slice, slice]]
 
 
 class Incidence:
@@ -59,11 +42,8 @@ class Incidence:
         self.senses[self.start[same] + 1] = -1.0
         self.turns = bool(same.size)
         self._junctions = np.flatnonzero(degree > 2)
-        self._runs = _runs(self.first, self.second)
-        self._chain = self._runs is not None and [*self._runs] == [_ElementRun(0, nodes - 1, 0, 1)]
-        self._element_parts: dict[tuple[int, int], tuple[_Parts, _Parts]] = {}
-        self._node_parts: dict[tuple[int, int], tuple[_Parts, _Parts]] = {}
-        self._pair: tuple[IndexArray, FloatArray] | None = None if self._runs else _first_two(self)
+        along = np.arange(nodes)
+        self._chain = np.array_equal(self.first, along[:-1]) and np.array_equal(self.second, along[1:])
 
     @cached_property
     def beside(self) -> IndexArray:
@@ -73,105 +53,35 @@ class Incidence:
         pair[degree < 2, 1] = pair[degree < 1, 0] = -1
         return pair
 
-    def at(self, values: FloatArray, begin: int, end: int) -> tuple[FloatArray, FloatArray]:
-        """Return values (steps, end - begin) at both ends of a range of elements, from values (steps, n) at nodes."""
-        if self._runs is None:
-            return values.take(self.first[begin:end], axis=1), values.take(self.second[begin:end], axis=1)
-        if (key := (begin, end)) not in self._element_parts:
-            self._element_parts[key] = _parts(self._runs, begin, end, of_nodes=False)
-        parts = self._element_parts[key]
-        if len(parts[0]) == 1:
-            return values[:, parts[0][0][1]], values[:, parts[1][0][1]]
-        found = np.empty((2, len(values), end - begin))
-        for target, side in zip(found, parts, strict=True):
-            for here, there in side:
-                target[:, here] = values[:, there]
-        return found[0], found[1]
+    @cached_property
+    def _first_two(self) -> list[tuple[IndexArray, FloatArray]]:
+        """The first, and the second element (n,) at each node and its sense; without one the column of zeros."""
+        senses, start = np.append(self.senses, [1.0] * 2), self.start[:-1]
+        pair = 1 + np.where(self.beside < 0, len(self.first), self.beside)
+        return [(pair[:, side], senses[start + side]) for side in range(2)]
 
-    def sums(self, values: FloatArray, begin: int, end: int, *, directed: bool = False) -> FloatArray:
-        """Return sums (steps, end - begin) at a range of nodes of the values (steps, m + 2) of their elements.
+    def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return values (steps, m) at both ends of the elements, from values (steps, n) at nodes."""
+        if self._chain:
+            return values[:, :-1], values[:, 1:]
+        return values.take(self.first, axis=1), values.take(self.second, axis=1)
+
+    def sums(self, values: FloatArray, *, directed: bool = False) -> FloatArray:
+        """Return sums (steps, n) at nodes of the values (steps, m + 2) of their elements.
 
         The values stand between two columns of zeros, and are added in the order of `elements`. With `directed` each
         value is multiplied by its sense.
         """
-        directed = directed and self.turns
-        if self._pair is not None:
-            total = np.zeros((len(values), end - begin))
-            for elements, senses in zip(*(part[:, begin:end] for part in self._pair), strict=True):
-                total += values.take(elements, axis=1) * senses if directed else values.take(elements, axis=1)
-        else:
-            total = self._summed_parts(values, begin, end)
-            if directed:
-                self._add_turned(total, values, begin)
-        self._add_at_junctions(total, values, begin)
-        return total
-
-    def _summed_parts(self, values: FloatArray, begin: int, end: int) -> FloatArray:
-        if (key := (begin, end)) not in self._node_parts:
-            self._node_parts[key] = _parts(self._runs or [], begin, end, of_nodes=True)
-        parts = self._node_parts[key]
         if self._chain:
-            total: FloatArray = values[:, begin + 1 : end + 1] + values[:, begin:end]
+            total: FloatArray = values[:, 1:] + values[:, :-1]
             total += 0.0
             return total
-        total = np.zeros((len(values), end - begin))
-        for side in parts:
-            for here, there in side:
-                total[:, here] += values[:, 1 + there.start : 1 + there.stop]
-        return total
-
-    def _add_turned(self, total: FloatArray, values: FloatArray, begin: int) -> None:
-        """Repeat the sum at nodes where both elements begin or both end."""
-        nodes = np.flatnonzero(self.senses[self.start[:-1][np.diff(self.start) == 2] + 1] < 0.0)
-        nodes = np.flatnonzero(np.diff(self.start) == 2)[nodes]
-        low, high = np.searchsorted(nodes, [begin, begin + total.shape[1]])
-        first = self.start[nodes[low:high]]
-        first_element, second_element = 1 + self.elements[first], 1 + self.elements[first + 1]
-        total[:, nodes[low:high] - begin] = (0.0 + values[:, first_element]) - values[:, second_element]
-
-    def _add_at_junctions(self, total: FloatArray, values: FloatArray, begin: int) -> None:
-        """Repeat the sum at nodes of three or more elements, in the order of `elements`."""
-        if not self._junctions.size:
-            return
-        low, high = np.searchsorted(self._junctions, [begin, begin + total.shape[1]])
-        for node in self._junctions[low:high].tolist():
+        total = np.zeros((len(values), len(self.start) - 1))
+        for elements, senses in self._first_two:
+            total += values.take(elements, axis=1) * senses if directed else values.take(elements, axis=1)
+        for node in self._junctions.tolist():  # of three or more elements
             sums = np.zeros(len(total))
             for element in self.elements[self.start[node] : self.start[node + 1]].tolist():
                 sums += values[:, 1 + element]
-            total[:, node - begin] = sums
-
-
-def _first_two(line: Incidence) -> tuple[IndexArray, FloatArray]:
-    """Return the first two elements (2, n) at each node and their senses; a missing element is the column of zeros."""
-    senses = np.append(line.senses, [1.0] * 2)
-    pair = 1 + np.where(line.beside < 0, len(line.first), line.beside).T
-    return pair, np.stack([senses[line.start[:-1]], senses[line.start[:-1] + 1]])
-
-
-def _runs(first: IndexArray, second: IndexArray) -> list[_ElementRun] | None:
-    """Return runs of elements whose two nodes both increase by one; None if there are many runs."""
-    count = len(first)
-    breaks = np.flatnonzero((np.diff(first) != 1) | (np.diff(second) != 1)) + 1
-    if len(breaks) >= _FEW_RUNS:
-        return None
-    starts, stops = [0, *breaks.tolist()], [*breaks.tolist(), count]
-    return [
-        _ElementRun(start, stop, int(first[start]) - start, int(second[start]) - start)
-        for start, stop in zip(starts, stops, strict=True)
-        if start < stop
-    ]
-
-
-def _parts(runs: list[_ElementRun], begin: int, end: int, *, of_nodes: bool) -> tuple[_Parts, _Parts]:
-    """Return for both ends of a range of elements slices of elements and of their nodes.
-
-    With `of_nodes` return slices of a range of nodes and of the elements that begin, and that end, there.
-    """
-    parts: tuple[_Parts, _Parts] = ([], [])
-    for run in runs:
-        for side, shift in zip(parts, (run.first, run.second), strict=True):
-            here, there = (shift, -shift) if of_nodes else (0, shift)
-            low, high = max(run.start + here, begin), min(run.stop + here, end)
-            if low < high:
-                side.append((slice(low - begin, high - begin), slice(low + there, high + there)))
-    return parts
+            total[:, node] = sums
+        return total

@@ -1,4 +1,4 @@
-"""The laws driven by numpy: ranges of elements and of nodes, batches of steps.
+"""The laws driven by numpy, a batch of steps at a time: elements, then nodes.
 
 Positions are given, so everything without history is computed for a batch of steps at once. Only the states of suction,
 stick points and touchdown points go from step to step. Nothing is checked here: `contact.result` refuses results that
@@ -16,23 +16,18 @@ import numpy as np
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
 from mudline.model.contact.laws import law_module
-from mudline.model.contact.numpy_elements import ElementRange, Work
+from mudline.model.contact.numpy_elements import ElementLaws, Work
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
-from mudline.model.contact.tables import ContactState, LawTables, StepBatch, rows_within
+from mudline.model.contact.tables import ContactState, LawTables, StepBatch
 from mudline.model.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
-    from mudline.model.contact.laws.friction import FrictionHistory
-    from mudline.model.contact.trenches import LaidCentreline
+    from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw
+    from mudline.model.contact.trenches import LaidCentreline, TrenchRows
 
 BLOCK = 32768
-"""Elements or nodes, times steps, evaluated at a time."""
-_WIDTH = 4096
-"""Least number of elements or nodes in a range of a long line: their values over a few steps stay in caches."""
-_BATCH = 2**20
-"""Largest number of nodes times steps of a batch."""
-_NONE = np.empty(0, np.intp)
+"""Elements or nodes, times steps, of a batch: work arrays of short lines stay in the second-level cache."""
 _KEPT = {-3: 2**25, -1: 2**29}
 """Options of `mallopt`: largest kept array (M_MMAP_THRESHOLD), kept memory of the heap (M_TRIM_THRESHOLD)."""
 
@@ -43,19 +38,12 @@ class NumpyDriver:
     def __init__(self, tables: LawTables, seabed: Seabed) -> None:
         _keep_freed_memory()
         self._tables, self._seabed = tables, seabed
-        elements, nodes = len(tables.half), len(tables.given.node_ids)
-        longest = max(elements, nodes, 1)
-        narrow = min(_WIDTH if tables.history else BLOCK, longest)
-        self.steps = max(1, min(BLOCK // narrow, _BATCH // longest))
+        self.steps = max(1, BLOCK // max(len(tables.half), len(tables.given.node_ids), 1))
         """Number of steps at a time that is fastest."""
-        width = BLOCK // self.steps
         flat = isinstance(seabed, FlatSeabed)
         slides = tables.friction is not None or tables.lateral is not None
         self._components = (2 if flat else 3) if slides else 0
-        starts = range(0, elements, width)
-        self._elements = [ElementRange(tables, start, min(start + width, elements), flat=flat) for start in starts]
-        starts = range(0, nodes, width)
-        self._nodes = [NodeRange(tables, start, min(start + width, nodes), flat=flat) for start in starts]
+        self._elements, self._nodes = ElementLaws(tables), NodeLaws(tables, flat=flat)
 
     def locate(self, points: FloatArray, part: ContactResult) -> None:
         """Write gaps and normals of `part` (steps, n)."""
@@ -75,11 +63,9 @@ class NumpyDriver:
             np.zeros((lateral, steps, elements + 2)),
             np.zeros((steps, elements + 2)) if self._tables.embeds else np.empty((0, 0)),
         )
-        for elements_here in self._elements:
-            elements_here.run(batch, part, state, work)
+        self._elements.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
-        for nodes_here in self._nodes:
-            nodes_here.run(batch.speed, part, state, work, laid)
+        self._nodes.run(batch.speed, part, state, work, laid)
 
 
 def _keep_freed_memory() -> None:
@@ -95,21 +81,17 @@ def _keep_freed_memory() -> None:
 
 
 class _Breakout(NamedTuple):
-    """Nodes of a range with a breakout, over the steps of a batch.
+    """Nodes with a breakout, over the steps of a batch.
 
     Attributes:
-        rows: their rows in the arrays of the law.
-        at: their columns in the range.
+        at: their columns among all nodes.
         law: parameters.
-        share: 1 over their numbers of elements.
         embedment: their ratios z/D (steps, k), or (steps, 1) equal for all.
         held: (5, k) their history, written in place.
     """
 
-    rows: slice
     at: Picked
     law: tuple[FloatArray, ...]
-    share: FloatArray
     embedment: FloatArray
     held: FloatArray
 
@@ -136,43 +118,22 @@ class _Breakout(NamedTuple):
         self.held[...] = np.where(held[self.at], self.held, [[np.nan]] * 3 + [[0.0]] * 2)
 
 
-class NodeRange:
-    """Range of nodes begin <= i < end."""
+class NodeLaws:
+    """The laws of all nodes, over the steps of a batch."""
 
-    def __init__(self, tables: LawTables, begin: int, end: int, *, flat: bool) -> None:
-        self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
-        self._here = here = slice(begin, end)
+    def __init__(self, tables: LawTables, *, flat: bool) -> None:
+        self._tables, self._flat = tables, flat
         self._plane = vectors.PLANES[2 if flat else 3]
-        self._nodal = []
-        for rows in tables.nodal:
-            cut = rows_within(rows.rows, begin, end)
-            columns = tuple(column[None, cut] for column in rows.columns)
-            if cut.start < cut.stop:
-                at, onset = as_range(rows.rows[cut] - begin), rows.law.onset(*columns)
-                self._nodal.append((rows.law.reaction, at, columns, onset))
-        self._damping = None if tables.nodal_damping is None else tables.nodal_damping[None, here]
+        self._nodal = [(rows, as_range(rows.rows), rows.law.onset(*rows.columns)) for rows in tables.nodal]
         friction = tables.friction
         if friction is not None:
-            self._active, self._elliptic = friction.active[here], friction.ellipse[here]
-            self._curved = bool(self._elliptic.any())
-            self._coefficients = friction.coefficients.T[:, None, here]
-            self._fixed, self._rising = friction.fixed.T[:, None, here], friction.rising.T[:, None, here]
-            self._idle = self._active.astype(np.int8) - np.int8(1)
-            turned = rows_within(friction.turned, begin, end)
-            self._turned = friction.turned[turned] - begin
-            self._turn = friction.cosine[turned], friction.sine[turned]
-        self._breakout: _Breakout | None = None
-        if (breakout := tables.breakout) is not None:
-            cut = rows_within(breakout.rows, begin, end)
-            columns = tuple(column[cut] for column in breakout.columns)
-            none = np.zeros((0, 0))
-            at = as_range(breakout.rows[cut] - begin)
-            self._breakout = _Breakout(cut, at, columns, tables.shares[cut], none, none)
+            self._coefficients = friction.coefficients.T[:, None]
+            self._fixed, self._rising = friction.fixed.T[:, None], friction.rising.T[:, None]
+            self._idle = friction.active.astype(np.int8) - np.int8(1)
         if tables.trench is not None:
             from mudline.model.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
 
-            self._trench = tables.trench.some(rows_within(tables.trench.nodes, begin, end))
-            nodes = self._trench.nodes - begin
+            nodes = tables.trench.nodes
             self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks(nodes)]
 
     def run(
@@ -184,44 +145,44 @@ class NodeRange:
         laid: LaidCentreline | None,
     ) -> None:
         """Write the nodes of a batch."""
-        line, here = self._tables.line, self._here
-        total = line.sums(work.load, self.begin, self.end)
-        for reaction, at, columns, onset in self._nodal:
-            z = 0.0 - taken(part.gap[:, here], at)
-            add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
-        if self._damping is not None and speed is not None:
-            total += law_module("linear").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
-        part.normal_force[:, here] = total
+        tables, reaction = self._tables, part.reaction
+        total = tables.line.sums(work.load)
+        for rows, at, onset in self._nodal:
+            z = 0.0 - taken(part.gap, at)
+            add_at(total, at, np.where(z > onset, rows.law.reaction(z, 0.0, *rows.columns)[0], 0.0))
+        if tables.nodal_damping is not None and speed is not None:
+            total += law_module("linear").damping_force(0.0 - part.gap, speed, tables.nodal_damping)
+        part.normal_force[...] = total
         if part.normal.strides[1] == 0:  # all nodes share a normal
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
         else:
-            normal = tuple(np.ascontiguousarray(part.normal[:, here, axis]) for axis in range(3))
-        reaction_here = part.reaction[:, here]
+            normal = tuple(np.ascontiguousarray(part.normal[..., axis]) for axis in range(3))
         if not len(work.tangent):
             if self._flat:
-                reaction_here[..., 1:] = 0.0
+                reaction[..., 1:] = 0.0
             for axis in range(1 if self._flat else 3):
                 # a negative force times a zero component is -0, which is no reaction of its own
-                np.add(total * normal[axis], 0.0, out=reaction_here[..., axis])
+                np.add(total * normal[axis], 0.0, out=reaction[..., axis])
             return
         direction = self._sums(work.tangent, directed=True)
         along = self._turned_axes(in_plane(direction, normal), normal)
         sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
         for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
-            reaction_here[..., axis] = component
+            reaction[..., axis] = component
 
     def _sums(self, values: FloatArray, *, directed: bool) -> Components:
         """Return sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
-        sums = self._tables.line.sums(values.reshape(-1, values.shape[2]), self.begin, self.end, directed=directed)
-        return tuple(sums.reshape(len(values), -1, self.end - self.begin))
+        sums = self._tables.line.sums(values.reshape(-1, values.shape[2]), directed=directed)
+        return tuple(sums.reshape(*values.shape[:2], sums.shape[1]))
 
     def _turned_axes(self, along: Components, normal: Components) -> Components:
         """Set u1 of nodes with an angle to +Y."""
-        if self._tables.friction is None or not self._turned.size:
+        law = self._tables.friction
+        if law is None or not law.turned.size:
             return along
-        there = normal if normal[0].shape[1] == 1 else tuple(axis[:, self._turned] for axis in normal)
-        for axis, values in zip(along, self._plane.turned(*self._turn, there), strict=True):
-            axis[:, self._turned] = values
+        there = normal if normal[0].shape[1] == 1 else tuple(axis[:, law.turned] for axis in normal)
+        for axis, values in zip(along, self._plane.turned(law.cosine, law.sine, there), strict=True):
+            axis[:, law.turned] = values
         return along
 
     def _tangential_reaction(
@@ -244,7 +205,7 @@ class NodeRange:
             force = self._plane.added(force, push)
             axial, sideways = axial + self._plane.dot(along, push), sideways + self._plane.dot(across, push)
         if part.friction is not None:
-            part.friction[:, self._here, 0], part.friction[:, self._here, 1] = axial, sideways
+            part.friction[..., 0], part.friction[..., 1] = axial, sideways
         return force
 
     def _friction_forces(
@@ -256,19 +217,18 @@ class NodeRange:
         laid: LaidCentreline | None,
     ) -> tuple[FloatArray, FloatArray]:
         """Return friction along u1 and u2 (steps, k); update the stick points from step to step."""
-        history = cast("FrictionHistory", state.friction)
+        history, law = cast("FrictionHistory", state.friction), cast("FrictionLaw", self._tables.friction)
         along, across = axes
-        plane, here, first = self._plane, self._here, 3 - len(along)
-        places = work.planes[..., here]
-        pressing = np.where(self._active, np.fmax(part.normal_force[:, here], 0.0), 0.0)
+        plane, places, first = self._plane, work.planes, 3 - len(along)
+        pressing = np.where(law.active, np.fmax(part.normal_force, 0.0), 0.0)
         closed = pressing > 0.0
         springs, limits = self._fixed + self._rising * pressing, self._coefficients * pressing
-        walls = None if laid is None or not self._ranks else self._walls(places, across, pressing, laid)
-        stick = history.stick_points[here].T
-        held = history.states[here, 0] > 0
+        walls = None if laid is None else self._walls(places, across, pressing, laid)
+        stick = history.stick_points.T
+        held = history.states[:, 0] > 0
         softening = self._softening(state, work)
         forces, slips = np.empty(limits.shape), np.empty(limits.shape, np.bool_)
-        elongation = np.empty((2, len(self._active)))
+        elongation = np.empty((2, len(held)))
         for step, close in enumerate(closed):
             on, held = held & close, close
             (new,) = np.logical_not(on).nonzero()
@@ -284,9 +244,8 @@ class NodeRange:
             trial = spring * elongation
             if walls is not None:
                 limit[1] += self._added(trial[1], *(values[step] for values in walls))
-            force, slip = self._bounded(trial, limit, close)
-            moves = law_module("friction").slip_distance(slip, elongation, force, spring)
-            moved = plane.blend(u, v, moves[0], moves[1])
+            force, slip = self._bounded(trial, limit, law.ellipse & close)
+            moved = plane.blend(u, v, *law_module("friction").slip_distance(slip, elongation, force, spring))
             for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
             np.subtract(0.0, force, out=forces[:, step])
@@ -298,16 +257,16 @@ class NodeRange:
             softening.end(held)
         states = (slips.view(np.int8) + np.int8(1)) * closed.view(np.int8)
         states += self._idle
-        history.states[here] = states[:, -1].T
+        history.states[...] = states[:, -1].T
         if part.friction_state is not None:
-            part.friction_state[:, here] = states.transpose(1, 2, 0)
+            part.friction_state[...] = states.transpose(1, 2, 0)
         return forces[0], forces[1]
 
-    def _bounded(self, trial: FloatArray, limit: FloatArray, closed: BoolArray) -> tuple[FloatArray, BoolArray]:
+    def _bounded(self, trial: FloatArray, limit: FloatArray, elliptic: BoolArray) -> tuple[FloatArray, BoolArray]:
         """Return forces (2, k) in the springs and whether they slip."""
         law = law_module("friction")
         force, slip = law.in_box(trial, limit)
-        (curved,) = (self._elliptic & closed).nonzero() if self._curved else (_NONE,)
+        (curved,) = elliptic.nonzero()
         if curved.size:
             trials, limits = trial.take(curved, axis=1), limit.take(curved, axis=1)
             mapped = law.on_ellipse if (limits > 0.0).all() else law.in_ellipse
@@ -318,13 +277,13 @@ class NodeRange:
         return force, slip
 
     def _softening(self, state: ContactState, work: Work) -> _Breakout | None:
-        nodes, held = self._breakout, state.breakout
-        if nodes is None or held is None:
+        breakout, tables = self._tables.breakout, self._tables
+        if breakout is None or state.breakout is None:
             return None
-        deep = np.zeros((len(work.load), 1))
-        if self._tables.embeds:
-            deep = taken(self._tables.line.sums(work.ratio, self.begin, self.end), nodes.at) * nodes.share
-        return nodes._replace(embedment=deep, held=held[:, nodes.rows])
+        at, deep = as_range(breakout.rows), np.zeros((len(work.load), 1))
+        if tables.embeds:
+            deep = taken(tables.line.sums(work.ratio), at) * tables.shares
+        return _Breakout(at, breakout.columns, deep, state.breakout)
 
     def _walls(
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline
@@ -332,12 +291,11 @@ class NodeRange:
         """Return the resistance of trenches (steps, k), and whether it acts against motion along +u2, or along -u2."""
         from mudline.model.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
 
-        at = self._in_trench
-        there = taken(places.reshape(-1, self.end - self.begin), at).reshape(3, len(pressing), -1)
-        away = laid.away(laid.beside(self.begin, self._trench), there).vector
+        at, trench = self._in_trench, cast("TrenchRows", self._tables.trench)
+        away = laid.away(laid.beside(trench), np.ascontiguousarray(places[..., at])).vector
         lateral = tuple(taken(axis, at) for axis in across)
         offset = self._plane.dot(lateral, away[3 - len(lateral) :])
-        return resistance(self._trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
+        return resistance(trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
 
     def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:
         """Return the resistance of trenches at nodes (k,) with these trial forces."""

@@ -200,6 +200,15 @@ class LawTables:
         laws = [assigned.law for assigned in given.assigned.values()]
         self.history = self.velocities or self.level is not None or any(law.history for law in laws)
 
+    @property
+    def steepens(self) -> bool:
+        """Return True if an unloading line may be less steep than the virgin path that led to it."""
+        if self.unloading is None:
+            return False
+        stiffness = np.full(len(self.half), np.inf)
+        stiffness[self.unloading.rows] = self.unloading.columns[0]
+        return any(bool((steepest_anywhere(self, rows) > stiffness[rows.rows]).any()) for rows in self.normal)
+
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
         from mudline.model.contact.trenches import LaidCentreline  # noqa: PLC0415 - most friction has no trench
@@ -222,12 +231,6 @@ class LawTables:
 
             histories["friction"] = FrictionHistory.initial(self.friction.active)
         return ContactState(paths=None if self._paths is None else self._paths.copy(), **histories)
-
-
-def rows_within(rows: IndexArray, begin: int, end: int) -> slice:
-    """Return the slice of ascending rows that lie in a range."""
-    low, high = np.searchsorted(rows, [begin, end]).tolist()
-    return slice(low, high)
 
 
 def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:

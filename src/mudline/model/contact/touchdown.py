@@ -16,23 +16,21 @@ from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.lines import ElementForce, LineSummary, TouchdownPoint
 from mudline.model.contact.result import ContactResult, ResultPart, total_normal_force
 
-_NOWHERE = (math.nan, math.nan, math.nan)
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _TouchdownPoints:
-    """Touchdown points of a line.
+    """Touchdown points (k,) of a line, ascending by step and along the line.
 
     Attributes:
         step: step of each point.
-        segment: segment of the line.
-        part: share of the segment before the point.
+        arc: arc length.
+        places: (k, 3) coordinates, NaN if the result does not know its positions.
         after: whether contact lies behind the point.
     """
 
     step: IndexArray
-    segment: IndexArray
-    part: FloatArray
+    arc: FloatArray
+    places: FloatArray
     after: BoolArray
 
 
@@ -105,13 +103,14 @@ class Touchdown:
         before, behind = gap[step, segment], gap[step, segment + 1]
         portion = np.clip(before / (before - behind), 0.0, 1.0)
         portion = np.where(np.isnan(portion), 0.5, portion)
-        points = _TouchdownPoints(step, segment, portion, touches[step, segment + 1])
-        steps = len(gap)
+        steps, length, after = len(gap), np.diff(arc), touches[step, segment + 1]
+        at, places = arc[segment] + portion * length[segment], np.full((len(step), 3), np.nan)
+        if result.positions is not None:
+            begin, end = (np.asarray(result.positions[step, nodes[segment + i]], np.float64) for i in (0, 1))
+            places = begin + portion[:, np.newaxis] * (end - begin)
         both = touches[:, :-1] & touches[:, 1:] & between
-        length = np.diff(arc)
         lies = both @ length
-        np.add.at(lies, step, np.where(points.after, 1.0 - portion, portion) * length[segment])
-        at = arc[segment] + portion * length[segment]
+        np.add.at(lies, step, np.where(after, 1.0 - portion, portion) * length[segment])
         first, last = np.full(steps, np.nan), np.full(steps, np.nan)
         first[step[::-1]], last[step] = at[::-1], at
         force = result.force[:, elements]
@@ -134,20 +133,8 @@ class Touchdown:
             empty,
             *pushes,
             *pulls,
-            points,
+            _TouchdownPoints(step, at, places, after),
         )
-
-    def places(self, line: LineSeries, result: ContactResult, row: IndexArray, there: BoolArray) -> FloatArray:
-        """Return coordinates (s, 3) of a touchdown point of each step, by its row among the points; NaN for none."""
-        coordinates = np.full((len(there), 3), np.nan)
-        if result.positions is None or not there.any():
-            return coordinates
-        row, steps = row[there], np.flatnonzero(there)
-        segment, part = line.found.segment[row], line.found.part[row, np.newaxis]
-        nodes = self.lines.nodes[line.number]
-        begin, end = (np.asarray(result.positions[steps, nodes[segment + i]], np.float64) for i in (0, 1))
-        coordinates[there] = begin + part * (end - begin)
-        return coordinates
 
     def summaries(self, part: ResultPart, lines: Sequence[LineSeries]) -> Iterator[LineSummary]:
         """Yield every line at each of some steps, from its `series`: one step after the other."""
@@ -169,7 +156,15 @@ class Touchdown:
             first_element=int(ids[elements[0]]),
             last_element=int(ids[elements[-1]]),
             length=self.length(line.number),
-            touchdown=tuple(self._points(line, result, step, cut)),
+            touchdown=tuple(
+                TouchdownPoint(arc, x, y, z, "after" if after else "before")
+                for arc, (x, y, z), after in zip(
+                    line.found.arc[cut].tolist(),
+                    line.found.places[cut].tolist(),
+                    line.found.after[cut].tolist(),
+                    strict=True,
+                )
+            ),
             contact_length=float(line.contact_length[step]),
             largest_force=self._place(float(line.force[step]), int(line.force_at[step]), result, step),
             largest_uplift=self._place(float(line.uplift[step]), int(line.uplift_at[step]), result, step),
@@ -179,22 +174,10 @@ class Touchdown:
             ratio=finite(ratio),
         )
 
-    def _points(self, line: LineSeries, result: ContactResult, step: int, cut: slice) -> Iterator[TouchdownPoint]:
-        nodes, arc, points = self.lines.nodes[line.number], self._arcs[line.number], line.found
-        for segment, part, after in zip(
-            points.segment[cut].tolist(), points.part[cut].tolist(), points.after[cut].tolist(), strict=True
-        ):
-            x, y, z = _NOWHERE
-            if result.positions is not None:
-                ends = np.asarray(result.positions[step, nodes[segment : segment + 2]], np.float64)
-                x, y, z = (ends[0] + part * (ends[1] - ends[0])).tolist()
-            at = float(arc[segment] + part * (arc[segment + 1] - arc[segment]))
-            yield TouchdownPoint(at, x, y, z, "after" if after else "before")
-
     def _place(self, force: float, element: int, result: ContactResult, step: int) -> ElementForce | None:
         if element < 0:
             return None
-        x, y, z = _NOWHERE
+        x, y, z = math.nan, math.nan, math.nan
         if result.positions is not None:
             ends = np.asarray(result.positions[step, self.given.element_nodes[element]], np.float64)
             x, y, z = ends.mean(axis=0).tolist()
@@ -223,7 +206,7 @@ class LineResults(ResultTable):
     def columns(self, part: ResultPart) -> list[ResultColumn]:
         """Return the columns of `LINES`."""
         with np.errstate(over="ignore", invalid="ignore"):
-            values = [self._values(line, part.result) for line in self.finder.series(part)]
+            values = [self._values(line) for line in self.finder.series(part)]
         figures = {
             name: np.stack([each[name] for each in values], axis=1) if values else np.zeros((part.count, 0))
             for name in LINES
@@ -231,7 +214,7 @@ class LineResults(ResultTable):
         }
         return self._columns(figures, part.result)
 
-    def _values(self, line: LineSeries, result: ContactResult) -> dict[str, Values]:
+    def _values(self, line: LineSeries) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines
         ids = np.append(given.element_ids, NO_ELEMENT)
         arcs = np.append(lines.element_arc, np.nan)
@@ -249,14 +232,12 @@ class LineResults(ResultTable):
             "empty_weight": line.empty,
             "ratio": np.where(line.weight > 0.0, line.reaction / np.where(line.weight > 0.0, line.weight, 1.0), np.nan),
         }
-        steps = np.arange(len(line.points))
-        starts = np.searchsorted(line.found.step, steps)
-        for name, arc, row in (
-            ("first_touchdown", line.first, starts),
-            ("last_touchdown", line.last, starts + line.points - 1),
-        ):
+        there = np.flatnonzero(line.points)
+        rows = np.searchsorted(line.found.step, there), np.searchsorted(line.found.step, there, side="right") - 1
+        for name, arc, row in (("first_touchdown", line.first, rows[0]), ("last_touchdown", line.last, rows[1])):
             values[name] = arc
-            places = self.finder.places(line, result, row, line.points > 0)
+            places = np.full((len(arc), 3), np.nan)
+            places[there] = line.found.places[row]
             values |= {f"{name}_{axis}": places[:, i] for i, axis in enumerate("xyz")}
         return values
 

@@ -234,20 +234,20 @@ class LaidCentreline:
         # a last piece, without element and length, for nodes without pieces
         self.ends, self.elements_at = np.append(line.ends, [[-1, -1]], axis=0), line.beside
         axes = np.ascontiguousarray(laid.T)
-        start, end = line.at(axes, 0, len(line.ends))
+        start, end = line.at(axes)
         span = end - start
         with np.errstate(all="ignore"):
             square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
         pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
         self.start, self.span, self.inverse = pieces[:3], pieces[3:6], pieces[6]
-        self._kept: dict[int, Beside] = {}
+        self._kept: tuple[TrenchRows, Beside] | None = None
 
-    def beside(self, key: int, trench: TrenchRows) -> Beside:
-        """Return the pieces next to the nodes of some rows, cached by `key`."""
-        if key not in self._kept:
-            self._kept[key] = self.pieces_beside(trench)
-        return self._kept[key]
+    def beside(self, trench: TrenchRows) -> Beside:
+        """Return the pieces next to the nodes of all rows, kept from the last call."""
+        if self._kept is None or self._kept[0] is not trench:
+            self._kept = trench, self.pieces_beside(trench)
+        return self._kept[1]
 
     def pieces_beside(self, trench: TrenchRows) -> Beside:
         """Return the pieces next to the nodes of some rows."""

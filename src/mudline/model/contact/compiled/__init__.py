@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
+from mudline.model.contact.tables import LawTables, NormalRows
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -80,7 +80,7 @@ def features_of(tables: LawTables, *, flat: bool) -> Features:
         curves=any(rows.curve >= 0 for rows in tables.normal),
         paths=any(rows.path >= 0 for rows in tables.normal),
         cuts=tables.cuts,
-        steepens=_steepens(tables),
+        steepens=tables.steepens,
         slides=friction is not None or tables.lateral is not None,
         turns=tables.line.turns,
         nodal=bool(tables.nodal),
@@ -90,15 +90,6 @@ def features_of(tables: LawTables, *, flat: bool) -> Features:
         embeds=tables.embeds,
         velocities=tables.velocities,
     )
-
-
-def _steepens(tables: LawTables) -> bool:
-    """Return True if an unloading line may be less steep than the virgin path that led to it."""
-    if tables.unloading is None:
-        return False
-    stiffness = np.full(len(tables.half), np.inf)
-    stiffness[tables.unloading.rows] = tables.unloading.columns[0]
-    return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
 
 
 def formulas(tables: LawTables) -> list[NormalRows]:

@@ -1,13 +1,12 @@
 """The laws driven by compiled loops (numba, the extra `mudline[fast]`): same bits as the numpy driver, but faster.
 
-A loop is compiled for the laws of a scene, kept in numba's cache on disk, and run over ranges of elements and of nodes,
-on several threads if there is enough work. Positions are given, so ranges are independent except for the sums at nodes,
-which come after the elements.
+A loop is compiled for the laws of a scene, kept in numba's cache on disk, and run over all elements, then over all
+nodes, on several threads if there is enough work. Positions are given, so elements are independent of each other, and
+so are nodes.
 """
 
 from __future__ import annotations
 
-import itertools
 import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -39,7 +38,7 @@ from mudline.model.contact.compiled import (
     trench_tables,
 )
 from mudline.model.contact.compiled.functions import Loop, edition, one_of
-from mudline.model.contact.compiled.loops import ranges_loop
+from mudline.model.contact.compiled.loops import whole_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.seabed import FlatSeabed, Seabed
@@ -47,8 +46,6 @@ from mudline.model.contact.tables import IN_PLACE, ContactState, LawTables, Norm
 
 _BATCH = 3 * 2**19
 """Largest number of nodes times steps at a time."""
-_RANGE, _RANGE_OF_ONE = 256, 8192
-"""Elements or nodes in a range, whose values stay in the second-level cache; in a range of a single step."""
 _STEPS = 64
 _NO_SPEED = np.empty((0, 0))
 _WORTH_THREADS = 60_000
@@ -95,8 +92,6 @@ def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
     return compiled
 
 
-_Task = tuple[bool, int, int]
-"""A range to be written: whether it is a range of nodes, begin and end."""
 _Job = tuple[Any, ...]
 """Arguments of the loop for a batch, after the ranges."""
 
@@ -122,7 +117,7 @@ class CompiledDriver:
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
         paths = tuple(rows.law for rows in normal if isinstance(rows.law, PathLaw))
         self._loop = _loop(
-            ranges_loop,
+            whole_loop,
             callable_in_loops,
             (has, _equations(normal), paths, _choice(slopes), sources),
             (has, _equations(tables.nodal), sources),
@@ -144,11 +139,12 @@ class CompiledDriver:
         self._beside = beside(ends, elements_at)
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
         """Number of steps at a time that is fastest."""
-        width = _RANGE if self.steps > 1 else _RANGE_OF_ONE
-        sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
-        together, behind = _groups(tables, self._threads, sequence, width)
-        self._sequence, self._held = _ranges(sequence), _held(tables, sequence)
-        self._together, self._behind = (list(map(_ranges, groups)) for groups in (together, behind))
+        self._whole = _ranges(elements=(0, self._elements), nodes=(0, self._nodes))
+        self._shares = (
+            [_ranges(elements=share) for share in _shared(self._elements, threads)],
+            [_ranges(nodes=share) for share in _shared(self._nodes, threads)],
+        )
+        """Ranges of each thread, of elements and then of nodes."""
         self.broken = False
         """True after a law failed to compile."""
 
@@ -159,16 +155,15 @@ class CompiledDriver:
         """
         speed = batch.speed
         after.remember(state, IN_PLACE)
-        together = len(self._together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS
         points, arrays = self._arrays(part, batch.points)
         job = (
             *self._fixed, points, _NO_SPEED if speed is None else speed,
             self._laid_tables(batch.laid, complete=batch.complete),
-            self._work(len(points), 2**64 if together else self._held),
+            self._work(len(points)),
             arrays, self._remembered(state), self._remembered(after),
         )  # fmt: skip
         try:
-            return not self._run(job, together=together)
+            return not self._run(job, together=self._threads > 1 and len(points) * self._nodes >= _WORTH_THREADS)
         except (numba.core.errors.NumbaError, _NO_LOOP) as error:
             first = str(error).strip().splitlines()[0]
             warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
@@ -176,22 +171,19 @@ class CompiledDriver:
             return False
 
     def _run(self, job: _Job, *, together: bool) -> int:
-        """Write all ranges, on one or several threads; return the number of values that are not finite."""
+        """Write all elements and nodes, on one or several threads; return the number of values that are not finite."""
         if not together:
-            return self._loop(self._sequence, *job)
+            return self._loop(self._whole, *job)
         if self._pool is None:
             self._pool = ThreadPoolExecutor(self._threads)
         pool = self._pool
-        return sum(
-            sum(pool.map(lambda ranges: self._loop(ranges, *job), groups)) for groups in (self._together, self._behind)
-        )
+        return sum(sum(pool.map(lambda ranges: self._loop(ranges, *job), shares)) for shares in self._shares)
 
-    def _work(self, steps: int, held: int) -> tuple[Any, ...]:
-        """Return the arrays for element values that nodes need, with rows for `held` elements, a power of two."""
+    def _work(self, steps: int) -> tuple[Any, ...]:
+        """Return the arrays for directions and lateral forces of elements, which nodes need."""
         components = 2 if self._has.flat else 3
-        shape, none = (steps, min(held, self._elements), components), (0, 0, components)
-        slides, lateral = self._has.slides, self._has.lateral
-        return np.empty(shape if slides else none), np.empty(shape if lateral else none), np.uint64(held - 1)
+        shape, none = (steps, self._elements, components), (0, 0, components)
+        return np.empty(shape if self._has.slides else none), np.empty(shape if self._has.lateral else none)
 
     def _arrays(self, part: ContactResult, points: FloatArray) -> tuple[Any, ...]:
         """Return positions and the arrays of a result as the loops take them; made once for each result."""
@@ -242,61 +234,14 @@ class CompiledDriver:
         return read_only(laid), beside(line.ends, line.elements_at)
 
 
-def _tasks(tables: LawTables, held: range, width: int) -> list[_Task]:
-    """Return the ranges of elements `held`, each followed by the ranges of nodes whose elements are then complete.
-
-    All ranges have this width. Ranges of nodes with elements elsewhere are left out; ranges without elements come
-    first.
-    """
-    line, elements, nodes = tables.line, len(tables.half), len(tables.given.node_ids)
-    nodes_after: dict[int, list[_Task]] = {number: [] for number in range(held.start - 1, held.stop)}
-    for begin in range(0, nodes, width):
-        end = min(begin + width, nodes)
-        there = line.elements[line.start[begin] : line.start[end]] // width
-        first, last = int(there.min(initial=held.stop)), int(there.max(initial=-1))
-        if not there.size and held.start == 0:
-            nodes_after[held.start - 1].append((True, begin, end))
-        elif there.size and first >= held.start and last < held.stop:
-            nodes_after[last].append((True, begin, end))
-    tasks = list(nodes_after[held.start - 1])
-    for number in held:
-        tasks.append((False, number * width, min((number + 1) * width, elements)))
-        tasks += nodes_after[number]
-    return tasks
+def _shared(count: int, threads: int) -> list[tuple[int, int]]:
+    """Return the begin and the end of each thread's part of `count` rows."""
+    return [(count * thread // threads, count * (thread + 1) // threads) for thread in range(threads)]
 
 
-def _groups(
-    tables: LawTables, threads: int, sequence: list[_Task], width: int
-) -> tuple[list[list[_Task]], list[list[_Task]]]:
-    """Return the tasks of each thread in order, and the later tasks of nodes between two threads."""
-    ranges = len(range(0, len(tables.half), width))
-    count = min(threads, ranges)
-    bounds = [ranges * group // max(count, 1) for group in range(count + 1)]
-    together = (
-        [_tasks(tables, range(low, high), width) for low, high in itertools.pairwise(bounds)]
-        if count > 1
-        else [sequence]
-    )
-    done = {task for tasks in together for task in tasks}
-    later = [task for task in sequence if task not in done]
-    return together, [share for first in range(count) if (share := later[first::count])]
-
-
-def _held(tables: LawTables, sequence: list[_Task]) -> int:
-    """Return how far ranges of nodes look back over elements, at most, rounded up to a power of two."""
-    line, far, written = tables.line, 1, 0
-    for of_nodes, begin, end in sequence:
-        if of_nodes:
-            first = line.elements[line.start[begin] : line.start[end]].min(initial=written)
-            far = max(far, written - int(first))
-        else:
-            written = end
-    return 1 << (far - 1).bit_length()
-
-
-def _ranges(tasks: list[_Task]) -> Any:
-    """Return tasks as the compiled loop takes them."""
-    return read_only(np.array(tasks, np.uint64).reshape(-1, 3))
+def _ranges(*, elements: tuple[int, int] = (0, 0), nodes: tuple[int, int] = (0, 0)) -> Any:
+    """Return ranges of elements and of nodes as the compiled loop takes them."""
+    return read_only(np.array([*elements, *nodes], np.uint64))
 
 
 def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:

@@ -87,7 +87,7 @@ def elements_loop(
         index, table, knots, pulls, damping = tables
         gap, normals, (out, cut, state, regularised), _ = part
         depth, ratio, contact, force, slope, stiffness = out
-        tangent, sideways, ring = work
+        tangent, sideways = work
         lines, episodes, touchdown, ways = states
         past_lines, past_episodes, places, _ = before
         wrong = min(edition, 0)
@@ -167,12 +167,12 @@ def elements_loop(
                     continue
 
                 # only nodes with a normal force use a direction: NaN marks an element that wrote none
-                row, unit = np.uint64(e) & ring, nothing
+                unit = nothing
                 if touches:
                     unit = in_plane(direction_of(points, step, a, b))
-                    write(tangent, step, row, unit)
+                    write(tangent, step, e, unit)
                 else:
-                    tangent[step, row, 0] = np.nan
+                    tangent[step, e, 0] = np.nan
                 if lateral:
                     push = nothing
                     if index[e, col.SPRINGS_BACK] != NOTHING:
@@ -194,7 +194,7 @@ def elements_loop(
                             size = lateral_force(table[e, col.LATERAL], dot(across, arm))
                             push = blend(across, nothing, size, 0.0)
                         touchdown[0, held], touchdown[1, held], touchdown[2, held] = place
-                    write(sideways, step, row, push)
+                    write(sideways, step, e, push)
         return wrong
 
     return loop
@@ -266,7 +266,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     ) -> int:  # fmt: skip
         (first, behind), elements, senses, half, ends, index, table, damping, trenches, breaks = tables
         gap, normals, ((_, ratio, _, force, _, _), _, _, _), (totals, reaction, friction_force, slipping) = part
-        tangent, sideways, ring = work
+        tangent, sideways = work
         sticks, sticking, moved_so_far = states
         past_sticks, past_sticking, _ = before
         wrong = min(edition, 0)
@@ -280,7 +280,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                     e = elements[at]
                     total += force[step, e] * half[e]
                     if lateral:
-                        push = added(push, read(sideways, step, np.uint64(e) & ring))
+                        push = added(push, read(sideways, step, e))
                 if nodal and index[i, col.NODE_KIND] != NOTHING:
                     z = 0.0 - gap[step, i]
                     if z > table[i, col.NODE_ONSET]:
@@ -303,7 +303,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                     if slides_here or (lateral and push != nothing):  # else there is no force along any direction
                         for at in range(first[i], behind[i]):
                             e = elements[at]
-                            unit = read(tangent, step, np.uint64(e) & ring)
+                            unit = read(tangent, step, e)
                             if math.isnan(unit[0]):
                                 unit = in_plane(direction_of(points, step, ends[e, col.FIRST], ends[e, col.SECOND]))
                             direction = blend(direction, unit, 1.0, senses[at] if turns else 1.0)
@@ -378,12 +378,11 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     return loop
 
 
-def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
-    """Return the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
+def whole_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
+    """Return the loop over a range of elements and then over a range of nodes: begin, end, begin, end.
 
     After the ranges it takes tables of elements and of nodes, positions, velocities, the line as laid, element values
-    for the nodes, the results, and the states before and after. The values of element e are in the row e & ring of
-    `work`, so that `work` need not hold all elements.
+    for the nodes, the results, and the states before and after.
     """
     elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
 
@@ -391,13 +390,8 @@ def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, .
         ranges: Array, element_tables: Array, node_tables: Array, points: Array, speed: Array, laid: Array,
         work: Array, part: Array, before: Array, after: Array,
     ) -> int:  # fmt: skip
-        wrong = 0
-        for at in range(len(ranges)):
-            begin, end = ranges[at, 1], ranges[at, 2]
-            if ranges[at, 0] > 0:
-                wrong += nodes(begin, end, node_tables, points, speed, laid, work, part, before[1], after[1])
-            else:
-                wrong += elements(begin, end, element_tables, points, speed, work, part, before[0], after[0])
+        wrong: int = elements(ranges[0], ranges[1], element_tables, points, speed, work, part, before[0], after[0])
+        wrong += nodes(ranges[2], ranges[3], node_tables, points, speed, laid, work, part, before[1], after[1])
         return wrong
 
     return loop
