@@ -12,7 +12,7 @@ from functools import cache, lru_cache
 from importlib import import_module
 from itertools import takewhile
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 from pydantic_core import from_json
 
@@ -55,11 +55,10 @@ _LIBRARY = "mudline.language.keywords.library"
 @cache
 def index() -> tuple[Entry, ...]:
     """Return the entries of all declarations in the library, by subject, section and name."""
-    rows = from_json(Path(__file__).with_name("index.json").read_bytes())
-    return tuple(
-        Entry(**{name: tuple(value) if isinstance(value, list) else value for name, value in row.items()})
-        for row in rows
-    )
+    rows: list[dict[str, Any]] = from_json(Path(__file__).with_name("index.json").read_bytes())
+    for row in rows:
+        row |= {name: tuple(value) for name, value in row.items() if isinstance(value, list)}
+    return tuple(Entry(**row) for row in rows)
 
 
 @cache
