@@ -55,7 +55,7 @@ class TableBuilder:
             words |= {(row + start, column): word for (row, column), word in part.words.items()}
             start += len(part)
         lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
-        return Table(values, np.concatenate(lengths), words)
+        return Table(values, np.concatenate(lengths), words, self.columns)
 
 
 class Item(NamedTuple):
