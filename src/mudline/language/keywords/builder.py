@@ -33,7 +33,7 @@ from mudline.language.keywords.text import (
 from mudline.language.keywords.unknown import UNKNOWN, Partly
 from mudline.language.keywords.values import Kind, Label, Names
 from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
-from mudline.language.syntax.rows import blank_separated, row_starts
+from mudline.language.syntax.rows import blank_separated, line_spans
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
@@ -254,10 +254,9 @@ class Builder:
     def _faulty_rows(self, built: ParsedRecord, slot: FieldSpec, run: Span, table: Table, rows: list[int]) -> None:
         """Report the faults of some rows of a table; add forgotten braces around labels."""
         columns = record_schema(cast("type[Part]", slot.row)).columns
-        starts = row_starts(self.text, run)
-        for number, row in enumerate(rows):
-            end = self.text.find("\n", starts[row], run.end)
-            line = Span(starts[row], run.end if end < 0 else end)
+        faulty = set(rows)
+        lines = [line for row, line in enumerate(line_spans(self.text, run)) if row in faulty]
+        for number, (row, line) in enumerate(zip(rows, lines, strict=True)):
             if number == MOST_REPORTED:
                 self.report(SYN002, f"{counted(len(rows) - number, 'more faulty row')} in this table", line)
                 break

@@ -10,8 +10,6 @@ from itertools import chain
 from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from mudline.basics.limits import MOST_COLUMNS
 from mudline.basics.short_repr import short_repr
 from mudline.language.codes.fields import SYN002, SYN003, SYN015
@@ -22,9 +20,8 @@ from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Reco
 from mudline.language.keywords.table import Column, Table, from_rows
 from mudline.language.keywords.text import Value, reads_as_name
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
-from mudline.language.keywords.values import Equation, Label
 from mudline.language.syntax.fields import Field
-from mudline.language.syntax.rows import read_rows, row_fields, row_starts
+from mudline.language.syntax.rows import RawRows, line_spans, read_rows, row_fields, stacked
 
 
 class TableBuilder:
@@ -32,30 +29,19 @@ class TableBuilder:
 
     def __init__(self, columns: list[Column]) -> None:
         self.columns = columns
-        self.parts: list[Table] = []
+        self.parts: list[RawRows] = []
         self.count = 0
 
     def add(self, text: str, span: Span) -> tuple[Table, list[int]]:
         """Add one run of a text; return its rows, and the numbers of those with faults."""
         table, faults = from_rows(read_rows(text, span, len(self.columns)), self.columns)
-        self.parts.append(table)
+        self.parts.append(RawRows(table.values, table.lengths, table.words))
         self.count += len(table)
         return table, sorted({row for row, _ in faults})
 
     def finish(self) -> Table:
         """Return all rows in one table."""
-        if len(self.parts) == 1:
-            return self.parts[0]
-        width = max((part.values.shape[1] for part in self.parts), default=0)
-        values = np.full((self.count, width), np.nan)
-        words: dict[tuple[int, int], Equation | Label | None] = {}
-        start = 0
-        for part in self.parts:
-            values[start : start + len(part), : part.values.shape[1]] = part.values
-            words |= {(row + start, column): word for (row, column), word in part.words.items()}
-            start += len(part)
-        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
-        return Table(values, np.concatenate(lengths), words, self.columns)
+        return Table(*stacked(self.parts), self.columns)
 
 
 class Item(NamedTuple):
@@ -241,7 +227,7 @@ class Places:
     def _starts(self, run: Span) -> array[int]:
         """Return the offsets of the rows of a run, cached."""
         if run not in self._lines:
-            self._lines[run] = row_starts(self.text, run)
+            self._lines[run] = array("q", (line.start for line in line_spans(self.text, run)))
         return self._lines[run]
 
 
