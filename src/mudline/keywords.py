@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import field_lines
-from mudline.language.keywords.index import ENTRIES
 from mudline.language.keywords.model import Block
 
-_ENTRIES = {entry.name: entry for entry in ENTRIES if not entry.kept}
+_ENTRIES = {entry.name: entry for entry in catalogue.index() if not entry.kept}
 
 
 def __getattr__(name: str) -> type[Block]:

@@ -136,7 +136,7 @@ class _Hiding:
         if isinstance(value, list):
             return [self._value(item, slot, where) for item in value]
         if isinstance(value, Table):  # a label of *LABEL is a number by now
-            return Table(value.values, value.lengths, dict.fromkeys(value.words))
+            return Table(value.values, value.lengths, dict.fromkeys(value.words), value.columns)
         return self._name(value, slot) if isinstance(value, str) and value not in slot.choices else value
 
     def _name(self, name: str, slot: FieldSpec) -> str:
@@ -170,7 +170,7 @@ def _columns_moved(table: Table, by: dict[int, float]) -> Table:
             values[:, column] = np.nan_to_num(values[:, column]) - amount
             lengths = np.maximum(lengths, column + 1)
             words = {place: word for place, word in words.items() if place[1] != column}
-    return Table(values, lengths, words)
+    return Table(values, lengths, words, table.columns)
 
 
 # ---------------------------------------------------------------------------------------------------------- the proof

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -12,22 +13,7 @@ from mudline.language.keywords.contents import ROLES, kinds_of
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import SUBJECTS, Entry, OpaqueKeyword
 
-_WIDE = 115
-INDEX = Path("src/mudline/language/keywords/index.py")
-
-
-_PAGE = '''\
-"""Index of the declarations in the library; generated from them by `make index`, not to be edited."""
-
-# fmt: off
-from __future__ import annotations
-
-from mudline.language.keywords.values import Entry
-
-ENTRIES: tuple[Entry, ...] = (
-{lines}
-)
-'''
+INDEX = Path("src/mudline/language/keywords/index.json")
 
 
 def declared_entries() -> list[Entry]:
@@ -61,20 +47,14 @@ def _entries(module: str) -> Iterator[Entry]:
 
 
 def index_text() -> str:
-    """The whole file."""
-    return _PAGE.format(lines="\n".join(f"    {_written(entry)}," for entry in declared_entries()))
+    """The whole file: a line for each entry."""
+    return "[\n" + ",\n".join(map(_written, declared_entries())) + "\n]\n"
 
 
 def _written(entry: Entry) -> str:
-    given = [
-        f"{name}={value!r}" if name in Entry._field_defaults else repr(value)
-        for name, value in entry._asdict().items()
-        if value != Entry._field_defaults.get(name)
-    ]
-    line = f"Entry({', '.join(given)})"
-    if len(line) > _WIDE:
-        line = "Entry(\n" + "".join(f"        {each},\n" for each in given) + "    )"
-    return line.replace("'", '"')
+    """An entry without what has its default."""
+    given = {name: value for name, value in entry._asdict().items() if value != Entry._field_defaults.get(name)}
+    return json.dumps(given)
 
 
 if __name__ == "__main__":

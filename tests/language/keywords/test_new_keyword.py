@@ -15,7 +15,7 @@ from mudline.checks.registry import rules
 from mudline.language.deck.forms.json import read, to_json
 from mudline.language.deck.keyword_text import to_keyword
 from mudline.language.deck.loading import load_bytes
-from mudline.language.keywords import catalogue, index, library
+from mudline.language.keywords import catalogue, library
 from mudline.language.keywords.catalogue import suggest_keyword
 from mudline.language.syntax import grammars
 from tests.docs.keyword_index import keyword_index
@@ -76,7 +76,8 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     (tmp_path / "seabed_anchor.py").write_text(MODULE, encoding="utf-8")
     monkeypatch.setattr(library, "__path__", [*library.__path__, str(tmp_path)])
     caches = [one for module in (catalogue, lines) for one in vars(module).values() if hasattr(one, "cache_clear")]
-    monkeypatch.setattr(index, "ENTRIES", tuple(declared_entries()))
+    entries = tuple(declared_entries())
+    monkeypatch.setattr(catalogue, "index", lambda: entries)
     known, new = grammars.definitions("blocks"), load_grammar(RULES, "new", [], False)[0]
     monkeypatch.setattr(known, "rule_defs", [*known.rule_defs, *new.rule_defs])
     monkeypatch.setattr(

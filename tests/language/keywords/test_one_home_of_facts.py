@@ -16,7 +16,7 @@ from typing import get_args
 import pytest
 
 import mudline
-from mudline.language.keywords import catalogue, index
+from mudline.language.keywords import catalogue
 from mudline.language.keywords.names_only import NAMES
 from tests.language.keywords.index import INDEX, index_text
 from tests.language.keywords.stubs import stubs
@@ -110,7 +110,7 @@ def test_the_stubs_are_made_of_the_declarations() -> None:
 
 
 def test_a_keyword_is_declared_once_for_a_section() -> None:
-    declared = [(section, entry.keyword) for entry in index.ENTRIES for section in entry.sections]
+    declared = [(section, entry.keyword) for entry in catalogue.index() for section in entry.sections]
     named = [(section, keyword) for keyword, sections in NAMES.items() for section in sections]
     assert len(declared + named) == len({*declared, *named})
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import mudline
 from mudline.language.diagnostics import DeckError, Span
-from mudline.language.syntax.rows import line_spans, read_number, read_rows, read_rows_slow, row_starts
+from mudline.language.syntax.rows import read_number, read_rows, read_rows_slow
 from mudline.language.syntax.source import Source
 from tests.language.syntax.test_rows import is_same
 
@@ -109,13 +109,6 @@ def test_long_tables_are_slow_rows_whatever_stands_in_a_few_lines() -> None:
         for columns in (2, 3):
             found = read_rows(text, Span(0, len(text)), columns)
             assert is_same(found, read_rows_slow(text, Span(0, len(text)), columns))
-
-
-@given(st.text(st.sampled_from("1, \t\r\n\xe9\u2028"), max_size=40), st.integers(0, 5))
-def test_rows_begin_where_their_lines_do(text: str, start: int) -> None:
-    text = text.replace("\r", "\r\n")
-    span = Span(min(start, len(text)), len(text))
-    assert row_starts(text, span).tolist() == [line.start for line in line_spans(text, span)]
 
 
 @given(st.text(st.sampled_from("1*$\x0c\x1a \r\n\xe9\u2028"), max_size=40))

@@ -52,7 +52,7 @@ def compared(text: str, columns: int) -> RawRows:
     slow = read_rows_slow(text, whole(text), columns)
     assert is_same(read_rows(text, whole(text), columns), slow)
     for piece in (reader.PIECE, 12):
-        with patch.multiple(reader, PIECE=piece, _SMALLEST=2):
+        with patch.object(reader, "PIECE", piece):
             assert is_same(read_rows(text, whole(text), columns), slow)
     return slow
 

@@ -161,7 +161,7 @@ class _Flattening:
 
 def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, ComparedValue]]:
     """Yield the rows of a table; points in ascending order."""
-    rows = [(cells, index) for index, cells in enumerate(table.rows(slot.columns))]
+    rows = [(cells, index) for index, cells in enumerate(table.rows())]
     if isinstance(slot.about, Rows) and slot.about.unordered:
         rows.sort(key=lambda row: [(cell is None, *_rank(cell)) for cell in row[0]])
     for number, (cells, index) in enumerate(rows, 1):

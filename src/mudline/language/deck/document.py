@@ -26,7 +26,7 @@ from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import read_block
-from mudline.language.keywords.table import AS_TABLES, Listing
+from mudline.language.keywords.table import AS_TABLES, Table
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
 from mudline.language.keywords.writer import block_lines
@@ -39,7 +39,7 @@ Document = dict[str, Any]
 
 
 def to_document(deck: Deck) -> Document:
-    """Return the deck as dicts and lists, its tables as listings; empty values are left out.
+    """Return the deck as dicts and lists, its tables as they are; empty values are left out.
 
     A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes. Raises DeckError for what reading
     would refuse: a value out of range, a raw line that opens a block.
@@ -66,7 +66,7 @@ def _plain(value: Any) -> Any:
     """A document with its tables as lists."""
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, Listing):
+    if isinstance(value, Table):
         return value.rows()
     return [_plain(item) for item in value] if isinstance(value, list) else value
 

@@ -207,7 +207,7 @@ class _Evaluator:
         return nothing
 
     def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
-        columns = slot.columns
+        columns = table.columns
         values = table.values.copy()
         words = dict(table.words)
         for (row, column), word in table.words.items():
@@ -220,4 +220,4 @@ class _Evaluator:
                 if isinstance(number, int):
                     values[row, column] = number
                     del words[row, column]
-        return Table(values, table.lengths, words)
+        return Table(values, table.lengths, words, table.columns)

@@ -14,9 +14,9 @@ from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN014
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords.grammar import ROW, Content, Node
-from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, record_schema
 from mudline.language.keywords.numbers import cut_number
-from mudline.language.keywords.parsed import Item, ParsedRecord, TableBuilder, Written
+from mudline.language.keywords.parsed import Item, ParsedRecord, Places, TableBuilder
 from mudline.language.keywords.table import Table, fewest_fields, row_format
 from mudline.language.keywords.text import (
     MIXED_FIELDS,
@@ -33,7 +33,7 @@ from mudline.language.keywords.text import (
 from mudline.language.keywords.unknown import UNKNOWN, Partly
 from mudline.language.keywords.values import Kind, Label, Names
 from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
-from mudline.language.syntax.rows import blank_separated, row_starts
+from mudline.language.syntax.rows import blank_separated, line_spans
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
@@ -42,13 +42,14 @@ class Builder:
     """Builder of the records of one block.
 
     `end` is the end of the file if the last line has no line end, else -1. Fields declared as `older` are read only in
-    blocks of an `older` program.
+    blocks of an `older` program. The spans of values are added to `places`.
     """
 
     def __init__(
-        self, text: str, problems: list[Problem], *, slashes: bool, end: int = -1, older: bool = False
+        self, places: Places, problems: list[Problem], *, slashes: bool, end: int = -1, older: bool = False
     ) -> None:
-        self.text = text
+        self.places = places
+        self.text = places.text
         self.end = end
         self.slashes = slashes
         self.older = older
@@ -56,9 +57,9 @@ class Builder:
         self.lost = 0
         self.unclosed: Span | None = None
 
-    def build(self, part: type[Record], node: Node, last: object = None) -> ParsedRecord:
-        """Return a record; `last` is the value of the sticky field in the records before it."""
-        built = ParsedRecord(part)
+    def build(self, part: type[Record], node: Node, path: Path = (), last: object = None) -> ParsedRecord:
+        """Return the record at a path; `last` is the value of the sticky field in the records before it."""
+        built = ParsedRecord(part, path)
         schema = record_schema(part)
         row_number = 0
         for child in node.children:
@@ -66,7 +67,7 @@ class Builder:
                 self._child(built, schema.children[child.data], child)
                 continue
             if built.last is None:
-                built.opening = child.span
+                self.places.add(path, trimmed(self.text, *child.span))
             if child.type == ROW:
                 self._row(built, child, last, row_number)
                 row_number += 1
@@ -107,7 +108,7 @@ class Builder:
     def _child(self, built: ParsedRecord, slot: FieldSpec, node: Node) -> None:
         before = built.children.setdefault(slot.json, [])
         last = before[-1].sticky if before else None
-        child = self.build(slot.record[node.data], node, last)
+        child = self.build(slot.record[node.data], node, (*built.path, slot.json, len(before)), last)
         if child.part.sticky:
             child.sticky = child.part.carries(child.known, last)
         if child.last is None:
@@ -178,7 +179,7 @@ class Builder:
         """Read all text after the key of a setting as its value."""
         start = self.text.index("=", groups[0].span.start) + 1
         whole = trimmed(self.text, start, groups[-1].span.end)
-        built.written.append(Written(slot.json, whole, (), ()))
+        self.places.add((*built.path, slot.json), whole)
         built.values[slot.json] = self.text[slice(*whole)]
 
     def _setting(self, built: ParsedRecord, slot: FieldSpec, group: FieldGroup) -> None:
@@ -197,7 +198,7 @@ class Builder:
             place = Span(fields[0].span.start, fields[-1].span.end)
             self.problems.append(decimal_comma(fields, [slot.kind], 1) or Problem(SYN003, message, place))
         if not fields[0].text:
-            built.written.append(Written(slot.json, group.span, (), ()))
+            self.places.add((*built.path, slot.json), group.span)
             built.values[slot.json] = UNKNOWN
             self.report(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span)
             return
@@ -205,7 +206,7 @@ class Builder:
 
     def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field]) -> None:
         """Read the value of a setting; of several values the first, if the setting names a new object."""
-        built.written.append(Written(None, None, (slot.json,), fields))
+        self.places.add(built.path, None, (slot.json,), fields)
         built.values[slot.json] = UNKNOWN
         if self.end >= 0 and fields[0].span.end == self.end and cut_number(fields[0].text):
             message = f"the file ends inside {fields[0].text!r}: it seems to be cut off, add what is missing"
@@ -238,6 +239,7 @@ class Builder:
             slot = self._slot_of_row(built, number, len(fields), last)
         if slot in schema.tables:
             builder = built.tables.setdefault(slot.json, TableBuilder(slot.columns))
+            self.places.runs.setdefault((*built.path, slot.json), []).append((builder.count, content.span))
             table, faulty = builder.add(self.text, content.span)
             count = len(table)
             if faulty:
@@ -252,10 +254,9 @@ class Builder:
     def _faulty_rows(self, built: ParsedRecord, slot: FieldSpec, run: Span, table: Table, rows: list[int]) -> None:
         """Report the faults of some rows of a table; add forgotten braces around labels."""
         columns = record_schema(cast("type[Part]", slot.row)).columns
-        starts = row_starts(self.text, run)
-        for number, row in enumerate(rows):
-            end = self.text.find("\n", starts[row], run.end)
-            line = Span(starts[row], run.end if end < 0 else end)
+        faulty = set(rows)
+        lines = [line for row, line in enumerate(line_spans(self.text, run)) if row in faulty]
+        for number, (row, line) in enumerate(zip(rows, lines, strict=True)):
             if number == MOST_REPORTED:
                 self.report(SYN002, f"{counted(len(rows) - number, 'more faulty row')} in this table", line)
                 break
@@ -313,7 +314,7 @@ class Builder:
         """Read fields that belong to the record itself."""
         values, fields = self._fields(columns, fields, line)
         built.values |= values
-        built.written.append(Written(None, None, [slot.json for slot in columns], fields))
+        self.places.add(built.path, None, [slot.json for slot in columns], fields)
 
     def _inner_row(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span) -> None:
         """Read fields that belong to a row in the record."""
@@ -327,7 +328,7 @@ class Builder:
             names = range(len(columns))
         else:
             built.values[slot.json] = values
-        built.written.append(Written(slot.json, span, names, fields))
+        self.places.add((*built.path, slot.json), span, names, fields)
 
     def _fields(
         self, columns: Sequence[FieldSpec], fields: list[Field], line: Span
@@ -414,7 +415,7 @@ class Builder:
                 self._unreadable(fault.problem)
                 values = Partly(values)
         built.values[slot.json] = values
-        built.written.append(Written(slot.json, span, range(len(read)), read))
+        self.places.add((*built.path, slot.json), span, range(len(read)), read)
 
 
 def _value_of(slot: FieldSpec) -> str:

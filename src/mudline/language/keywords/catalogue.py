@@ -1,7 +1,8 @@
 """Catalogue of sections and keywords: modules that declare them, and suggestions for unknown names.
 
 A keyword is declared for some sections; in other sections another module may declare it with another meaning. The
-index, which is generated from the declarations, maps keywords to modules: unused declarations are not imported.
+index, `index.json`, is generated from the declarations by `make index` and maps keywords to modules: unused
+declarations are not imported.
 """
 
 from __future__ import annotations
@@ -10,10 +11,12 @@ from collections.abc import Collection, Iterable
 from functools import cache, lru_cache
 from importlib import import_module
 from itertools import takewhile
-from typing import cast
+from pathlib import Path
+from typing import Any, cast
+
+from pydantic_core import from_json
 
 from mudline.basics.spelling import Effort, nearest
-from mudline.language.keywords import index
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.names_only import GIVES, NAMES, ZERO_LENGTH
 from mudline.language.keywords.values import Entry, Facts, Gift, Names, OpaqueKeyword
@@ -50,10 +53,19 @@ _LIBRARY = "mudline.language.keywords.library"
 
 
 @cache
+def index() -> tuple[Entry, ...]:
+    """Return the entries of all declarations in the library, by subject, section and name."""
+    rows: list[dict[str, Any]] = from_json(Path(__file__).with_name("index.json").read_bytes())
+    for row in rows:
+        row |= {name: tuple(value) for name, value in row.items() if isinstance(value, list)}
+    return tuple(Entry(**row) for row in rows)
+
+
+@cache
 def _by_keyword() -> dict[str, list[Entry]]:
     """Return the entries of the index by keyword: one for each declaration of the keyword."""
     by_keyword: dict[str, list[Entry]] = {}
-    for entry in index.ENTRIES:
+    for entry in index():
         by_keyword.setdefault(entry.keyword, []).append(entry)
     return by_keyword
 
@@ -107,12 +119,12 @@ def load_opaque(entry: Entry) -> OpaqueKeyword:
 
 def opaque_keywords() -> list[OpaqueKeyword]:
     """Return every declaration of a keyword whose lines are kept, in the order of the catalogue."""
-    return [load_opaque(entry) for entry in index.ENTRIES if entry.kept]
+    return [load_opaque(entry) for entry in index() if entry.kept]
 
 
 def block_classes() -> list[type[Block]]:
     """Return every declaration of a keyword whose lines are read, in the order of the catalogue."""
-    return [load(entry) for entry in index.ENTRIES if not entry.kept]
+    return [load(entry) for entry in index() if not entry.kept]
 
 
 def in_order(keywords: Iterable[str]) -> list[str]:
@@ -169,19 +181,19 @@ def is_read_somewhere(keyword: str) -> bool:
 @cache
 def definers(what: Names) -> list[str]:
     """Return the keywords that define objects of a kind."""
-    return [entry.keyword for entry in index.ENTRIES if what.name in entry.defines]
+    return [entry.keyword for entry in index() if what.name in entry.defines]
 
 
 @cache
 def users(what: Names) -> list[str]:
     """Return the keywords that refer to objects of a kind."""
-    return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]
+    return [entry.keyword for entry in index() if what.name in entry.names]
 
 
 @cache
 def telling_lines() -> frozenset[str]:
     """Return the lines that occur in one keyword only."""
-    return frozenset(line for entry in index.ENTRIES for line in entry.telling)
+    return frozenset(line for entry in index() for line in entry.telling)
 
 
 def may_have_no_length(keyword: str) -> bool:

@@ -38,7 +38,6 @@ from mudline.language.keywords.table import (
     AS_TABLES,
     Cell,
     Column,
-    Listing,
     Table,
     fewest_fields,
     misfit,
@@ -98,11 +97,10 @@ class Rows(FieldInfo):
                     raise misfit(f"{value!r} is out of range: {fault}", number, index)
         return table
 
-    def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
+    def _written(self, table: Table | None, info: SerializationInfo) -> Table | list[list[Cell]] | None:
         if table is None:  # the block could not be read
             return None
-        listing = Listing(table, self.columns())
-        return listing if info.context == AS_TABLES else listing.rows()
+        return table if info.context == AS_TABLES else table.rows()
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         columns = self.columns()

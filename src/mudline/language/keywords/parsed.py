@@ -1,16 +1,14 @@
-"""Records as built from a block: plain values, their places, which are computed on demand, and lines between them."""
+"""Records as built from a block: plain values, their places, and the lines between them."""
 
 from __future__ import annotations
 
 from array import array
 from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from mudline.basics.limits import MOST_COLUMNS
 from mudline.basics.short_repr import short_repr
@@ -22,9 +20,8 @@ from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Reco
 from mudline.language.keywords.table import Column, Table, from_rows
 from mudline.language.keywords.text import Value, reads_as_name
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
-from mudline.language.keywords.values import Equation, Label
-from mudline.language.syntax.fields import Field, trimmed
-from mudline.language.syntax.rows import read_rows, row_fields, row_starts
+from mudline.language.syntax.fields import Field
+from mudline.language.syntax.rows import RawRows, line_spans, read_rows, row_fields, stacked
 
 
 class TableBuilder:
@@ -32,32 +29,19 @@ class TableBuilder:
 
     def __init__(self, columns: list[Column]) -> None:
         self.columns = columns
-        self.runs: list[tuple[int, Span]] = []
-        self.parts: list[Table] = []
+        self.parts: list[RawRows] = []
         self.count = 0
 
     def add(self, text: str, span: Span) -> tuple[Table, list[int]]:
         """Add one run of a text; return its rows, and the numbers of those with faults."""
-        self.runs.append((self.count, span))
         table, faults = from_rows(read_rows(text, span, len(self.columns)), self.columns)
-        self.parts.append(table)
+        self.parts.append(RawRows(table.values, table.lengths, table.words))
         self.count += len(table)
         return table, sorted({row for row, _ in faults})
 
     def finish(self) -> Table:
         """Return all rows in one table."""
-        if len(self.parts) == 1:
-            return self.parts[0]
-        width = max((part.values.shape[1] for part in self.parts), default=0)
-        values = np.full((self.count, width), np.nan)
-        words: dict[tuple[int, int], Equation | Label | None] = {}
-        start = 0
-        for part in self.parts:
-            values[start : start + len(part), : part.values.shape[1]] = part.values
-            words |= {(row + start, column): word for (row, column), word in part.words.items()}
-            start += len(part)
-        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
-        return Table(values, np.concatenate(lengths), words)
+        return Table(*stacked(self.parts), self.columns)
 
 
 class Item(NamedTuple):
@@ -68,33 +52,20 @@ class Item(NamedTuple):
     size: int
 
 
-class Written(NamedTuple):
-    """Places of values on a line: span of the field `slot`, if it has one, and its fields by name.
-
-    If `slot` is None, the names are those of the record's fields.
-    """
-
-    slot: str | None
-    span: Span | None
-    names: Sequence[str | int]
-    fields: Sequence[Field]
-
-
 @dataclass(slots=True)
 class ParsedRecord:
-    """Record as plain values, with the data needed to find their places and to insert comments.
+    """Record as plain values, with the data needed to insert comments.
 
     A record is `unsure` if some of its lines or settings could not be used: values that seem to be missing may be
-    there. It is `unchosen` if the value that chooses its kind of rows is unknown. `opening` is its first own line.
+    there. It is `unchosen` if the value that chooses its kind of rows is unknown.
     """
 
     part: type[Record]
+    path: Path = ()
     values: dict[str, Any] = field(default_factory=dict)
     children: dict[str, list[ParsedRecord]] = field(default_factory=dict)
-    written: list[Written] = field(default_factory=list)
     tables: dict[str, TableBuilder] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)
-    opening: Span | None = None
     sticky: object = None
     first: int = 0
     last: int | None = None
@@ -190,22 +161,12 @@ class Places:
 
     __repr__ = short_repr
 
-    def add(self, record: ParsedRecord, path: Path = ()) -> None:
-        """Add the values of a record and of its inner records."""
-        if record.opening:
-            self.spans[path] = trimmed(self.text, *record.opening)
-        for name, span, names, fields in record.written:
-            inner = path if name is None else (*path, name)
-            if span:
-                self.spans[inner] = span
-            for column, value in zip(names, fields, strict=False):
-                self.spans[*inner, column] = value.span
-        for name, table in record.tables.items():
-            if table.runs:
-                self.runs[*path, name] = table.runs
-        for name, children in record.children.items():
-            for index, child in enumerate(children):
-                self.add(child, (*path, name, index))
+    def add(self, path: Path, span: Span | None, names: Iterable[str | int] = (), fields: Iterable[Field] = ()) -> None:
+        """Add the span of a value, if it has one, and its fields by their names in it."""
+        if span:
+            self.spans[path] = span
+        for name, field_ in zip(names, fields, strict=False):
+            self.spans[*path, name] = field_.span
 
     def find(self, path: Path) -> Span:
         """Return the span of a value; for a value that was left out, the span of the nearest enclosing object."""
@@ -266,7 +227,7 @@ class Places:
     def _starts(self, run: Span) -> array[int]:
         """Return the offsets of the rows of a run, cached."""
         if run not in self._lines:
-            self._lines[run] = row_starts(self.text, run)
+            self._lines[run] = array("q", (line.start for line in line_spans(self.text, run)))
         return self._lines[run]
 
 

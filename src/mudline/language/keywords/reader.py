@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from dataclasses import dataclass, field
-from functools import cache, partial
+from collections.abc import Collection
+from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import Protocol, cast
 
 from pydantic import ValidationError
@@ -40,14 +40,14 @@ class ReadBlock:
     """Result of reading a block: model, places of its values, problems, and `trailing` comments behind its last line.
 
     Attributes:
-        found: places in the text that was read, or a function that finds them on demand.
+        own: places in the text that was read.
         lost: number of lines that could not be used at all; their definitions are unknown.
         whole: text that contains the piece that was read, and the offset of the piece in it.
         opaque: True if mandatory lines may be among lines of unknown form: the block is then passed through unchanged.
     """
 
     model: Block
-    found: Places | Callable[[], Places]
+    own: Places
     problems: list[Problem]
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
@@ -57,28 +57,15 @@ class ReadBlock:
     __repr__ = short_repr
 
     @property
-    def own(self) -> Places:
-        """Places in the text that was read."""
-        places = self.found  # read once: decks that share a block may be read in two threads
-        if not isinstance(places, Places):
-            places = self.found = places()
-        return places
-
-    def _found(self) -> Places:
-        return self.own
-
-    @property
     def places(self) -> Places:
-        """Places in the whole text, computed on demand."""
+        """Places in the whole text, moved there on demand."""
         if self.whole:
-            self.found = self.own.moved(*self.whole)
-            self.whole = None
+            self.own, self.whole = self.own.moved(*self.whole), None
         return self.own
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
         """Return the block as part of a text in which its piece begins at `start`, with its problems there."""
-        places = self.found if isinstance(self.found, Places) else self._found
-        return ReadBlock(self.model, places, problems, self.trailing, self.lost, (text, start), self.opaque)
+        return replace(self, problems=problems, whole=(text, start))
 
 
 class BlockReader(Protocol):
@@ -89,19 +76,8 @@ class BlockReader(Protocol):
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Return the block read from the unified text of a source; `last` is True if nothing follows the block in it.
-
-    Places of values are found on demand by reading the block again: they are needed for few blocks.
-    """
-    read = _BlockParser(text, raw, declared, last=last).read()
-    read.found = partial(_places, text, raw, declared, last=last)
-    return read
-
-
-def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
-    reader = _BlockParser(text, raw, declared, last=last)
-    reader.read()
-    return reader.places()
+    """Return the block read from the unified text of a source; `last` is True if nothing follows the block in it."""
+    return _BlockParser(text, raw, declared, last=last).read()
 
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
@@ -122,7 +98,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     if grammar.tree_of(declared.rule, reader.contents()) is None or reader.lost:
         return False
     kept = len(reader.kept)
-    block = _BlockParser(text, raw, declared, last=False).read()
+    block = read_block(text, raw, declared, last=False)
     if block.lost != kept or any(problem.weight is Severity.ERROR for problem in block.problems):
         return False
     return not any(True for _ in range_faults(block.model))
@@ -145,7 +121,6 @@ class _BlockParser:
         self.comments: list[Between] = []
         self.kept: list[Between] = []
         self.lost = 0
-        self.built: ParsedRecord | None = None
 
     def read(self) -> ReadBlock:
         """Return the block read from its lines, without lines of unknown form if it is open."""
@@ -171,10 +146,13 @@ class _BlockParser:
                 self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
                 mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
-        builder = Builder(self.text, self.problems, slashes=self.declared.slashes, end=end, older=self.raw.older)
+        kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
+        self.places = Places(self.text, trimmed(self.text, *self.raw.head.span), kept=kept)
+        slashes = self.declared.slashes
+        builder = Builder(self.places, self.problems, slashes=slashes, end=end, older=self.raw.older)
         for mismatch in mismatches:
             self._report(mismatch)
-        built = self.built = builder.build(self.declared, node)
+        built = builder.build(self.declared, node)
         trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
         self.lost += builder.lost + len(self.kept)
         model = self._model(built)
@@ -188,14 +166,6 @@ class _BlockParser:
             return ReadBlock(model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True)
         return ReadBlock(model, self.places, problems, trailing, self.lost)
 
-    def places(self) -> Places:
-        """Return the places of the values that were read."""
-        kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
-        places = Places(self.text, trimmed(self.text, *self.raw.head.span), kept=kept)
-        if self.built:
-            places.add(self.built)
-        return places
-
     def _model(self, built: ParsedRecord) -> Block:
         """Return the validated model; for a block with faults an unvalidated model of its readable values."""
         built.values["keyword"] = self.raw.name
@@ -203,13 +173,12 @@ class _BlockParser:
             try:
                 return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
-                places = self.places()
                 for fault in error.errors():
                     place = tuple(fault["loc"])
                     message = fault["msg"].removeprefix("Value error, ")
                     if fault["type"] == "missing":
                         message = f"{_label(self.declared, place)} is missing here"
-                    self.problems.append(Problem(SYN001, message, places.find(place)))
+                    self.problems.append(Problem(SYN001, message, self.places.find(place)))
         lost = [problem.span.start for problem in self.problems if problem.code in (SYN001, SYN004) and problem.span]
         if lost:
             lose(built, lost)

@@ -35,13 +35,6 @@ def misfit(message: str, *path: str | int) -> ValidationError:
     return ValidationError.from_exception_data("table", [InitErrorDetails(type=kind, loc=path, input=None)])
 
 
-class RowChunk(NamedTuple):
-    """Some rows of a table as lists; `plain` is True if all cells are numbers and all rows have the full width."""
-
-    rows: list[list[Cell]]
-    plain: bool
-
-
 class Column(NamedTuple):
     """Column of a table: label, kind of its values, and whether it is required."""
 
@@ -70,34 +63,23 @@ class Table:
         values: (rows, columns) float64; NaN in a field without a number.
         words: contents of such a field: an equation, a label, or None if it is empty. A field without word and number
             could not be read, or is beyond the end of its row.
-        lengths: (rows,) number of fields in each row; in a `full` table all rows have all fields.
+        lengths: (rows,) number of fields in each row; without them, all rows have all fields.
         columns: columns of a table in a block.
     """
 
-    __slots__ = ("_lengths", "columns", "values", "words")
+    __slots__ = ("columns", "lengths", "values", "words")
 
     def __init__(
         self,
         values: NDArray[np.float64],
         lengths: NDArray[np.intp] | None = None,
         words: dict[tuple[int, int], Equation | Label | None] | None = None,
+        columns: Sequence[Column] = (),
     ) -> None:
         self.values = values
-        self._lengths = lengths
+        self.lengths = np.full(len(values), values.shape[1], dtype=np.intp) if lengths is None else lengths
         self.words = words or {}
-        self.columns: Sequence[Column] = ()
-
-    @property
-    def full(self) -> bool:
-        """True if every row is known to have all columns and no words."""
-        return self._lengths is None and not self.words
-
-    @property
-    def lengths(self) -> NDArray[np.intp]:
-        """Number of fields in each row, (rows,)."""
-        if self._lengths is None:
-            self._lengths = np.full(len(self.values), self.values.shape[1], dtype=np.intp)
-        return self._lengths
+        self.columns = columns
 
     if TYPE_CHECKING:  # a field is assigned from rows, as `read_table` takes them, and some from None
 
@@ -110,8 +92,8 @@ class Table:
         return len(self.values)
 
     def __iter__(self) -> Iterator[tuple[Cell, ...]]:
-        for part in self.parts(self.columns):
-            yield from map(tuple, part.rows)
+        for rows, _ in self._parts():
+            yield from map(tuple, rows)
 
     @overload
     def __getitem__(self, at: int) -> tuple[Cell, ...]: ...
@@ -127,9 +109,7 @@ class Table:
         rows = np.asarray(numbers, dtype=np.intp)
         place = {row: number for number, row in enumerate(rows.tolist())}
         words = {(place[row], column): word for (row, column), word in self.words.items() if row in place}
-        table = Table(self.values[rows], self.lengths[rows], words)
-        table.columns = self.columns
-        return table
+        return Table(self.values[rows], self.lengths[rows], words, self.columns)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):
@@ -162,7 +142,7 @@ class Table:
         if index >= self.values.shape[1]:
             return np.full(len(self), default)
         values = self.values[:, index].copy()
-        if not math.isnan(default) and not self.full:
+        if not math.isnan(default):
             values[self.lengths <= index] = default
             for (row, column), word in self.words.items():
                 if column == index and word is None:
@@ -176,12 +156,24 @@ class Table:
         inside = row < len(self) and column < self.values.shape[1]
         return float(self.values[row, column]) if inside else None
 
-    def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
+    def rows(self) -> list[list[Cell]]:
         """Return the rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
-        return [row for part in self.parts(columns) for row in part.rows]
+        return [row for rows, _ in self._parts() for row in rows]
 
-    def parts(self, columns: Sequence[Column]) -> Iterator[RowChunk]:
-        """Yield the rows as lists, in chunks of some thousand."""
+    def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
+        """Yield the rows as text, in chunks of some thousand, separated by line feeds.
+
+        Cells are separated by a comma and a space; `spelled` writes a row with other contents than numbers.
+        """
+        for rows, plain in self._parts():
+            if plain:
+                text = to_json(rows).decode("ascii")
+                yield text[2:-2].replace("],[", "\n").replace(",", ", ")
+            else:
+                yield "\n".join(map(spelled, rows))
+
+    def _parts(self) -> Iterator[tuple[list[list[Cell]], bool]]:
+        """Yield the rows as lists, in chunks of some thousand; True if they are only numbers, in the full width."""
         odd = (self.lengths != self.values.shape[1]) | np.isnan(self.values).any(axis=1)
         words: dict[int, list[tuple[int, int]]] = {}
         for place in self.words:
@@ -189,14 +181,14 @@ class Table:
         for number, start in enumerate(range(0, len(self), _ROWS_AT_ONCE)):
             part = slice(start, start + _ROWS_AT_ONCE)
             plain = not odd[part].any()
-            rows = _lists(self.values[part], columns)
+            rows = _lists(self.values[part], self.columns)
             if not plain:
                 for row, column in words.get(number, ()):
                     word = self.words[row, column]
                     rows[row - start][column] = None if word is None else str(word)
                 for cells, length in zip(rows, self.lengths[part].tolist(), strict=True):
                     del cells[length:]
-            yield RowChunk(rows, plain)
+            yield rows, plain
 
 
 def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[Cell]]:
@@ -223,13 +215,15 @@ def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
     if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
         raise misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
-    table = _numbers(rows, lengths, width) or _cells(rows, lengths, width, columns)
-    for (row, column), fault in _not_whole(table, columns).items():
+    table = _numbers(rows, lengths, width, columns) or _cells(rows, lengths, width, columns)
+    for (row, column), fault in _not_whole(table).items():
         raise misfit(fault, row, column)
     return table
 
 
-def _numbers(rows: list[list[object]], lengths: NDArray[np.intp], width: int) -> Table | None:
+def _numbers(
+    rows: list[list[object]], lengths: NDArray[np.intp], width: int, columns: Sequence[Column]
+) -> Table | None:
     """Return the table of rows that only hold finite numbers; None for other rows."""
     if not set(map(type, chain.from_iterable(rows))) <= {int, float}:
         return None
@@ -240,10 +234,10 @@ def _numbers(rows: list[list[object]], lengths: NDArray[np.intp], width: int) ->
     if not np.isfinite(flat).all():
         return None
     if len(flat) == len(rows) * width:
-        return Table(flat.reshape(len(rows), width), lengths)
+        return Table(flat.reshape(len(rows), width), lengths, columns=columns)
     values = np.full((len(rows), width), math.nan)
     values[np.arange(width) < lengths[:, np.newaxis]] = flat
-    return Table(values, lengths)
+    return Table(values, lengths, columns=columns)
 
 
 def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, columns: Sequence[Column]) -> Table:
@@ -261,7 +255,7 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
                 raise misfit(fault, row, column)
             else:
                 words[row, column] = _word(cell or "")
-    return _without_empty_ends(Table(values, lengths, words), columns)
+    return _without_empty_ends(Table(values, lengths, words, columns))
 
 
 def _finite(cell: float, row: int, column: int) -> float:
@@ -289,8 +283,8 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
     """
     fewest, width = fewest_of(columns), raw.values.shape[1]
     if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
-        table = Table(raw.values, raw.lengths)
-        return table, _not_whole(table, columns)
+        table = Table(raw.values, raw.lengths, columns=columns)
+        return table, _not_whole(table)
     faults: dict[tuple[int, int], str] = {}
     words: dict[tuple[int, int], Equation | Label | None] = {}
     lengths = np.minimum(raw.lengths, len(columns))
@@ -303,13 +297,13 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
     for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
         faults[row, -1] = f"{counted(int(raw.lengths[row]), 'field')}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
-    table = _without_empty_ends(Table(raw.values, lengths, words), columns)
-    return table, faults | _not_whole(table, columns)
+    table = _without_empty_ends(Table(raw.values, lengths, words, columns))
+    return table, faults | _not_whole(table)
 
 
-def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
+def _without_empty_ends(table: Table) -> Table:
     """Return the table without optional empty fields at the ends of its rows."""
-    fewest = max(fewest_of(columns), 1)
+    fewest = max(fewest_of(table.columns), 1)
     empty = [(row, column) for (row, column), word in table.words.items() if word is None and column >= fewest]
     lengths = table.lengths.copy() if empty else table.lengths
     for row, column in sorted(empty, reverse=True):
@@ -317,7 +311,7 @@ def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
             lengths[row] = column
             del table.words[row, column]
     width = int(lengths.max(initial=0)) if len(lengths) else table.values.shape[1]
-    return Table(np.ascontiguousarray(table.values[:, :width]), lengths, table.words)
+    return Table(np.ascontiguousarray(table.values[:, :width]), lengths, table.words, table.columns)
 
 
 def _word(text: str) -> Equation | Label | None:
@@ -339,8 +333,9 @@ def _count(columns: Sequence[Column]) -> str:
     return f"{fewest}" if fewest == most else f"{fewest} to {most}"
 
 
-def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int], str]:
+def _not_whole(table: Table) -> dict[tuple[int, int], str]:
     faults: dict[tuple[int, int], str] = {}
+    columns = table.columns
     if _all_whole(table.values, columns):
         return faults
     for index in range(table.values.shape[1]):
@@ -375,52 +370,21 @@ _ROWS_AT_ONCE = 1 << 14
 
 
 AS_TABLES = "as tables"
-"""Serialization context in which a table becomes a Listing, not lists."""
-
-
-class Listing:
-    """Table and its columns, to be written directly as text: lists of a million rows would take half a second more."""
-
-    __slots__ = ("columns", "table")
-
-    def __init__(self, table: Table, columns: Sequence[Column]) -> None:
-        self.table = table
-        self.columns = columns
-
-    def __len__(self) -> int:
-        return len(self.table)
-
-    def rows(self) -> list[list[Cell]]:
-        """Return the rows as lists."""
-        return self.table.rows(self.columns)
-
-    def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
-        """Yield the rows as text, in chunks of some thousand, separated by line feeds.
-
-        Cells are separated by a comma and a space; `spelled` writes a row with other contents than numbers.
-        """
-        for rows, plain in self.table.parts(self.columns):
-            if plain:
-                text = to_json(rows).decode("ascii")
-                yield text[2:-2].replace("],[", "\n").replace(",", ", ")
-            else:
-                yield "\n".join(map(spelled, rows))
+"""Serialization context in which a table stays one: lists of a million rows would take half a second more."""
 
 
 def read_table(rows: object, columns: Sequence[Column]) -> Table:
     """Return the table of rows, or of a text of rows; raises ValidationError with row and column, or ValueError."""
     if isinstance(rows, Table):
-        table = rows
-    elif isinstance(rows, str):
-        table = from_text(rows, columns)
-    elif isinstance(rows, list) and set(map(type, rows)) <= {list}:
-        table = from_cells(rows, columns)
-    elif isinstance(rows, list | tuple | np.ndarray):
-        table = from_cells(plain(list(rows)), columns)
-    else:
-        raise ValueError("expected rows: a list of lists, or a text with a row a line")
-    table.columns = columns
-    return table
+        rows.columns = columns
+        return rows
+    if isinstance(rows, str):
+        return from_text(rows, columns)
+    if isinstance(rows, list) and set(map(type, rows)) <= {list}:
+        return from_cells(rows, columns)
+    if isinstance(rows, list | tuple | np.ndarray):
+        return from_cells(plain(list(rows)), columns)
+    raise ValueError("expected rows: a list of lists, or a text with a row a line")
 
 
 def plain(value: Any) -> Any:

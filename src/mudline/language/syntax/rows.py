@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 import re
 from array import array
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import compress
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,19 +25,14 @@ _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*')
 """Row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
 PIECE = 256 * 1024
 """Number of characters that are read at a time: their arrays stay in the fast memory of a processor."""
-_BLANK = np.isin(np.arange(256), np.frombuffer(b" \t\r\n", np.uint8))
-_ROOM = 1.05
 _KEPT_BACK = 1 << 22
 _IN_NUMBERS = b"0123456789+-.eE \t\r"
-_ODD = re.compile(r"[^0-9+\-.eEdD, \t\r]")
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 _SIGNED_ZERO = re.compile(rb"-0(?![.eE])(?<![eE]-0)")
 """Zero whose sign JSON does not keep."""
 _DIGITS = bytes.maketrans(b"123456789", b"000000000")
 _LONG = b"0" * 40
 """Digits of a number that is read by `float`."""
-_PARTS, _SMALLEST = 8, 4096
-"""Number of parts of a piece that is not all numbers, and characters of a part that is not divided further."""
 
 
 class RawRows(NamedTuple):
@@ -52,7 +46,7 @@ class RawRows(NamedTuple):
 
     values: NDArray[np.float64]
     lengths: NDArray[np.intp]
-    words: dict[tuple[int, int], str]
+    words: dict[tuple[int, int], Any]
 
 
 def read_number(text: str) -> float | None:
@@ -73,41 +67,15 @@ def spells_number(text: str) -> bool:
 
 def read_rows(text: str, span: Span, columns: int) -> RawRows:
     """Return the lines of a run as at most `columns` columns; `text` must have LF or CRLF line ends."""
-    if span.end - span.start <= _SMALLEST:
-        values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
-        return read_rows_slow(text, span, columns) if values is None else _plain(values)
-    return _together(_parts(text, span, columns, PIECE), span.end - span.start)
+    return stacked([_piece(text[slice(*piece)], columns) for piece in _pieces(text, span)])
 
 
-def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, RawRows]]:
-    """Yield the rows of consecutive parts of a text, each with its number of characters; odd rows split parts."""
-    for start, end in _pieces(text, span, size):
-        lines = text[start:end]
-        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer pieces are a single line
-        if values is not None:
-            yield end - start, _plain(values)
-        elif size > _SMALLEST and end - start > _SMALLEST:
-            yield from _parts(text, Span(start, end), columns, size // _PARTS)
-        else:
-            yield end - start, _mixed_rows(lines, columns)
-
-
-def _mixed_rows(lines: str, columns: int) -> RawRows:
-    """Return the rows of lines, some of which hold more than numbers: these are read singly, the others together."""
-    texts = lines.split("\n")
-    odd = np.array([_ODD.search(text) is not None for text in texts])
-    numbers = read_numbers("\n".join(compress(texts, ~odd)), columns)
-    if numbers is None or not odd.any():
+def _piece(lines: str, columns: int) -> RawRows:
+    """Return the rows of lines, together if they are all numbers."""
+    values = read_numbers(lines, columns) if len(lines) <= 2 * PIECE else None  # longer pieces are a single line
+    if values is None:
         return read_rows_slow(lines, Span(0, len(lines)), columns)
-    text = "\n".join(compress(texts, odd))
-    mixed = read_rows_slow(text, Span(0, len(text)), columns)
-    values = np.full((len(texts), max(numbers.shape[1], mixed.values.shape[1])), math.nan)
-    values[~odd, : numbers.shape[1]] = numbers
-    values[odd, : mixed.values.shape[1]] = mixed.values
-    lengths = np.full(len(texts), numbers.shape[1], dtype=np.intp)
-    lengths[odd] = mixed.lengths
-    places = np.flatnonzero(odd).tolist()
-    return RawRows(values, lengths, {(places[row], column): word for (row, column), word in mixed.words.items()})
+    return RawRows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
 
 
 def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
@@ -169,52 +137,24 @@ def read_rows_slow(text: str, span: Span, columns: int) -> RawRows:
     return RawRows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
 
 
-def _plain(values: NDArray[np.float64]) -> RawRows:
-    return RawRows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
-
-
-def _together(parts: Iterable[tuple[int, RawRows]], size: int) -> RawRows:
-    """Return the rows of consecutive parts of a text of `size` characters as one run.
-
-    Rows are copied to one array as they come; its size is estimated from the first part. Copying all parts at the end
-    would take twice the memory.
-    """
-    values = np.empty((0, 0))
-    lengths: list[NDArray[np.intp]] = []
-    words: dict[tuple[int, int], str] = {}
+def stacked(parts: Sequence[RawRows]) -> RawRows:
+    """Return the rows of consecutive parts as one run."""
+    if len(parts) == 1:
+        return parts[0]
+    width = max((part.values.shape[1] for part in parts), default=0)
+    values = np.full((sum(len(part.values) for part in parts), width), math.nan)
+    words: dict[tuple[int, int], Any] = {}
     start = 0
-    for characters, part in parts:
-        count, width = part.values.shape
-        end = start + count
-        if end > len(values) or width > values.shape[1]:
-            expected = max(int(end * (_ROOM if start else _ROOM * size / characters)), len(values))
-            values = _grown(values[:start], expected, max(width, values.shape[1]))
-        values[start:end, :width] = part.values
-        values[start:end, width:] = math.nan
-        lengths.append(part.lengths)
+    for part in parts:
+        end = start + len(part.values)
+        values[start:end, : part.values.shape[1]] = part.values
         words |= {(row + start, column): word for (row, column), word in part.words.items()}
         start = end
-    return RawRows(values[:start], _all_lengths(lengths), words)
+    return RawRows(values, np.concatenate([np.zeros(0, np.intp), *(part.lengths for part in parts)]), words)
 
 
-def _grown(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.float64]:
-    """Return a larger array that begins with the values; NaN beside them, undefined below."""
-    grown = np.empty((rows, columns))
-    grown[: len(values), : values.shape[1]] = values
-    grown[: len(values), values.shape[1] :] = math.nan
-    return grown
-
-
-def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
-    """Return the lengths of all rows; equal lengths are stored as one number, broadcast to all rows."""
-    extremes = {int(length) for part in parts if len(part) for length in (part.min(), part.max())}
-    if len(extremes) == 1:
-        return np.broadcast_to(np.intp(extremes.pop()), sum(map(len, parts)))
-    return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
-
-
-def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
-    """Yield spans of whole lines of about `size` characters each, without the line end of the last line.
+def _pieces(text: str, span: Span) -> Iterator[Span]:
+    """Yield spans of whole lines of about `PIECE` characters each, without the line end of the last line.
 
     A large block is allocated and freed first: afterwards a C library keeps smaller freed blocks for reuse. Otherwise
     the system would have to clear new memory for every array of a piece.
@@ -222,10 +162,10 @@ def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
     start, end = span
     while end > start and text[end - 1] in "\r\n":
         end -= 1
-    if end - start > size:
+    if end - start > PIECE:
         np.empty(_KEPT_BACK, np.uint8)
     while start < end:
-        stop = text.find("\n", min(start + size, end), end)
+        stop = text.find("\n", min(start + PIECE, end), end)
         stop = end if stop < 0 else stop
         yield Span(start, stop)
         start = stop + 1
@@ -240,19 +180,6 @@ def line_spans(text: str, span: Span) -> Iterator[Span]:
         if text[start:stop].strip(" \t\r"):
             yield Span(start, stop)
         start = stop + 1
-
-
-def row_starts(text: str, span: Span) -> array[int]:
-    """Return the offsets of the rows of a run, like `line_spans`, ten times as fast for a million lines."""
-    starts = array("q")
-    for start, end in _pieces(text, span):
-        letters = np.frombuffer(text[start:end].encode("latin-1", "replace"), np.uint8)
-        lines = np.append(0, np.flatnonzero(letters == ord("\n")) + 1)
-        blank = _BLANK.take(letters)
-        lines = lines[: len(lines) - (lines[-1] == end - start)]
-        lines = lines[~np.logical_and.reduceat(blank, lines)] + start
-        starts.frombytes(lines.astype(np.int64).tobytes())
-    return starts
 
 
 def row_fields(text: str, line: Span, columns: int) -> list[Field]:

@@ -36,11 +36,7 @@ BINARY = "the file looks like binary data"
 """Beginning of the message that refuses such a file."""
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
-_CHUNK = 1 << 18
-_LF = ord("\n")
 _LINE_FEED = re.compile("\n")
-_SHORT = 20_000
-"""Number of characters up to which lines are found without arrays."""
 _FEW = 8
 
 
@@ -99,16 +95,8 @@ class Source:
     @cached_property
     def line_starts(self) -> array[int]:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
-        text = self.unified
         starts = array("q", [0])
-        if len(text) < _SHORT:
-            starts.extend(match.end() for match in _LINE_FEED.finditer(text))
-            return starts
-        import numpy as np  # noqa: PLC0415 - not needed for short decks and cached results
-
-        for at in range(0, len(text), _CHUNK):
-            letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
-            starts.frombytes((np.flatnonzero(letters == _LF) + (at + 1)).astype(np.int64).tobytes())
+        starts.extend(match.end() for match in _LINE_FEED.finditer(self.unified))
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:

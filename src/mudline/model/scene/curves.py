@@ -110,7 +110,7 @@ def _seabed_curve(context: Context, name: str | None, table: Table, where: Where
 def _points(table: Table) -> tuple[Floats, Indices]:
     """Return the points (n, 2) of a table that have two numbers, and their rows."""
     values = table.values
-    full = values.shape[1] == 2 and (table.full or np.minimum.reduce(table.lengths, initial=2) == 2)
+    full = values.shape[1] == 2 and np.minimum.reduce(table.lengths, initial=2) == 2
     if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
         return values.copy(), np.arange(len(values), dtype=np.intp)
     points = np.column_stack((table.column(0), table.column(1)))

@@ -76,11 +76,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 
 def _coordinates(table: Table) -> Floats:
     """Return the coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
-    if not (table.full and table.values.shape[1] == 3):
-        return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
-    coordinates = np.zeros((len(table), 3))
-    coordinates[:, :2] = table.values[:, 1:]
-    return coordinates
+    return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
 
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:

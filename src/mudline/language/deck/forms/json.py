@@ -17,7 +17,7 @@ from mudline.language.deck.faults import refusal
 from mudline.language.deck.model import Deck, Range
 from mudline.language.diagnostics import DeckError
 from mudline.language.keywords.faults import DocumentPath, path_text
-from mudline.language.keywords.table import Listing
+from mudline.language.keywords.table import Table
 from mudline.language.syntax.source import Source
 
 _INDENT = " "
@@ -41,7 +41,7 @@ def _pretty(value: Any, indent: str) -> Iterator[str]:
             yield from _pretty(item, inner)
             mark = ",\n"
         yield f"\n{indent}}}"
-    elif isinstance(value, Listing) and len(value):
+    elif isinstance(value, Table) and len(value):
         mark = f"[\n{inner}["
         for piece in value.lines(_cells):
             yield mark + piece.replace("\n", f"],\n{inner}[")
@@ -60,7 +60,7 @@ def _pretty(value: Any, indent: str) -> Iterator[str]:
 
 def _inline(value: Any) -> str:
     """A scalar, a list of scalars, or a table without rows, on one line."""
-    if isinstance(value, list | Listing):
+    if isinstance(value, list | Table):
         return f"[{_cells(value)}]" if isinstance(value, list) else "[]"
     return compact(value, inf_nan_mode="constants").decode()
 

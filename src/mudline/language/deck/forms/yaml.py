@@ -15,7 +15,7 @@ from mudline.language.deck.faults import Locate, refusal
 from mudline.language.deck.model import START, Deck, Range
 from mudline.language.diagnostics import DeckError
 from mudline.language.keywords.faults import DocumentPath
-from mudline.language.keywords.table import Listing
+from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import joined
 
 try:
@@ -143,7 +143,7 @@ def _node(value: Any) -> Any:
     """The document with its tables and rows marked for the dumper."""
     if isinstance(value, dict):
         return {key: _node(item) for key, item in value.items()}
-    if isinstance(value, Listing):
+    if isinstance(value, Table):
         return _table(value)
     if not isinstance(value, list) or not value:
         return value
@@ -154,10 +154,10 @@ def _node(value: Any) -> Any:
     return _Flow(value)
 
 
-def _table(listing: Listing) -> Any:
-    if len(listing) > SHORT_TABLE:
-        return _Literal("".join(f"{piece}\n" for piece in listing.lines(joined)))
-    return [_Flow(row) for row in listing.rows()]
+def _table(table: Table) -> Any:
+    if len(table) > SHORT_TABLE:
+        return _Literal("".join(f"{piece}\n" for piece in table.lines(joined)))
+    return [_Flow(row) for row in table.rows()]
 
 
 def read(data: bytes, file: str) -> Deck:
