@@ -76,19 +76,12 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 
 def _coordinates(table: Table) -> Floats:
     """Return the coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
-    if not (table.full and table.values.shape[1] == 3):
-        return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
-    coordinates = np.zeros((len(table), 3))
-    coordinates[:, :2] = table.values[:, 1:]
-    return coordinates
+    return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
 
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
     """Add the rows of a table that have a number; return the other rows."""
     ids, known = whole_numbers(numbers)
-    if np.count_nonzero(known) == len(known):
-        gathered.add(DefinitionBatch(ids, values, where, table))
-        return []
     rows = np.flatnonzero(known)
     gathered.add(DefinitionBatch(ids[rows], values[rows], where, table, rows))
     unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
@@ -274,10 +267,6 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Return distances between the nodes, NaN if one is not known."""
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
-        if np.minimum.reduce(ends[block], axis=None) >= 0:
-            first, last = coordinates.take(ends[block].T, axis=0)  # `take` takes a fifth of the time of an index
-            length[block] = distances(first, last)
-            continue
         first, last = ends[block].T
         known = ((first >= 0) & (last >= 0)).nonzero()[0]
         length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])

@@ -280,16 +280,12 @@ def _union(parts: list[Indices]) -> Indices:
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
-    """Return for each of `count` elements the index of the last holder that has it, or -1; not to be written to.
+    """Return for each of `count` elements the index of the last holder that has it, or -1.
 
     A set that holds several objects counts only with the last of them, so repeated sets take no extra time.
     """
     last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
-    order = sorted(last.values())
-    whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
-    if not order or order[-1:] == whole[-1:]:
-        return np.broadcast_to(np.intp(order[-1] if order else -1), (count,))
     winner = np.full(count, -1, dtype=np.intp)
-    for index in order:
+    for index in sorted(last.values()):
         winner[cast("NamedSet", holders[index]).elements] = index
     return winner
