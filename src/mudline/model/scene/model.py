@@ -14,7 +14,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.language.rules import RULES, Rule, findings
 from mudline.model.scene.context import Context
-from mudline.model.scene.curves import check_curves, read_curves
+from mudline.model.scene.curves import read_curves
 from mudline.model.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.model.scene.mesh import read_elements, read_nodes
 from mudline.model.scene.references import (
@@ -126,12 +126,11 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     count = len(elements.numbered)
     sets = read_sets(context, elements.numbered, external)
     sections = read_sections(context, sets, elements.numbered, elements.length, external)
-    named, by_set = read_curves(context)
+    named, by_set, other_curves = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
     resistance = read_resistance(context, laws)
     extensions = read_extensions(context, sets, count)
     seabed = read_seabed(context)
-    check_curves(context)
     check_chains(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
@@ -141,4 +140,6 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
         check_boundaries(context, nodes)
         check_idents(context, nodes, elements.numbered)
     context.report_out_of_sight()
-    return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)
+    return Scene(
+        ready, nodes, elements, sets, sections, laws, other_curves, resistance, extensions, seabed, context.problems
+    )

@@ -134,6 +134,7 @@ class ResolvedDeck:
         set_table: sets as indices.
         section_table: cross-sections of the elements.
         laws: the normal law of each element and its origin.
+        other_curves: curves that are not those of the seabed.
         resistance: friction, lateral stiffness and suction of each element.
         extensions: the extension blocks of each element, by keyword.
         seabed: shape of the seabed.
@@ -146,6 +147,7 @@ class ResolvedDeck:
     set_table: Sets
     section_table: SectionTable
     laws: LawTable
+    other_curves: list[SceneCurve]
     resistance: SeabedResistance
     extensions: dict[str, Extension]
     seabed: SeabedShape
