@@ -23,7 +23,6 @@ from mudline.model.scene.references import (
     check_idents,
     check_lines,
     check_references,
-    check_soil,
 )
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.restart import continued
@@ -136,7 +135,6 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     check_references(context, sets, laws, with_soil=external is None)
     check_unread_lines(context, sets, nodes if external is None else None)
     if external is None:  # a file of elements does not define every node and set
-        check_soil(context, nodes)
         check_boundaries(context, nodes)
         check_idents(context, nodes, elements.numbered)
     context.report_out_of_sight()

@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
     from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
     from mudline.language.keywords.library.mesh import ElementRows, Elements
-    from mudline.language.keywords.library.soil_springs import LateralSoil
 
 
 CURVES = frozenset(
@@ -188,17 +187,6 @@ def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
     return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
 
 
-def check_soil(context: Context, nodes: Numbered) -> None:
-    """Report every NODE= of soil springs that the deck does not define."""
-    named = [
-        (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
-        for where, block in context.deck.blocks_with("soil_springs")
-        for i, springs in enumerate(cast("LateralSoil", block).sets)
-        for j, curve in enumerate(springs.curves)
-    ]
-    _check_nodes(context, nodes, named)
-
-
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     """Report undefined nodes and elements that keywords refer to, except where nodes and sets are made."""
     for where, _, block in context.deck.every_block():
@@ -211,7 +199,7 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
 
 @cache
 def _names_idents(block: type[Block]) -> bool:
-    elsewhere = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
+    elsewhere = block.facts.defines or block.model_fields["keyword"].default == KEYWORD
     return not elsewhere and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
 
 
