@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.basics.short_repr import short_repr
 from mudline.language.codes.fields import CRV001, CRV003, CRV011
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Problem, Where
@@ -82,9 +81,6 @@ class SceneCurve(NamedTuple):
     reach: tuple[float, float]
     whole: bool
     curve: ForceCurve | None = None
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
     def point(self, index: int) -> Where:
         """Return the place of a point of `points`."""

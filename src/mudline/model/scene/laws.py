@@ -54,9 +54,6 @@ class SetLaw(NamedTuple):
     curve: int = NOTHING
     unknown: bool = False
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 @dataclass(slots=True, repr=False, eq=False)
 class LawTable:
@@ -199,9 +196,6 @@ class ResistanceValues(NamedTuple):
     suction: float = _UNKNOWN
     extent: float = _UNKNOWN
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 _NO_VALUES = ResistanceValues()
 
@@ -217,9 +211,6 @@ class SeabedResistance(NamedTuple):
     values: Sequence[ResistanceValues]
     places: Sequence[Where]
     of_element: Indices
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
     @property
     def has_mobilisation(self) -> bool:
@@ -262,8 +253,6 @@ def _two(part: Part | None, name: str) -> tuple[float, float]:
 
 
 def _of_set(entry: SeabedSet) -> ResistanceValues:
-    if entry.friction is None and entry.suction is None:
-        return ResistanceValues(lateral=number(entry, "lateral"))
     return ResistanceValues(
         friction=_two(entry.friction, ""),
         mobilisation=_two(entry.friction, "_mobilisation"),
@@ -299,9 +288,6 @@ class Extension(NamedTuple):
     places: list[Where]
     sets: list[NamedSet | None]
     of_element: Indices
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
     def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
         """Return a number of the block of each index, `default` if the block does not give it, NaN for -1.

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.basics.limits import MOST_GENERATED, MOST_REPORTED
-from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF005, REF006, REF007, REF010
 from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.table import LARGEST_WHOLE, Table
@@ -147,9 +146,6 @@ class MeshElements(NamedTuple):
     numbered: Numbered
     nodes: Indices
     length: Floats
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
 
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> MeshElements:

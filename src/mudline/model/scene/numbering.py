@@ -48,9 +48,6 @@ class DefinitionBatch(NamedTuple):
     table: str = ""
     rows: Indices | range = range(0)
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
     def place(self, index: int) -> Where:
         """Return the place of a definition of the batch."""
         return self.where.inside(self.table, int(self.rows[index])) if self.table else self.where

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.arguments import read_only
 from mudline.basics.limits import SHOWN_LETTERS
-from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers, short_repr
+from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers
 from mudline.language.codes import RUN001
 from mudline.language.codes.references import REF001
 from mudline.language.deck.evaluated import EvaluatedDeck
@@ -118,9 +118,6 @@ class LawArrays(NamedTuple):
     curve_index: Indices
     curves: tuple[ForceCurve, ...]
     linear_stiffness: Floats
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
 
 @dataclass(repr=False)

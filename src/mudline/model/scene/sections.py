@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.short_repr import short_repr
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Where
@@ -46,9 +45,6 @@ class Section(NamedTuple):
     faulty: bool
     entry: GeometricSet
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 class SectionTable(NamedTuple):
     """Sections in the order of the file, and the section of each element.
@@ -66,8 +62,17 @@ class SectionTable(NamedTuple):
     faulty: Mask
     open: bool
 
-    def __repr__(self) -> str:
-        return short_repr(self)
+    def values(self, *names: str, default: float = math.nan) -> Floats:
+        """Return a field (m,) of each element's section: the first of `names` that it gives, else `default`.
+
+        NaN without a section.
+        """
+
+        def first(row: object) -> float:
+            given = (name for name in names if isinstance(getattr(row, name, None), float | int))
+            return number(row, next(given, ""), default)
+
+        return picked((first(section.entry.section) for section in self.sections), self.of_element)
 
 
 def read_sections(
