@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
-from mudline.basics.spelling import Effort, edits, equally_near, nearest
+from mudline.basics.spelling import Effort, edits, equally_near, nearest, same_marks
 from mudline.language.codes.fields import SYN016
 from mudline.language.deck.evaluated import EvaluatedDeck, all_labels_read, labels_given
 from mudline.language.deck.model import Deck, Opaque
@@ -153,8 +153,21 @@ class Context:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
     def report_label(self, code: Code, label: str, where: Where, keyword: str, blocks: Blocks | None = None) -> None:
-        """Add a label of a node or an element that is not defined, unless unread lines may define it."""
-        if self.external_definers or not all_labels_read(self.written):
+        """Add a label of a node or an element that is not defined.
+
+        Lines that are not read may make labels in ways that are not known: in a deck with such lines a label is only
+        added, as a warning, if it is spelt nearly as a label in them.
+        """
+        if self.external_definers:
+            name = bare(label)
+            near = "" if folded(name) in self.labels else self.near(name, self.labels)
+            if near and same_marks(name, near) and not self.is_guessed_label(where):
+                makers = " or ".join(f"*{keyword}" for keyword in self.external_definers if makes_labels(keyword))
+                makers += " or *LABEL" if "LABEL" in self.deck.keywords() else ""
+                message = f"label {shown(label)} is not in {makers} (did you mean {{{self.labels[near]}}}?)"
+                self.report(code, f"{message}: correct it", where, Severity.WARNING)
+            return
+        if not all_labels_read(self.written):
             return
         thing = _NUMBERED[keyword]
         known = labels_given(self.written, Names[keyword])

@@ -24,7 +24,7 @@ from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
-    from mudline.language.keywords.model import Block, Part, Record
+    from mudline.language.keywords.model import Block, Record
 
 
 DIRECTIONS = ("longitudinal", "transverse")
@@ -63,7 +63,6 @@ class LawTable:
     set_laws: the laws in the order in which they were found.
     of_element: index (m,) of the law of each element, -1 for none.
     covered: the last law (m,) of the new family that holds an element, also one without stiffness.
-    referenced: folded names that a STIFFNESS= gives.
     types: places that give "RIGID" or "ELASTIC".
     gaps: places after which lines may give more laws.
     """
@@ -72,7 +71,6 @@ class LawTable:
     set_laws: list[SetLaw] = field(default_factory=list)
     of_element: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
-    referenced: set[str] = field(default_factory=set)
     types: dict[str, list[Where]] = field(default_factory=dict)
     gaps: list[Where] = field(default_factory=list)
 
@@ -228,16 +226,17 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
     A block is taken as a whole.
     """
-    surfaces = list(_of_surfaces(context))
-    values = [entry for _, entry in surfaces]
-    places = [where for where, _ in surfaces]
+    surfaces = [surface.properties for _, surface in context.surfaces]
+    values = [_resistance(surface, surface, surface, "suction_") for surface in surfaces]
+    places = [where.inside("properties") for where, _ in context.surfaces]
     position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
     for index in present(laws.covered):
         where = laws.set_laws[index].where
         block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
         position = cast("int", where.path[1])
         position_of[index] = len(values)
-        values.append(_of_set(block.sets[position]))
+        entry = block.sets[position]
+        values.append(_resistance(entry, entry.friction, entry.suction))
         places.append(Where(where.section, where.block, ("sets", position)))
     return SeabedResistance(values, places, position_of[laws.covered])
 
@@ -247,38 +246,24 @@ def present(covered: Indices) -> list[int]:
     return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
 
 
-def _two(part: Part | None, name: str) -> tuple[float, float]:
-    longitudinal, transverse = (number(part, f"{direction}{name}") for direction in DIRECTIONS)
-    return longitudinal, transverse
+def _resistance(entry: object, friction: object, suction: object, prefix: str = "") -> ResistanceValues:
+    """Return the values of an entry; those of suction have a `prefix` in their names."""
 
+    def two(name: str) -> tuple[float, float]:
+        if friction is None:
+            return _UNKNOWN, _UNKNOWN
+        return number(friction, f"longitudinal{name}"), number(friction, f"transverse{name}")
 
-def _of_set(entry: SeabedSet) -> ResistanceValues:
     return ResistanceValues(
-        friction=_two(entry.friction, ""),
-        mobilisation=_two(entry.friction, "_mobilisation"),
-        constant=number(entry.friction, "constant"),
-        friction_stiffness=_two(entry.friction, "_stiffness"),
+        friction=two(""),
+        mobilisation=two("_mobilisation"),
+        characteristic=two("_length"),
+        constant=number(friction, "constant"),
+        friction_stiffness=two("_stiffness"),
         lateral=number(entry, "lateral"),
-        suction=number(entry.suction, "stiffness"),
-        extent=number(entry.suction, "extent"),
+        suction=number(suction, f"{prefix}stiffness"),
+        extent=number(suction, f"{prefix}extent"),
     )
-
-
-def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
-    for where, surface in context.surfaces:
-        properties = surface.properties
-        yield (
-            where.inside("properties"),
-            ResistanceValues(
-                friction=_two(properties, ""),
-                mobilisation=_two(properties, "_mobilisation"),
-                characteristic=_two(properties, "_length"),
-                constant=number(properties, "constant"),
-                lateral=number(properties, "lateral"),
-                suction=number(properties, "suction_stiffness"),
-                extent=number(properties, "suction_extent"),
-            ),
-        )
 
 
 class Extension(NamedTuple):

@@ -10,6 +10,7 @@ from mudline.basics.limits import MOST_GENERATED, MOST_REPORTED
 from mudline.language.codes.references import REF005, REF006, REF007, REF010
 from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.table import LARGEST_WHOLE, Table
+from mudline.language.keywords.values import Label
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import (
     DefinitionBatch,
@@ -181,13 +182,12 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
-    """Report labels of nodes in a deck without unread blocks: only such blocks make labelled nodes."""
-    labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
-    if not labels or context.external_definers:
-        return
-    for row, column, word in labels[: MOST_REPORTED + 1]:
+    """Report labels of nodes that are not defined."""
+    for (row, column), word in table.words.items():
+        if not isinstance(word, Label) or not (0 < column < 3 or context.external_definers):
+            continue
         place = where.inside("elements", row, column)
-        if context.is_guessed_label(place):
+        if not context.external_definers and context.is_guessed_label(place):
             context.cannot_place(place)
         else:
             context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)

@@ -25,7 +25,6 @@ from mudline.model.scene.references import (
     check_references,
 )
 from mudline.model.scene.resolved import ResolvedDeck
-from mudline.model.scene.restart import continued
 from mudline.model.scene.seabed import read_seabed
 from mudline.model.scene.sections import read_sections
 from mudline.model.scene.sets import read_sets
@@ -115,9 +114,13 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     `external` adds elements that the deck does not show, or replaces its own. The models of the decks that it continues
     belong to the scene, if they are found next to it; their faults are in `problems` too.
     """
-    whole, problems_of_restart = continued(deck)
-    ready, problems = evaluated(whole)
-    context = Context(ready, whole, [*problems_of_restart, *problems])
+    problems: list[Problem] = []
+    if "RESTART" in deck.keywords("LOAD CASE"):
+        from mudline.model.scene.restart import continued  # noqa: PLC0415 - most decks continue none
+
+        deck, problems = continued(deck)
+    ready, problems_of_values = evaluated(deck)
+    context = Context(ready, deck, [*problems, *problems_of_values])
     if external is not None:
         context.external_definers = []
     nodes = read_nodes(context, external)
@@ -132,7 +135,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     seabed = read_seabed(context)
     check_chains(context)
     check_lines(context)
-    check_references(context, sets, laws, with_soil=external is None)
+    check_references(context, sets, with_soil=external is None)
     check_unread_lines(context, sets, nodes if external is None else None)
     if external is None:  # a file of elements does not define every node and set
         check_boundaries(context, nodes)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.basics.spelling import same_marks
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
@@ -26,8 +25,6 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Label, Names
 from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import makes_labels
-from mudline.model.scene.laws import LawTable
 from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.sets import Sets
 
@@ -35,7 +32,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import DragChains
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
     from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
-    from mudline.language.keywords.library.mesh import ElementRows, Elements
 
 
 CURVES = frozenset(
@@ -144,8 +140,8 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
 _FREEDOMS = 6
 
 
-def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
-    """Report undefined names of sets, and remember names of curves; names in soil springs only with `with_soil`.
+def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
+    """Report undefined names of sets; those in soil springs only with `with_soil`.
 
     Postprocessing may have its own sets in addition to those of the model.
     """
@@ -159,7 +155,6 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
             if name_key(name) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(use.name) for use in context.once(every_name)[Names.CURVE].used)
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
@@ -223,7 +218,8 @@ KEYWORD = "BOUNDARY"
 
 def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
     """Report undefined numbers of elements, and in a deck with `*LABEL` undefined labels."""
-    for ident, where in named if "LABEL" in context.deck.keywords() else ():
+    labelled = "LABEL" in context.deck.keywords() and not context.external_definers
+    for ident, where in named if labelled else ():
         if isinstance(ident, Label):
             context.report_label(REF005, ident, where, "ELEMENT", blocks=Blocks.NEVER)
     numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
@@ -245,8 +241,7 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
     shown_nodes = shows_nodes(context, nodes)
     for node, where in named:
         if isinstance(node, Label):
-            check_label(context, REF006, node, where)
-            if shown_nodes and not context.is_guessed_label(where):
+            if (shown_nodes or context.external_definers) and not context.is_guessed_label(where):
                 context.report_label(REF006, node, where, "NODE")
         elif isinstance(node, int):
             numbers.append(node)
@@ -338,7 +333,7 @@ def _is_no_freedom(freedom: object) -> bool:
 
 
 def check_lines(context: Context) -> None:
-    """Report names of lines and groups in `*LINE PATH SECTIONS`, and labels of elements and sets: warnings at most."""
+    """Report names of lines and groups in `*LINE PATH SECTIONS`: warnings at most."""
     blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
     groups = {name_key(group.name): group.name for block in blocks for group in block.groups if group.name}
     for where, block in context.blocks("LINE PATH SECTIONS"):
@@ -351,34 +346,6 @@ def check_lines(context: Context) -> None:
                 if section.repeat:
                     what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
                     _check_name(context, what, section.repeat, place.inside("sections", number, "repeat"), groups)
-    if not context.external_definers:
-        return
-    for where, block in context.blocks("ELEMENT"):
-        for index, entry in enumerate(cast("Elements", block).entries):
-            if hasattr(entry, "elements"):
-                for (row, column), word in cast("ElementRows", entry).elements.words.items():
-                    if isinstance(word, Label):
-                        check_label(context, REF006, word, where.inside("entries", index, "elements", row, column))
-    for where, block in context.blocks("ELEMENT SETS"):
-        for inner, ident in idents_given(block, Names.ELEMENT):
-            if isinstance(ident, Label):
-                check_label(context, REF005, ident, where.inside(*inner))
-
-
-def check_label(context: Context, code: Code, label: str, where: Where) -> None:
-    """Report a label as a warning if it is spelt nearly as a label in an unread line.
-
-    Other labels are not reported: lines are not read, and may make labels in ways that are not known.
-    """
-    name = bare(label)
-    if not context.external_definers or folded(name) in context.labels:
-        return
-    near = context.near(name, context.labels)
-    if near and same_marks(name, near) and not context.is_guessed_label(where):
-        makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
-        makers += " or *LABEL" if "LABEL" in context.deck.keywords() else ""
-        message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
-        context.report(code, f"{message}: correct it", where, Severity.WARNING)
 
 
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:

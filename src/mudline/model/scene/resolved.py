@@ -22,13 +22,14 @@ from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import facts_of
 from mudline.language.keywords.text import suggestion
+from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.references import CURVES, THINGS, undefined
+from mudline.model.scene.references import CURVES, THINGS, every_name, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,
@@ -165,9 +166,14 @@ class ResolvedDeck:
         """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
         curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
         clashing = any(each.curve is not None and not each.whole for each in self.laws.curves)
-        missing = any(each.lacks for each in self.noticed) or not self.laws.referenced <= curves
+        missing = any(each.lacks for each in self.noticed) or not self.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
+
+    @cached_property
+    def referenced(self) -> set[str]:
+        """Folded names of force-embedment curves that a STIFFNESS= gives."""
+        return {folded(use.name) for use in self.context.once(every_name)[Names.CURVE].used}
 
     @property
     def source(self) -> str:

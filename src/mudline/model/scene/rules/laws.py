@@ -286,12 +286,12 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     yield from undefined(scene.context, CURVES, REF002)
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
-    if names.keys() >= scene.laws.referenced:
+    if names.keys() >= scene.referenced:
         return
     laws = scene.laws.set_laws
     lost = [index for index, law in enumerate(laws) if law.kind is LawKind.CURVE and law.curve == NOTHING]
     followed = {laws[index].where for index in lost if (scene.laws.of_element == index).any()}
-    unused = [name for key, name in names.items() if key not in scene.laws.referenced]
+    unused = [name for key, name in names.items() if key not in scene.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
     for name, where in ((use.name, use.where) for use in scene.context.once(every_name)[Names.CURVE].used):
