@@ -70,7 +70,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
     repeats = nodes.repeats
     if placeless and repeats.size:  # where a line of nodes ends is not known, nor which numbers it has
         repeats = repeats[[nodes.where_row(row) not in placeless for row in repeats.tolist()]]
-    report_repeats(context, nodes, repeats, "node")
+    _report_repeats(context, nodes, repeats, "node")
     return nodes
 
 
@@ -163,8 +163,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     if external is not None:
         gathered.add(DefinitionBatch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.resolve(2)
-    if elements.repeats.size:
-        report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
+    _report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
     indices = _join(context, elements, nodes)
     length = _lengths(indices, nodes.values)
     if external is not None:
@@ -285,28 +284,19 @@ def distances(points: Floats, others: Floats) -> Floats:
     return lengths
 
 
-def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
+def _report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
     """Report definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
-    if not repeats.size:
-        return
     batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)
-    ends = [*begins.tolist()[1:], len(repeats)]
-    for batch, begin, end in zip(batches.tolist(), begins.tolist(), ends, strict=True):
-        if numbered.batches[batch].table:
-            for row in repeats[begin : min(end, begin + MOST_REPORTED + 1)].tolist():
-                _report_repeat(context, numbered, row, thing, 1)
-        else:
-            _report_repeat(context, numbered, int(repeats[begin]), thing, end - begin)
-
-
-def _report_repeat(context: Context, numbered: Numbered, row: int, thing: str, count: int) -> None:
-    where, batch = numbered.where_row(row), int(numbered.batches_of(row))
-    number = numbered.batches[batch].ids[row - numbered.starts[batch]]
-    first = numbered.where_row(int(numbered.firsts[numbered.indices(np.array([number]))[0]]))
-    what = f"{thing} {number} is" if count == 1 else f"{count} {thing}s (first: {number}) are"
-    message = f"{what} defined twice: the later definition holds; remove one"
-    if first.section == where.section:
-        context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
-    else:
-        message += " (inferred: the $MODEL sections of a file make one model)"
-        context.report(REF007, message, where, Severity.WARNING)
+    for index, rows in zip(batches.tolist(), np.split(repeats, begins[1:]), strict=False):
+        batch = numbered.batches[index]
+        for row in rows[: MOST_REPORTED + 1 if batch.table else 1].tolist():
+            where, number = numbered.where_row(row), batch.ids[row - numbered.starts[index]]
+            first = numbered.where_row(int(numbered.firsts[numbered.indices(np.array([number]))[0]]))
+            single = bool(batch.table) or len(rows) == 1
+            what = f"{thing} {number} is" if single else f"{len(rows)} {thing}s (first: {number}) are"
+            message = f"{what} defined twice: the later definition holds; remove one"
+            if first.section == where.section:
+                context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
+            else:
+                message += " (inferred: the $MODEL sections of a file make one model)"
+                context.report(REF007, message, where, Severity.WARNING)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -15,23 +14,25 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
+from mudline.language.deck.evaluated import EvaluatedDeck
 from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
 from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import idents_given, is_read, may_name, names_given
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Label, Names
 from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
-from mudline.model.scene.numbering import Numbered
+from mudline.model.scene.numbering import Indices, Numbered
 from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import DragChains
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
-    from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
+    from mudline.language.keywords.library.loads import Boundary, FixedValues
 
 
 CURVES = frozenset(
@@ -54,8 +55,14 @@ THINGS = frozenset(
 class NamesOfKind:
     """Names of a kind: those that fields use, and those that they define, by their folded form."""
 
+    kind: Names
     used: list[NamedPlace] = field(default_factory=list)
     defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
+
+    @property
+    def thing(self) -> str:
+        """Object of the kind, in words."""
+        return self.kind.value.removeprefix("a ").removeprefix("an ")
 
     @property
     def known(self) -> dict[str, str]:
@@ -70,7 +77,7 @@ def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfK
 
 def every_name(context: Context) -> dict[Names, NamesOfKind]:
     """Return the names of all kinds that the fields of a deck give; call it by `Context.once`."""
-    names_by_kind: dict[Names, NamesOfKind] = defaultdict(NamesOfKind)
+    names_by_kind = {kind: NamesOfKind(kind) for kind in Names}
     for place in context.deck.names():
         names = names_by_kind[place.kind]
         if place.role == "names":
@@ -91,8 +98,7 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
         for use in names.used:
             if name_key(use.name) in known or not use.name:
                 continue
-            thing = kind.value.removeprefix("a ").removeprefix("an ")
-            message = f"{thing} {shown(use.name)} is not defined{context.hint(use.name, known)}: {advice}"
+            message = f"{names.thing} {shown(use.name)} is not defined{context.hint(use.name, known)}: {advice}"
             severity = Severity.WARNING if doubt else None
             yield Problem(code, message + doubt, None, severity, use.where, blocks=Blocks.NEVER, lacks=use.name)
 
@@ -109,11 +115,12 @@ def _doubt(context: Context, definers: Collection[str]) -> str:
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are defined a second time."""
-    for kind, names in names_of(context, kinds).items():
-        thing = kind.value.removeprefix("a ").removeprefix("an ")
+    for names in names_of(context, kinds).values():
         for definitions in names.defined.values():
             for later in definitions[1:]:
-                message = f"{thing} {shown(later.name)} is already defined: choose another name, or keep one of them"
+                message = (
+                    f"{names.thing} {shown(later.name)} is already defined: choose another name, or keep one of them"
+                )
                 yield Problem(code, message, where=later.where)
 
 
@@ -131,13 +138,9 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
                 raw = "\n".join(map(folded, unread)) or "\n"
             if key in raw:
                 continue
-            thing = kind.value.removeprefix("a ").removeprefix("an ")
             by = f"name it in {' or '.join(f'*{keyword}' for keyword in users)}, or remove it" if users else "remove it"
             severity = None if users else Severity.INFO
-            yield Problem(code, f"{thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
-
-
-_FREEDOMS = 6
+            yield Problem(code, f"{names.thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
 
 
 def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
@@ -214,6 +217,7 @@ def check_chains(context: Context) -> None:
 
 KEYWORD = "BOUNDARY"
 """Keyword with its own check: some nodes of its ranges may be undefined."""
+FREEDOMS = range(1, 7)
 
 
 def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
@@ -259,32 +263,69 @@ def shows_nodes(context: Context, nodes: Numbered) -> bool:
 
 def check_boundaries(context: Context, nodes: Numbered) -> None:
     """Report undefined nodes of `*BOUNDARY`, and degrees of freedom other than 1 to 6."""
-    named: list[tuple[object, Where]] = []
-    for where, block in context.blocks("BOUNDARY", "LOAD CASE"):
-        types = cast("Boundary", block).types
-        if not types and not context.deck.lost(where):
+    blocks = context.blocks(KEYWORD, "LOAD CASE")
+    for where, block in blocks:
+        if not cast("Boundary", block).types and not context.deck.lost(where):
             message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
             context.report(SYN001, message, where, Severity.WARNING)
-        for i, held in enumerate(types):
-            for j, entry in enumerate(held.entries):
-                place = where.inside("types", i, "entries", j)
-                if hasattr(entry, "generate"):
-                    span = cast("FixedRange", entry)
-                    _check_range(context, nodes, span, place.inside("generate"))
-                    ends = (getattr(span.generate, "start", None), getattr(span.generate, "end", None))
-                    labels = enumerate(ends)
-                    named += [(end, place.inside("generate", at)) for at, end in labels if isinstance(end, Label)]
-                else:
-                    named.append((entry.node, place.inside("node")))
-                    _check_freedom(context, entry.dof, place.inside("dof"))
+    named: list[tuple[object, Where]] = []
+    for place, entry, values in _conditions(blocks):
+        if values is None:
+            named.append((entry.node, place.inside("node")))
+            _check_freedom(context, entry.dof, place.inside("dof"))
+        else:
+            _check_range(context, nodes, values, place)
+            ends = enumerate((values.start, values.end))
+            named += [(end, place.inside(at)) for at, end in ends if isinstance(end, Label)]
     _check_nodes(context, nodes, named)
 
 
-def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
+def _conditions(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any, FixedValues | None]]:
+    """Yield place and entry of each line of `*BOUNDARY` that is read, and the values of a GEN=."""
+    for where, block in blocks:
+        for i, held in enumerate(cast("Boundary", block).types):
+            for j, entry in enumerate(held.entries):
+                place = where.inside("types", i, "entries", j)
+                if not hasattr(entry, "generate"):
+                    yield place, entry, None
+                elif entry.generate is not None:
+                    yield place.inside("generate"), entry, entry.generate
+
+
+class HeldNodes(NamedTuple):
+    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
+
+    where: Where
+    dof: int
+    nodes: Indices
+    how: tuple[object, object]
+
+
+def held_nodes(deck: EvaluatedDeck, nodes: Numbered) -> Iterator[HeldNodes]:
+    """Yield the nodes, among those of a model, that each line of `*BOUNDARY` of a deck holds.
+
+    Lines whose form is not public are left out.
+    """
+    for place, entry, values in _conditions(deck.blocks(KEYWORD, "LOAD CASE")):
+        numbers: tuple[Any, ...]
+        if values is None:
+            numbers, dof, value, where = (entry.node, entry.node, 1), entry.dof, entry.value, place.inside("dof")
+        else:
+            at, step = freedom_and_step(values)
+            fields = (values.third, values.fourth, values.fifth, None)
+            numbers, dof, value, where = (
+                (values.start, values.end, cast("Any", step)),
+                fields[at - 2],
+                fields[at - 1],
+                place,
+            )
+        whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
+        if whole and numbers[2] > 0 and dof in FREEDOMS:
+            yield HeldNodes(where, int(cast("int", dof)), nodes.between(*numbers), (value or 0.0, entry.fixation))
+
+
+def _check_range(context: Context, nodes: Numbered, values: FixedValues, where: Where) -> None:
     """Report undefined nodes of a GEN=, without building them, and its degree of freedom."""
-    values = cast("FixedValues | None", entry.generate)
-    if values is None:
-        return
     at, step = freedom_and_step(values)
     freedom = (values.third, values.fourth)[at - 2]
     if freedom is None:
@@ -329,7 +370,7 @@ def freedom_and_step(values: FixedValues) -> tuple[int, object]:
 def _is_no_freedom(freedom: object) -> bool:
     """Return True if a value is not a degree of freedom; an unreadable value may be one. Equations give 6.0 for 6."""
     known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in range(1, _FREEDOMS + 1)
+    return known and freedom not in FREEDOMS
 
 
 def check_lines(context: Context) -> None:

@@ -29,7 +29,7 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.references import CURVES, THINGS, every_name, undefined
+from mudline.model.scene.references import CURVES, THINGS, HeldNodes, every_name, held_nodes, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,
@@ -169,6 +169,11 @@ class ResolvedDeck:
         missing = any(each.lacks for each in self.noticed) or not self.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
+
+    @cached_property
+    def held(self) -> list[HeldNodes]:
+        """Nodes that each line of `*BOUNDARY` in the deck itself holds."""
+        return list(held_nodes(self.deck, self.nodes))
 
     @cached_property
     def referenced(self) -> set[str]:
@@ -319,23 +324,20 @@ class ResolvedDeck:
     @cached_property
     def law_names(self) -> list[str]:
         """Law of each element: `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""
-        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "none"]
-        names_of_elements = [names[position] for position in self.laws.of_element.tolist()]
+        names = np.array([*map(self.law_name, self.laws.set_laws), "none"], dtype=object)[self.laws.of_element]
         for kind, _, _, elements in self.replaced:
-            for element in np.flatnonzero(elements).tolist():
-                names_of_elements[element] = kind.name.lower()
-        return names_of_elements
+            names[elements] = kind.name.lower()
+        return list(map(str, names))
 
     @cached_property
     def law_sets(self) -> list[str | None]:
         """Name of the set through which each element got its law; None without a law."""
         names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
-        sets_of_elements = [[*names, None][index] for index in self.laws.of_element.tolist()]
+        of_elements = np.array([*names, None], dtype=object)[self.laws.of_element]
         for _, _, extension, elements in self.replaced:
-            for element in np.flatnonzero(elements).tolist():
-                holder = extension.sets[int(extension.of_element[element])]
-                sets_of_elements[element] = None if holder is None else holder.name
-        return sets_of_elements
+            holders = np.array([*(set_ and set_.name for set_ in extension.sets), None], dtype=object)
+            of_elements[elements] = holders[extension.of_element[elements]]
+        return list(of_elements)
 
     def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
         """Return elements for a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
