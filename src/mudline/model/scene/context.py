@@ -12,8 +12,8 @@ from mudline.basics.short_repr import counted, short_repr
 from mudline.basics.spelling import Effort, edits, equally_near, nearest, same_marks
 from mudline.language.codes.fields import SYN016
 from mudline.language.deck.evaluated import EvaluatedDeck, all_labels_read, labels_given
-from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.model import Deck, NamedPlace, Opaque
+from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
@@ -53,6 +53,25 @@ class _Uses:
     where: Where
     count: int = 0
     blocks: Blocks = Blocks.NEVER
+
+
+@dataclass(eq=False)
+class NamesOfKind:
+    """Names of a kind: those that fields use, and those that they define, by their folded form."""
+
+    kind: Names
+    used: list[NamedPlace] = field(default_factory=list)
+    defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
+
+    @property
+    def thing(self) -> str:
+        """Object of the kind, in words."""
+        return self.kind.value.removeprefix("a ").removeprefix("an ")
+
+    @property
+    def known(self) -> dict[str, str]:
+        """Defined names, as first written, by their folded form."""
+        return {key: given[0].name for key, given in self.defined.items()}
 
 
 @dataclass(repr=False, eq=False)
@@ -102,6 +121,22 @@ class Context:
     def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         """Blocks of every section and keyword."""
         return placed_blocks(self.deck)
+
+    @cached_property
+    def names(self) -> dict[Names, NamesOfKind]:
+        """Names that the fields of the deck give, of every kind."""
+        names_by_kind = {kind: NamesOfKind(kind) for kind in Names}
+        for place in self.deck.names():
+            names = names_by_kind[place.kind]
+            if place.role == "names":
+                names.used.append(place)
+            else:
+                names.defined.setdefault(name_key(place.name), []).append(place)
+        return names_by_kind
+
+    def names_of(self, kinds: Collection[Names]) -> list[NamesOfKind]:
+        """Return the names of some kinds."""
+        return [names for kind, names in self.names.items() if kind in kinds]
 
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:

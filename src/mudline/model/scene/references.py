@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
@@ -15,7 +14,7 @@ from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
 from mudline.language.deck.evaluated import EvaluatedDeck
-from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
+from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
@@ -51,46 +50,10 @@ THINGS = frozenset(
 """Kinds of named objects that are not curves."""
 
 
-@dataclass(eq=False)
-class NamesOfKind:
-    """Names of a kind: those that fields use, and those that they define, by their folded form."""
-
-    kind: Names
-    used: list[NamedPlace] = field(default_factory=list)
-    defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
-
-    @property
-    def thing(self) -> str:
-        """Object of the kind, in words."""
-        return self.kind.value.removeprefix("a ").removeprefix("an ")
-
-    @property
-    def known(self) -> dict[str, str]:
-        """Defined names, as first written, by their folded form."""
-        return {key: given[0].name for key, given in self.defined.items()}
-
-
-def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
-    """Return the names of some kinds that the fields of a deck give."""
-    return {kind: names for kind, names in context.once(every_name).items() if kind in kinds}
-
-
-def every_name(context: Context) -> dict[Names, NamesOfKind]:
-    """Return the names of all kinds that the fields of a deck give; call it by `Context.once`."""
-    names_by_kind = {kind: NamesOfKind(kind) for kind in Names}
-    for place in context.deck.names():
-        names = names_by_kind[place.kind]
-        if place.role == "names":
-            names.used.append(place)
-        else:
-            names.defined.setdefault(name_key(place.name), []).append(place)
-    return names_by_kind
-
-
 def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are not defined; a warning if that is not certain, because not all was read."""
-    for kind, names in names_of(context, kinds).items():
-        if not names.used or not (definers := catalogue.definers(kind)) or not context.deck.keywords():
+    for names in context.names_of(kinds):
+        if not names.used or not (definers := catalogue.definers(names.kind)) or not context.deck.keywords():
             continue
         known = names.known
         doubt = _doubt(context, definers)
@@ -115,7 +78,7 @@ def _doubt(context: Context, definers: Collection[str]) -> str:
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are defined a second time."""
-    for names in names_of(context, kinds).values():
+    for names in context.names_of(kinds):
         for definitions in names.defined.values():
             for later in definitions[1:]:
                 message = (
@@ -127,9 +90,9 @@ def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator
 def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are not used: an info if the keywords that would use them are not read, or not in the deck."""
     raw = ""
-    for kind, names in names_of(context, kinds).items():
+    for names in context.names_of(kinds):
         used = {name_key(use.name) for use in names.used}
-        users = catalogue.users(kind)
+        users = catalogue.users(names.kind)
         for key, (first, *_) in names.defined.items():
             if key in used:
                 continue
@@ -149,7 +112,7 @@ def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
     Postprocessing may have its own sets in addition to those of the model.
     """
     own: dict[str, str] | None = None
-    for name, where in ((use.name, use.where) for use in context.once(every_name)[Names.SET].used):
+    for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
@@ -178,11 +141,6 @@ def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
             key, equals, name = line.partition("=")
             if equals and canonical_key(key) == Names.SET.name:
                 yield name
-
-
-def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
-    """Return the names of some kinds that the fields of a deck use, with their places."""
-    return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
 
 
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:

@@ -29,7 +29,7 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.references import CURVES, THINGS, HeldNodes, every_name, held_nodes, undefined
+from mudline.model.scene.references import CURVES, THINGS, HeldNodes, held_nodes, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,
@@ -178,7 +178,7 @@ class ResolvedDeck:
     @cached_property
     def referenced(self) -> set[str]:
         """Folded names of force-embedment curves that a STIFFNESS= gives."""
-        return {folded(use.name) for use in self.context.once(every_name)[Names.CURVE].used}
+        return {folded(use.name) for use in self.context.names[Names.CURVE].used}
 
     @property
     def source(self) -> str:

@@ -30,8 +30,6 @@ from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.references import (
     CURVES,
     KEYWORD,
-    every_name,
-    names_of,
     sets_of_postprocessing,
     shows_nodes,
 )
@@ -240,7 +238,7 @@ class _Looking:
         definers = catalogue.definers(Names.VESSEL)
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
-        vessels = self.context.once(every_name)[Names.VESSEL].known
+        vessels = self.context.names[Names.VESSEL].known
         if vessels and name_key(name) not in vessels:
             from mudline.model.scene.rules.fields import REF019  # noqa: PLC0415 - only for a finding
 
@@ -266,7 +264,7 @@ class _Looking:
     @cached_property
     def curves(self) -> dict[str, str]:
         """Curves of all kinds that the deck defines, by their folded names."""
-        kinds = names_of(self.context, CURVES | {Names.CURVE}).values()
+        kinds = self.context.names_of(CURVES | {Names.CURVE})
         return {key: name for names in kinds for key, name in names.known.items()}
 
     @cached_property

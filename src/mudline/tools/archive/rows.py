@@ -24,7 +24,6 @@ from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.references import used_names
 from mudline.model.scene.sets import ALL
 from mudline.tools.archive.tables import CurveRow, DeckRow, FindingRow, KeywordRow, LawRow, ParameterRow, SetRow
 
@@ -97,7 +96,8 @@ def _keywords(deck: Deck) -> Iterator[KeywordRow]:
 
 def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
-    used = {name_key(name) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
+    names = scene.context.names_of((Names.SET, Names.SUBSET))
+    used = {name_key(use.name) for each in names for use in each.used}
     # Unread lines may name sets.
     unread = "\n".join(line for _, _, block in deck.every_block() for line in raw_lines(block)).casefold()
     for key, entry in named.items():
