@@ -54,7 +54,7 @@ def test_a_block_whose_law_cannot_be_known_takes_that_of_the_surface_away() -> N
 def test_a_stiffness_that_reads_as_a_number_is_one() -> None:
     scene = scene_of(NEW + " SET=a\n STIFFNESS=100\n*SEABED STIFFNESS\n CURVE=100\n 0, 0\n 1, 7\n")
     assert stiffnesses(scene)[:5] == [100] * 5
-    assert scene.laws.referenced == set()
+    assert scene.referenced == set()
 
 
 def test_lines_before_any_set_hold_for_all() -> None:

@@ -245,4 +245,3 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     laws = {name.rpartition(".")[2] for name in found if name.startswith("mudline.model.contact.laws.")}
     assert laws == {"curve"}
     assert "mudline.model.scene.contact_input" in found
-    assert "mudline.model.scene.assignments" not in found

@@ -21,6 +21,7 @@ from mudline.checks.rules.style import INDENTED_COMMENT
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF005, REF006, REF007, REF008
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
@@ -31,7 +32,7 @@ from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.rows import NUMBER
 from mudline.model.scene.curves import SceneCurve
-from mudline.model.scene.references import CURVES, THINGS, names_of, undefined, used_names
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.rules.fields import REF019
 from mudline.model.scene.rules.laws import REF002, undefined_curve
 from mudline.model.scene.sets import ALL
@@ -137,20 +138,25 @@ def scene_corrections(context: LintContext) -> Iterator[Correction]:
         return
     sets = {key: one.name for key, one in scene.set_table.named.items() if key != ALL}
     curves = {folded(one.name): one.name for one in scene.laws.curves if one.named and not one.embedment}
-    used = {where for where, _ in used_names(context.deck, Names.CURVE)}
+    used = {where for where, _ in _used_names(context.deck, Names.CURVE)}
     nameless = [one for one in undefined_curve(scene) if one.where in used]
     lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]
     effort = Effort()
     yield from _names(context, lacking, sets, (Names.SET, Names.SUBSET), effort)
     yield from _names(context, nameless, curves, (Names.CURVE,), effort)
     for kinds, code in ((CURVES, REF002), (THINGS, REF019)):
-        for kind, names in names_of(scene.context, kinds).items():
-            known = {key: given[0].name for key, given in names.defined.items()}
-            yield from _names(context, [*undefined(scene.context, [kind], code)], known, (kind,), effort)
+        for names in scene.context.names_of(kinds):
+            lost = [*undefined(scene.context, [names.kind], code)]
+            yield from _names(context, lost, names.known, (names.kind,), effort)
     yield from _numbers(context, text)
     yield from _given_twice(context, text)
     unlike = [one.lacks for one in nameless if not meant_names(one.lacks, curves, effort)]
     yield from _rows_without_name(context, text, unlike)
+
+
+def _used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
+    """Return the names of some kinds that the fields of a deck use, with their places."""
+    return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
 
 
 def _names(
@@ -165,7 +171,7 @@ def _names(
     if not alike or text is None:
         return
     places: dict[str, list[Where]] = {}
-    for where, name in used_names(context.deck, *kinds):
+    for where, name in _used_names(context.deck, *kinds):
         places.setdefault(name_key(name), []).append(where)
     for key, found in alike.items():
         near = meant_names(key, known, effort)
@@ -242,7 +248,7 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
 
 def _unused_set(context: LintContext) -> list[str]:
     """Return the name of the only set that is not used."""
-    used = {name_key(name) for _, name in used_names(context.deck, Names.SET, Names.SUBSET)}
+    used = {name_key(name) for _, name in _used_names(context.deck, Names.SET, Names.SUBSET)}
     named = context.scene.set_table.named
     sets = [set_.name for key, set_ in named.items() if key not in used and set_.where is not None]
     return sets if len(sets) == 1 else []

@@ -21,7 +21,6 @@ from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.laws import SetLaw, present
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
@@ -135,7 +134,7 @@ def held_twice(context: LintContext) -> Iterator[Problem]:
     Finds: 13:5
     """
     scene = context.scene
-    lines = [line for line in held_nodes(scene) if line.where.section < len(context.deck.own_sections)]
+    lines = [line for line in scene.held if line.where.section < len(context.deck.own_sections)]
     holders: dict[tuple[int, int], Indices] = {}
     for number, line in enumerate(lines):
         holder = holders.setdefault((line.where.section, line.dof), np.full(len(scene.node_ids), -1))
@@ -181,7 +180,7 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     follows = any(is_of_vessels(context.deck, where) for where, _ in context.written(KEYWORD, "LOAD CASE"))
-    held = list(held_nodes(scene)) if follows else []
+    held = scene.held if follows else []
     for where, keyword, line in unread_lines(scene.context) if held else ():
         if keyword != KEYWORD or not is_of_vessels(context.deck, where):
             continue

@@ -54,11 +54,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
         return
     scene = context.scene
     names = {folded(curve.name) for curve in scene.laws.curves if not curve.embedment}
-    unknown = scene.laws.referenced - names
+    unknown = scene.referenced - names
     idle: dict[str, list[SceneCurve]] = {}
     for curve in scene.laws.curves:
         name = folded(curve.name)
-        if curve.embedment or not curve.named or name in scene.laws.referenced:
+        if curve.embedment or not curve.named or name in scene.referenced:
             continue
         if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 reports
             continue
@@ -70,7 +70,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
         return
     places = [curve.where for curves in idle.values() for curve in curves]
     repairs = removals(context.text, places) if context.text and _all_else_is_given(context) else {}
-    soils = {_without_estimate(name) for name in scene.laws.referenced}
+    soils = {_without_estimate(name) for name in scene.referenced}
     for curve, *_ in idle.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
         soil = _without_estimate(curve.name)
@@ -111,7 +111,7 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # a set whose STIFFNESS= is not known
     if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
         return True  # a block of which no set is known
-    if "SEABED PROPERTIES" in scene.context.misplaced or (scene.context.restart and not scene.laws.referenced):
+    if "SEABED PROPERTIES" in scene.context.misplaced or (scene.context.restart and not scene.referenced):
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read

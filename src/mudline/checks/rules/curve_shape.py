@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain
+from itertools import chain, filterfalse
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, 
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import line_spans, row_fields
-from mudline.model.scene.curves import DeckCurve, SceneCurve, clashes_and_repeats, other_curves
+from mudline.model.scene.curves import SceneCurve, clashes_and_repeats
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 
@@ -126,17 +126,16 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    curves, others = context.scene.laws.curves, other_curves(context.scene.deck)
-    seabed: Iterator[tuple[SceneCurve | DeckCurve, str]]
-    seabed = ((curve, "ratio") for curve in curves if not is_upside_down(curve))
-    for curve, name in chain(seabed, ((curve, curve.axes[0]) for curve in others)):
+    scene = context.scene
+    for curve in chain(filterfalse(is_upside_down, scene.laws.curves), scene.other_curves):
         over = curve.points[:, 0]
-        if not isinstance(curve, SceneCurve) and not (over[1:] > over[:-1]).any():
+        if not curve.of_seabed and not (over[1:] > over[:-1]).any():
             continue  # it is written from its other end
         for index in (np.flatnonzero(over[1:] < over[:-1])[:1] + 1).tolist():
             before, value = over[index - 1 : index + 1].tolist()
-            message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            repair = sorting(context.text, curve) if context.text and isinstance(curve, SceneCurve) else None
+            what = f"{curve.axes[0]} {value!r} comes after {before!r}"
+            repair = sorting(context.text, curve) if context.text and curve.of_seabed else None
+            message = f"{what}: legal, the points are sorted; put them in order"
             yield Problem(CRV002, message, where=curve.point(index), repair=repair)
 
 
@@ -266,10 +265,9 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    curves: Iterator[SceneCurve | DeckCurve] = chain(context.scene.laws.curves, other_curves(context.scene.deck))
-    for curve in curves:
+    for curve in chain(context.scene.laws.curves, context.scene.other_curves):
         repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
-        rows = plain_rows(context.text, curve) if context.text and repeats and isinstance(curve, SceneCurve) else None
+        rows = plain_rows(context.text, curve) if context.text and repeats and curve.of_seabed else None
         for index in repeats:
             over, value = curve.points[index].tolist()
             message = f"the point ({over!r}, {value!r}) is given twice and counts once: remove it"

@@ -20,7 +20,6 @@ from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.references import used_names
 from mudline.model.scene.unread_lines import unread_lines
 
 if TYPE_CHECKING:
@@ -341,7 +340,8 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
         return
     effort = Effort()
     own = len(context.deck.own_sections)
-    requests = [(where, name) for where, name in used_names(context.deck, Names.VARIABLE) if where.section < own]
+    used = context.scene.context.names[Names.VARIABLE].used
+    requests = [(use.where, use.name) for use in used if use.where.section < own]
     for where, name in [*requests, *_of_kept_lines(context)]:
         words = name.upper().replace("-", " ").split()
         for word in words:

@@ -22,7 +22,6 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
-from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
@@ -223,7 +222,7 @@ def _named_nodes(context: LintContext) -> Mask:
     named = np.zeros(len(scene.node_ids), dtype=np.bool_)
     indices = scene.nodes.indices(np.array(sorted(numbers), dtype=np.int64)) if numbers else np.zeros(0, np.intp)
     named[indices[indices >= 0]] = True
-    for line in held_nodes(scene):  # those of a GEN= among them
+    for line in scene.held:  # those of a GEN= among them
         named[line.nodes] = True
     return named
 

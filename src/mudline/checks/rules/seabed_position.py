@@ -11,7 +11,6 @@ import numpy as np
 from mudline.checks.context import LintContext
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.rules import rule
-from mudline.model.scene.boundary import held_nodes
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask, blocks_of
@@ -295,7 +294,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
         return
-    held = [line for line in held_nodes(scene) if line.dof in _IN_PLANE]
+    held = [line for line in scene.held if line.dof in _IN_PLANE]
     if not held or scene.context.restart:  # the deck that is continued may constrain the other one
         return
     constrained = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)

@@ -137,7 +137,7 @@ def _is_whole_curve(difference: Difference, pair: Pair) -> bool:
         return False
     side = pair.before if difference.kind == "removed" else pair.after
     kind, _, name = difference.where.partition("/")
-    return kind == "curves of sets" or (kind == "curves" and folded(name) in side.scene.laws.referenced)
+    return kind == "curves of sets" or (kind == "curves" and folded(name) in side.scene.referenced)
 
 
 def _meaning(pair: Pair, groups: set[str]) -> Iterator[Difference]:

@@ -47,7 +47,7 @@ def read_reference(path: Path, evaluation: Evaluation) -> Reference:
     Raises OSError, or DeckError for a file with faults: fields that are no numbers, an element twice, no time that
     matches those of the evaluation.
     """
-    table = read_csv(path, ("element",), (), others=True)
+    table = read_csv(path, ("element",), None)
     names = [name for name in COMPARED if name in table.columns]
     if not names:
         raise data_error(table.file, f"the header has none of {', '.join(COMPARED)} to compare")

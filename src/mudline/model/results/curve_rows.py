@@ -11,7 +11,7 @@ from mudline.language.deck.parameters import folded
 from mudline.language.keywords.format import unit_text
 from mudline.model.curves import ForceCurve
 from mudline.model.results.summary import CURVE_SIDES, followers
-from mudline.model.scene.curves import OF_SEABED, DeckCurve, SceneCurve, other_curves
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.model import Scene
 
 
@@ -24,25 +24,29 @@ def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) ->
     Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
     """
     seabed = [
-        _curve_row(entry.name, curve, diameters_on(scene, index), ratios, weight)
-        | {"kind": OF_SEABED, "keyword": _keyword(scene, entry), "axes": ["ratio", "force"]}
-        | {"units": ["-", unit_text("F/L", scene.units)], "ends": "slope", "reach": [None, None]}
+        _curve_row(entry.name, curve, diameters_on(scene, index), ratios, weight) | _of_keyword(scene, entry)
         for index, entry, curve in used_curves(scene)
     ]
     others = [
         _curve_row(source.name, curve, [], (), None)
         | {"at": [_value_of_other(curve, source, ratio) for ratio in ratios]}
-        | {"kind": source.kind, "keyword": source.keyword, "axes": list(source.axes)}
-        | {"units": [unit_text(unit, scene.units) for unit in source.units], "ends": source.ends}
-        | {"reach": [finite(end) for end in source.reach]}
-        for source in sorted(other_curves(scene.deck), key=lambda source: (source.kind, source.keyword))
-        if (curve := source.made())
+        | _of_keyword(scene, source)
+        for source in sorted(scene.other_curves, key=lambda source: (source.kind, source.keyword))
+        if (curve := source.curve)
     ]
     return seabed + others
 
 
-def _keyword(scene: Scene, entry: SceneCurve) -> str:
-    return scene.deck.sections[entry.where.section].blocks[entry.where.block].keyword
+def _of_keyword(scene: Scene, entry: SceneCurve) -> dict[str, Any]:
+    """Return the parts of a row that the keyword of its curve gives."""
+    return {
+        "kind": entry.kind,
+        "keyword": entry.keyword,
+        "axes": list(entry.axes),
+        "units": [unit_text(unit, scene.units) for unit in entry.units],
+        "ends": entry.ends,
+        "reach": [finite(end) for end in entry.reach],
+    }
 
 
 def used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
@@ -94,7 +98,7 @@ def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
     }
 
 
-def _value_of_other(curve: ForceCurve, source: DeckCurve, ratio: float) -> dict[str, Any]:
+def _value_of_other(curve: ForceCurve, source: SceneCurve, ratio: float) -> dict[str, Any]:
     """Return the values of a curve that does not continue with its slope: None where unknown, else the end value."""
     values = _value_at(curve, ratio)
     low, high = source.reach

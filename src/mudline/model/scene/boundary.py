@@ -10,7 +10,6 @@ import numpy as np
 
 from mudline.language.deck.evaluated import EvaluatedDeck, evaluated
 from mudline.language.deck.parameters import folded
-from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.values import Names
@@ -18,50 +17,14 @@ from mudline.language.syntax.rows import read_number
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.references import KEYWORD, freedom_and_step
+from mudline.model.scene.references import FREEDOMS, KEYWORD, held_nodes
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.loads import Boundary, FixedValues
+    from mudline.language.keywords.library.loads import Boundary
     from mudline.language.keywords.library.vessel_motions import Offsets
 
 TRANSLATIONS = frozenset({1, 2, 3})
 NO_FREEDOMS: frozenset[int] = frozenset()
-_FREEDOMS = range(1, 7)
-
-
-class HeldNodes(NamedTuple):
-    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
-
-    where: Where
-    dof: int
-    nodes: Indices
-    how: tuple[object, object]
-
-
-def held_nodes(scene: Scene, deck: EvaluatedDeck | None = None) -> Iterator[HeldNodes]:
-    """Yield the nodes that each line of `*BOUNDARY` holds in the deck of a scene, or in one that it continues.
-
-    Lines whose form is not public are left out.
-    """
-    for where, block in (deck or scene.deck).blocks(KEYWORD, "LOAD CASE"):
-        for i, type_ in enumerate(cast("Boundary", block).types):
-            for j, entry in enumerate(type_.entries):
-                place = where.inside("types", i, "entries", j)
-                if hasattr(entry, "generate"):
-                    values = cast("FixedValues | None", entry.generate)
-                    if values is None:
-                        continue
-                    at, step = freedom_and_step(values)
-                    fields = (values.third, values.fourth, values.fifth, None)
-                    numbers: tuple[object, ...] = (values.start, values.end, step)
-                    dof, value, place = fields[at - 2], fields[at - 1], place.inside("generate")
-                else:
-                    numbers, dof, value = (entry.node, entry.node, 1), entry.dof, entry.value
-                    place = place.inside("dof")
-                whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
-                if whole and cast("int", numbers[2]) > 0 and dof in _FREEDOMS:
-                    nodes = scene.nodes.between(*cast("tuple[int, int, int]", numbers))
-                    yield HeldNodes(place, int(cast("int", dof)), nodes, (value or 0.0, entry.fixation))
 
 
 def nodes_on_vessels(scene: Scene, deck: EvaluatedDeck) -> Iterator[tuple[int, frozenset[int], str]]:
@@ -87,7 +50,7 @@ def nodes_on_vessels(scene: Scene, deck: EvaluatedDeck) -> Iterator[tuple[int, f
             if node is None or not abs(node) <= LARGEST_WHOLE or node != int(node):
                 continue
             own = next((word for word in others if word and read_number(word) is None), vessel)
-            freedoms = [value for value in map(read_number, others) if value in _FREEDOMS][:1]
+            freedoms = [value for value in map(read_number, others) if value in FREEDOMS][:1]
             at = int(scene.nodes.indices(np.array([int(node)]))[0])
             if at >= 0:
                 yield at, frozenset(map(int, cast("list[float]", freedoms))) or TRANSLATIONS, own
@@ -110,7 +73,7 @@ def held_freedoms(
     known = [str(each.vessel) for block in placed for each in block.vessels]
     only = known[0] if len({folded(name) for name in known}) == 1 else ""
     for deck in every if decks is None else decks:
-        for line in held_nodes(scene, deck):
+        for line in scene.held if deck is scene.deck else held_nodes(deck, scene.nodes):
             for node in line.nodes.tolist():
                 freedoms[node] = freedoms.get(node, NO_FREEDOMS) | {line.dof}
         for node, axes, vessel in nodes_on_vessels(scene, deck):

@@ -1,7 +1,4 @@
-"""Input of the evaluator from a scene: laws, seabed, and what is left out and why.
-
-Modules that few decks need are imported on demand.
-"""
+"""Input of the evaluator from a scene: laws, seabed, and what is left out and why."""
 
 from __future__ import annotations
 
@@ -17,7 +14,8 @@ from mudline.language.codes import RUN001
 from mudline.language.diagnostics import DeckError, Problem
 from mudline.model.contact import ElementError
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
-from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene import assignments
+from mudline.model.scene.numbering import Indices, Mask
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.weights import empty_weight, operating_weight
@@ -37,11 +35,7 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
     left_out: dict[str, str] = {}
     for stage, why in _reasons(scene, [law.law for law in laws]):
         left_out[stage] = f"{left_out[stage]}; {why}" if stage in left_out else why
-    tables: list[Floats] = []
-    if "SEABED TRENCH" in scene.extensions:
-        from mudline.model.scene.assignments import resistance_tables  # noqa: PLC0415 - only now is it needed
-
-        tables = resistance_tables(scene)
+    tables = assignments.resistance_tables(scene) if "SEABED TRENCH" in scene.extensions else []
     try:
         return ContactInput(
             node_ids=scene.node_ids,
@@ -88,19 +82,16 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
         LawAssignment("curve", on_curve, {"curve": arrays.curve_index[on_curve]}),
     ]
     extended: list[LawAssignment] = []
-    if scene.extensions:
-        from mudline.model.scene import assignments  # noqa: PLC0415 - only now is it needed
-
-        if "SEABED CONTACT" in scene.extensions:
-            laws.append(smoothing := assignments.element_smoothing(scene))
-            linear = np.setdiff1d(linear, smoothing.rows, assume_unique=True)
-            if scene.nodal.any():
-                extended.append(assignments.nodal_springs(scene))
-            extended += assignments.damping(scene)
-        if "SEABED SOIL" in scene.extensions:
-            extended.append(assignments.soils(scene))
-        if "SEABED UNLOADING" in scene.extensions:
-            extended.append(assignments.unloading_lines(scene))
+    if "SEABED CONTACT" in scene.extensions:
+        laws.append(smoothing := assignments.element_smoothing(scene))
+        linear = np.setdiff1d(linear, smoothing.rows, assume_unique=True)
+        if scene.nodal.any():
+            extended.append(assignments.nodal_springs(scene))
+        extended += assignments.damping(scene)
+    if "SEABED SOIL" in scene.extensions:
+        extended.append(assignments.soils(scene))
+    if "SEABED UNLOADING" in scene.extensions:
+        extended.append(assignments.unloading_lines(scene))
     return [*laws, LawAssignment("linear", linear, {"stiffness": arrays.linear_stiffness[linear]}), *extended]
 
 
@@ -113,20 +104,14 @@ def _laws_beside(scene: ResolvedDeck) -> list[LawAssignment]:
         rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
         laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
     if "SEABED SUCTION" in scene.extensions:
-        from mudline.model.scene.assignments import element_suction  # noqa: PLC0415 - only now is it needed
-
-        laws.append(element_suction(scene))
+        laws.append(assignments.element_suction(scene))
     lateral = _lateral(scene)
     laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.resistance.column("lateral")[lateral]}))
     friction = friction_of(scene)
     if friction is not None:
-        from mudline.model.scene.assignments import node_breakouts  # noqa: PLC0415 - only now is it needed
-
-        laws += [friction, *node_breakouts(scene, friction)]
+        laws += [friction, *assignments.node_breakouts(scene, friction)]
     if "SEABED TRENCH" in scene.extensions:
-        from mudline.model.scene.assignments import trenches  # noqa: PLC0415 - only now is it needed
-
-        laws += trenches(scene)
+        laws += assignments.trenches(scene)
     return laws
 
 
@@ -134,9 +119,7 @@ def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
     """Return the friction of the nodes; None if nothing gives any."""
     if "SEABED FRICTION" not in scene.extensions and not _given(scene, "friction"):
         return None
-    from mudline.model.scene.assignments import node_friction  # noqa: PLC0415 - only now is it needed
-
-    return node_friction(scene, _lateral(scene))
+    return assignments.node_friction(scene, _lateral(scene))
 
 
 def _lateral(scene: ResolvedDeck) -> Indices:
@@ -176,12 +159,9 @@ def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, st
         return scene.resistance.column(name) > 0.0
 
     rigid = scene.law == LawKind.RIGID
-    if "SEABED CONTACT" in scene.extensions:
-        from mudline.model.scene.assignments import weightless  # noqa: PLC0415 - only now is it needed
-
-        if count := weightless(scene):
-            elements = counted(count, "element")
-            yield "smoothing", f"none for {elements} of SMOOTHING=AUTO: no submerged weight above 0 is known"
+    if "SEABED CONTACT" in scene.extensions and (count := assignments.weightless(scene)):
+        elements = counted(count, "element")
+        yield "smoothing", f"none for {elements} of SMOOTHING=AUTO: no submerged weight above 0 is known"
     if count := int((where_given("suction") & ~where_given("extent") & ~rigid).sum()):
         yield "suction", f"SUCTION= without an extent of its zone has no effect: {counted(count, 'element')}"
     asked = where_given("friction").any(axis=1)

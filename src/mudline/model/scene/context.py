@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
-from mudline.basics.spelling import Effort, edits, equally_near, nearest
+from mudline.basics.spelling import Effort, edits, equally_near, nearest, same_marks
 from mudline.language.codes.fields import SYN016
 from mudline.language.deck.evaluated import EvaluatedDeck, all_labels_read, labels_given
-from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import bare, folded
+from mudline.language.deck.model import Deck, NamedPlace, Opaque
+from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
@@ -53,6 +53,25 @@ class _Uses:
     where: Where
     count: int = 0
     blocks: Blocks = Blocks.NEVER
+
+
+@dataclass(eq=False)
+class NamesOfKind:
+    """Names of a kind: those that fields use, and those that they define, by their folded form."""
+
+    kind: Names
+    used: list[NamedPlace] = field(default_factory=list)
+    defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
+
+    @property
+    def thing(self) -> str:
+        """Object of the kind, in words."""
+        return self.kind.value.removeprefix("a ").removeprefix("an ")
+
+    @property
+    def known(self) -> dict[str, str]:
+        """Defined names, as first written, by their folded form."""
+        return {key: given[0].name for key, given in self.defined.items()}
 
 
 @dataclass(repr=False, eq=False)
@@ -104,6 +123,22 @@ class Context:
         return placed_blocks(self.deck)
 
     @cached_property
+    def names(self) -> dict[Names, NamesOfKind]:
+        """Names that the fields of the deck give, of every kind."""
+        names_by_kind = {kind: NamesOfKind(kind) for kind in Names}
+        for place in self.deck.names():
+            names = names_by_kind[place.kind]
+            if place.role == "names":
+                names.used.append(place)
+            else:
+                names.defined.setdefault(name_key(place.name), []).append(place)
+        return names_by_kind
+
+    def names_of(self, kinds: Collection[Names]) -> list[NamesOfKind]:
+        """Return the names of some kinds."""
+        return [names for kind, names in self.names.items() if kind in kinds]
+
+    @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
         """Rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one is used."""
         surfaces = self.deck.blocks_with("seabed_type")
@@ -153,8 +188,21 @@ class Context:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
     def report_label(self, code: Code, label: str, where: Where, keyword: str, blocks: Blocks | None = None) -> None:
-        """Add a label of a node or an element that is not defined, unless unread lines may define it."""
-        if self.external_definers or not all_labels_read(self.written):
+        """Add a label of a node or an element that is not defined.
+
+        Lines that are not read may make labels in ways that are not known: in a deck with such lines a label is only
+        added, as a warning, if it is spelt nearly as a label in them.
+        """
+        if self.external_definers:
+            name = bare(label)
+            near = "" if folded(name) in self.labels else self.near(name, self.labels)
+            if near and same_marks(name, near) and not self.is_guessed_label(where):
+                makers = " or ".join(f"*{keyword}" for keyword in self.external_definers if makes_labels(keyword))
+                makers += " or *LABEL" if "LABEL" in self.deck.keywords() else ""
+                message = f"label {shown(label)} is not in {makers} (did you mean {{{self.labels[near]}}}?)"
+                self.report(code, f"{message}: correct it", where, Severity.WARNING)
+            return
+        if not all_labels_read(self.written):
             return
         thing = _NUMBERED[keyword]
         known = labels_given(self.written, Names[keyword])

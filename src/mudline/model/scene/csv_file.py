@@ -7,7 +7,7 @@ import io
 import tokenize
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -69,24 +69,18 @@ class CsvTable(NamedTuple):
 
     def whole(self, name: str) -> Ids:
         """Return a column as whole numbers; raises DeckError with line and column for any other value."""
-        values = self.numbers(name)
-        if (row := _first_broken(values)) is not None:
-            raise self.fault(row, name, _not_whole(name, values[row]))
-        return values.astype(np.int64)
+        return whole_numbers(name, self.numbers(name), lambda row, message: self.fault(row, name, message))
 
     def fault(self, row: int, name: str, message: str) -> DeckError:
-        """Return the error of a field, with its line and column."""
-        line = self.lines[row]
-        return data_error(self.file, message, line, self._column(line, list(self.columns).index(name)))
-
-    def _column(self, line: int, field: int) -> int:
-        """Return the column at which a field of a line begins; 1 if quotation marks hide it."""
+        """Return the error of a field, with its line and its column, or column 1 if quotation marks hide it."""
+        line, field = self.lines[row], list(self.columns).index(name)
         written = next(islice(io.StringIO(self.text, newline=""), line - 1, None))  # lines as the reader counts them
         parts = written.rstrip("\r\n").split(self.separator)
-        if len(parts) != len(self.columns):
-            return 1
-        blanks = len(parts[field]) - len(parts[field].lstrip())
-        return sum(len(part) + 1 for part in parts[:field]) + blanks + 1
+        column = 1
+        if len(parts) == len(self.columns):
+            blanks = len(parts[field]) - len(parts[field].lstrip())
+            column += sum(len(part) + 1 for part in parts[:field]) + blanks
+        return data_error(self.file, message, line, column)
 
 
 class NumericTable(NamedTuple):
@@ -102,31 +96,23 @@ def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckE
     return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, column, line, column)])
 
 
-def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | None = None) -> Ids:
-    """Return a column as whole numbers; raises DeckError for other values, and for numbers above 2^53."""
-    if (row := _first_broken(column)) is not None:
-        raise data_error(file, _not_whole(name, column[row]), 1 if lines is None else lines[row])
+def whole_numbers(name: str, column: Floats, fault: Callable[[int, str], DeckError]) -> Ids:
+    """Return a column as whole numbers; raises the `fault` of a row and a message for other values, or above 2^53."""
+    with np.errstate(invalid="ignore"):
+        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
+    if not good.all():
+        row = int(np.argmin(good))
+        raise fault(row, f"{name}: {float(column[row])!r} is not a whole number up to 2^53")
     return column.astype(np.int64)
 
 
-def _first_broken(column: Floats) -> int | None:
-    """Return the first row that is not a whole number, or above 2^53."""
-    with np.errstate(invalid="ignore"):
-        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
-    return None if good.all() else int(np.argmin(good))
-
-
-def _not_whole(name: str, value: float) -> str:
-    return f"{name}: {float(value)!r} is not a whole number up to 2^53"
-
-
-def read_csv(path: Path, needed: Sequence[str], known: Sequence[str], *, others: bool = False) -> CsvTable:
+def read_csv(path: Path, needed: Sequence[str], known: Sequence[str] | None) -> CsvTable:
     """Return a whole file as text columns; empty rows are left out. Raises OSError, DeckError.
 
-    With `others` the file may have columns of other names, which are ignored.
+    If `known` is None, the file may have columns of other names, which are ignored.
     """
     file, text = path.as_posix(), _read_text(path)
-    return _texts(file, text, _header(file, text, needed, known if not others else None))
+    return _texts(file, text, _header(file, text, needed, known))
 
 
 def read_numeric_csv(

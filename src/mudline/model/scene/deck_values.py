@@ -17,7 +17,6 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import kinds_of, names_given
 from mudline.language.keywords.model import Block, FieldSpec, Row, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
@@ -109,13 +108,7 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
     """
     if deck.folder is None:
         return
-    files = [
-        (where._replace(path=path), name)
-        for where, _, block in deck.alone.every_block()
-        if Names.FILE in kinds_of(type(block), "names")
-        for path, name in names_given(block, Names.FILE)
-        if name
-    ]
+    files = [(name.where, name.name) for name in deck.alone.names() if name.kind is Names.FILE and name.name]
     parameters = Parameters(deck) if files else None
     for where, written in files:
         name = file_name(parameters.filled(written) if parameters else written)
@@ -124,9 +117,6 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
 
 
 COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
-_KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
-_PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
-_MANY = 1000
 _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 
@@ -215,9 +205,9 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
         kept = catalogue.opaque_keyword("MODEL", block.keyword)
         keys = kept.name_settings if kept else {}
         for line in data_lines(block.lines) if keys else ():
-            for key, values in _groups(line) if "=" in line else ():
-                if kind := keys.get(key):
-                    yield from values if kind is Names.SETS else values[:1]
+            for group in read_line(line, Span(0, len(line))).groups if "=" in line else ():
+                if kind := keys.get(group.key):
+                    yield from (field.text for field in group.fields[: None if kind is Names.SETS else 1])
     elif block.facts.makes:
         for _, _, value in block.walk(_makes_sets):
             name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
@@ -236,25 +226,8 @@ def _texts(block: Block | Opaque) -> Iterator[str]:
         return
     for line in data_lines(block.lines):
         if _WORD.search(line):
-            for _, values in _groups(line):
-                yield from (text for text in values if read_number(text) is None and not text.startswith("=["))
-
-
-def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
-    """Yield the KEYs of a line with their values, "" for values without one: the same as `read_line`, but faster."""
-    if "[" in line or line.count(",") > _MANY:
-        groups = read_line(line, Span(0, len(line))).groups
-        yield from ((group.key, [field.text for field in group.fields]) for group in groups)
-        return
-    key, values = "", list[str]()
-    for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):
-        head, equals, value = piece.partition("=")
-        if equals and _KEY.fullmatch(head):
-            yield key, values
-            key, values = " ".join(head.split()).upper(), [value.strip(" \t")]
-        else:
-            values.append(piece.strip(" \t"))
-    yield key, values
+            texts = (field.text for group in read_line(line, Span(0, len(line))).groups for field in group.fields)
+            yield from (text for text in texts if read_number(text) is None and not text.startswith("=["))
 
 
 def data_lines(lines: Iterable[str]) -> list[str]:

@@ -19,12 +19,12 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve, set_name
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
-    from mudline.language.keywords.model import Block, Part, Record
+    from mudline.language.keywords.model import Block, Record
 
 
 DIRECTIONS = ("longitudinal", "transverse")
@@ -54,9 +54,6 @@ class SetLaw(NamedTuple):
     curve: int = NOTHING
     unknown: bool = False
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 @dataclass(slots=True, repr=False, eq=False)
 class LawTable:
@@ -66,7 +63,6 @@ class LawTable:
     set_laws: the laws in the order in which they were found.
     of_element: index (m,) of the law of each element, -1 for none.
     covered: the last law (m,) of the new family that holds an element, also one without stiffness.
-    referenced: folded names that a STIFFNESS= gives.
     types: places that give "RIGID" or "ELASTIC".
     gaps: places after which lines may give more laws.
     """
@@ -75,7 +71,6 @@ class LawTable:
     set_laws: list[SetLaw] = field(default_factory=list)
     of_element: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
-    referenced: set[str] = field(default_factory=set)
     types: dict[str, list[Where]] = field(default_factory=dict)
     gaps: list[Where] = field(default_factory=list)
 
@@ -105,22 +100,12 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
     wins = later_wins([set_law.set_ for set_law in new], count)
-    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
-        laws.of_element = laws.covered = wins
-        return laws
-    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
-    laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
-    gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
-    replaced = looked_up(gives, laws.covered)
-    if any(set_law.kind is LawKind.CURVE for set_law in legacy):
-        kinds = np.array([*(set_law.kind for set_law in laws.set_laws), LawKind.NONE])
-        curves = looked_up(kinds == LawKind.CURVE, laws.of_element)
-        replaced = replaced & ~(curves & looked_up(kinds == LawKind.LINEAR, laws.covered))
-    count_replaced = np.count_nonzero(replaced)
-    if count_replaced == count:
-        laws.of_element = laws.covered
-    elif count_replaced:
-        laws.of_element = np.where(replaced, laws.covered, laws.of_element)
+    laws.covered = np.where(wins >= 0, wins + len(legacy), NOTHING)
+    given = later_wins([set_law.set_ for set_law in legacy], count)
+    gives = marked((set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), laws.covered)
+    kinds = np.array([*(set_law.kind for set_law in laws.set_laws), LawKind.NONE])
+    keeps = (kinds[given] == LawKind.CURVE) & (kinds[laws.covered] == LawKind.LINEAR)
+    laws.of_element = np.where(gives & ~keeps, laws.covered, given)
     return laws
 
 
@@ -209,9 +194,6 @@ class ResistanceValues(NamedTuple):
     suction: float = _UNKNOWN
     extent: float = _UNKNOWN
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 _NO_VALUES = ResistanceValues()
 
@@ -227,9 +209,6 @@ class SeabedResistance(NamedTuple):
     values: Sequence[ResistanceValues]
     places: Sequence[Where]
     of_element: Indices
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
     @property
     def has_mobilisation(self) -> bool:
@@ -247,61 +226,44 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
     A block is taken as a whole.
     """
-    surfaces = list(_of_surfaces(context))
-    values = [entry for _, entry in surfaces]
-    places = [where for where, _ in surfaces]
+    surfaces = [surface.properties for _, surface in context.surfaces]
+    values = [_resistance(surface, surface, surface, "suction_") for surface in surfaces]
+    places = [where.inside("properties") for where, _ in context.surfaces]
     position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
     for index in present(laws.covered):
         where = laws.set_laws[index].where
         block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
         position = cast("int", where.path[1])
         position_of[index] = len(values)
-        values.append(_of_set(block.sets[position]))
+        entry = block.sets[position]
+        values.append(_resistance(entry, entry.friction, entry.suction))
         places.append(Where(where.section, where.block, ("sets", position)))
-    return SeabedResistance(values, places, looked_up(position_of, laws.covered))
+    return SeabedResistance(values, places, position_of[laws.covered])
 
 
 def present(covered: Indices) -> list[int]:
     """Return the indices that occur, without -1, in ascending order."""
-    one_for_all = len(covered) and covered.strides == (0,)
-    indices = covered[:1] if one_for_all else covered
-    return np.bincount(indices[indices >= 0]).nonzero()[0].tolist()
+    return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
 
 
-def _two(part: Part | None, name: str) -> tuple[float, float]:
-    longitudinal, transverse = (number(part, f"{direction}{name}") for direction in DIRECTIONS)
-    return longitudinal, transverse
+def _resistance(entry: object, friction: object, suction: object, prefix: str = "") -> ResistanceValues:
+    """Return the values of an entry; those of suction have a `prefix` in their names."""
 
+    def two(name: str) -> tuple[float, float]:
+        if friction is None:
+            return _UNKNOWN, _UNKNOWN
+        return number(friction, f"longitudinal{name}"), number(friction, f"transverse{name}")
 
-def _of_set(entry: SeabedSet) -> ResistanceValues:
-    if entry.friction is None and entry.suction is None:
-        return ResistanceValues(lateral=number(entry, "lateral"))
     return ResistanceValues(
-        friction=_two(entry.friction, ""),
-        mobilisation=_two(entry.friction, "_mobilisation"),
-        constant=number(entry.friction, "constant"),
-        friction_stiffness=_two(entry.friction, "_stiffness"),
+        friction=two(""),
+        mobilisation=two("_mobilisation"),
+        characteristic=two("_length"),
+        constant=number(friction, "constant"),
+        friction_stiffness=two("_stiffness"),
         lateral=number(entry, "lateral"),
-        suction=number(entry.suction, "stiffness"),
-        extent=number(entry.suction, "extent"),
+        suction=number(suction, f"{prefix}stiffness"),
+        extent=number(suction, f"{prefix}extent"),
     )
-
-
-def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
-    for where, surface in context.surfaces:
-        properties = surface.properties
-        yield (
-            where.inside("properties"),
-            ResistanceValues(
-                friction=_two(properties, ""),
-                mobilisation=_two(properties, "_mobilisation"),
-                characteristic=_two(properties, "_length"),
-                constant=number(properties, "constant"),
-                lateral=number(properties, "lateral"),
-                suction=number(properties, "suction_stiffness"),
-                extent=number(properties, "suction_extent"),
-            ),
-        )
 
 
 class Extension(NamedTuple):
@@ -311,9 +273,6 @@ class Extension(NamedTuple):
     places: list[Where]
     sets: list[NamedSet | None]
     of_element: Indices
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
     def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
         """Return a number of the block of each index, `default` if the block does not give it, NaN for -1.

@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 from itertools import chain
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -69,9 +68,10 @@ def top_motion(
 
     `direction` (2,) is that of the line from its lower end; `heave` and `period` replace those of the deck.
     """
-    wave = next(_waves(scene), None)
-    found = _moved(scene, wave, vessel, direction) if wave is not None else None
-    if found is None:
+    waves = _waves(scene)
+    if waves:
+        found = _moved(scene, waves[0], vessel, direction)
+    else:
         size = _DEFAULT_HEAVE / FOOT if scene.units == "imperial" else _DEFAULT_HEAVE
         unread = any(name.startswith("WAVE-") for name in scene.deck.keywords("LOAD CASE"))
         why = "its waves are not read" if unread else "no waves"
@@ -81,46 +81,38 @@ def top_motion(
     return found if period is None else found._replace(period=period)
 
 
-def _waves(scene: ResolvedDeck) -> Iterator[_Wave]:
-    """Yield the waves of the deck that are read: a Stokes wave, the highest of regular waves, the sea."""
+def _waves(scene: ResolvedDeck) -> list[_Wave]:
+    """Return the waves of the deck that are read: a Stokes wave, the highest of regular waves, the sea."""
+    stokes, regular, seas = list[_Wave](), list[_Wave](), list[_Wave]()
     for where, block in scene.deck.blocks("WAVE-STOKES", "LOAD CASE"):
-        stokes = cast("StokesWave", block)
-        airy, period = number(stokes, "airy_amplitude", 0.0), number(stokes, "period")
-        amplitude = airy if airy > 0.0 else 0.5 * number(stokes, "height")
-        own = number(stokes, "airy_period", period) if airy > 0.0 else period
-        yield from _usable(_Wave(amplitude, own, number(stokes, "direction", 0.0), "H", where))
-    regular = [
-        _Wave(
-            number(entry.wave, "amplitude"),
-            number(entry.wave, "period"),
-            number(entry.wave, "direction", 0.0),
-            "H",
-            where,
-        )
-        for where, block in scene.deck.blocks("WAVE-REGULAR", "LOAD CASE")
-        for entry in cast("RegularWaves", block).waves
-    ]
-    yield from sorted((each for wave in regular for each in _usable(wave)), key=lambda wave: -wave.amplitude)
+        wave = cast("StokesWave", block)
+        airy, period = number(wave, "airy_amplitude", 0.0), number(wave, "period")
+        amplitude = airy if airy > 0.0 else 0.5 * number(wave, "height")
+        own = number(wave, "airy_period", period) if airy > 0.0 else period
+        stokes.append(_Wave(amplitude, own, number(wave, "direction", 0.0), "H", where))
+    for where, block in scene.deck.blocks("WAVE-REGULAR", "LOAD CASE"):
+        for row in (entry.wave for entry in cast("RegularWaves", block).waves):
+            direction = number(row, "direction", 0.0)
+            regular.append(_Wave(number(row, "amplitude"), number(row, "period"), direction, "H", where))
     gravity = scene.surroundings.gravity
     for where, block in scene.deck.blocks("WAVE-JONSWAP", "LOAD CASE"):
         for sea in cast("JonswapSeas", block).seas:
             if (given := sea.area_height or sea.progression_height) is not None:
-                mean = sea.spec == "HSTZ"
-                period = number(given, "period") * (_PEAK_OVER_MEAN if mean else 1.0)
+                period = number(given, "period") * (_PEAK_OVER_MEAN if sea.spec == "HSTZ" else 1.0)
                 height = number(given, "height")
             elif (shape := sea.area_shape or sea.progression_shape) is not None:
                 period = 1.0 / max(number(shape, "peak", 0.0), 1e-300)
                 height = _significant_height(number(shape, "phillips"), number(shape, "peakedness"), period, gravity)
             else:
                 continue
-            along = number(given or shape, "direction", 0.0)
-            yield from _usable(_Wave(0.5 * height, period, along, "Hs", where))
+            seas.append(_Wave(0.5 * height, period, number(given or shape, "direction", 0.0), "Hs", where))
+    stokes, regular, seas = (list(filter(_is_usable, waves)) for waves in (stokes, regular, seas))
+    return [*stokes, *sorted(regular, key=lambda wave: -wave.amplitude), *seas]
 
 
-def _usable(wave: _Wave) -> Iterator[_Wave]:
+def _is_usable(wave: _Wave) -> bool:
     known = math.isfinite(wave.amplitude) and math.isfinite(wave.period) and math.isfinite(wave.direction)
-    if known and wave.amplitude > 0.0 and wave.period > 0.0:
-        yield wave
+    return known and wave.amplitude > 0.0 and wave.period > 0.0
 
 
 def _significant_height(phillips: float, peakedness: float, period: float, gravity: float) -> float:
@@ -150,38 +142,23 @@ def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> 
 
 def _operators_of(scene: ResolvedDeck, vessel: str) -> Iterator[tuple[list[list[float]], float, str]]:
     """Yield operators of a vessel, its heading, and their source; files that cannot be read are passed over."""
-    heading, files = 0.0, list[_OperatorFile]()
+    heading, files = 0.0, list[tuple[Where, str | None, str | None, str | None]]()
     placed = chain.from_iterable(map(scene.deck.blocks, catalogue.definers(Names.VESSEL)))
     for where, each in ((where, each) for where, block in placed for each in block.vessels):
         if folded(str(each.vessel)) == folded(vessel):
             heading = number(each.position, "yaw", 0.0)
-            files.append(_OperatorFile(where, getattr(each, "rao", None), getattr(each, "format", None), None))
+            files.append((where, getattr(each, "rao", None), getattr(each, "format", None), None))
     for where, block in scene.deck.blocks("RAO", "LOAD CASE"):
         for entry in cast("Raos", block).vessels:
             if folded(str(entry.vessel)) == folded(vessel):
-                files.append(_OperatorFile(where, entry.file, entry.format, entry.layout))
+                files.append((where, entry.file, entry.format, entry.layout))
                 if (given := _written(entry)) and np.isfinite(given).all():
                     yield given, heading, "*RAO"
-    for file in files:
-        path = file.path(scene)
+    for where, name, form, layout in files:
+        path = find_file(scene.deck.folder_of(where), name) if name and (form or "MCS").upper() == "MCS" else None
         with suppress(OSError, ValueError):  # a fault of the file is a finding of its own
             if path is not None:
-                yield operators(path, file.layout or ""), heading, path.name
-
-
-class _OperatorFile(NamedTuple):
-    """File of operators as the deck names it."""
-
-    where: Where
-    name: str | None
-    form: str | None
-    layout: str | None
-
-    def path(self, scene: ResolvedDeck) -> Path | None:
-        """Return the file, if it is there and in the program's own form."""
-        if not self.name or (self.form or "MCS").upper() != "MCS":
-            return None
-        return find_file(scene.deck.folder_of(self.where), self.name)
+                yield operators(path, layout or ""), heading, path.name
 
 
 def _written(entry: VesselRao) -> list[list[float]]:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.basics.limits import MOST_GENERATED, MOST_REPORTED
-from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF005, REF006, REF007, REF010
 from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.table import LARGEST_WHOLE, Table
+from mudline.language.keywords.values import Label
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import (
     DefinitionBatch,
@@ -70,7 +70,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
     repeats = nodes.repeats
     if placeless and repeats.size:  # where a line of nodes ends is not known, nor which numbers it has
         repeats = repeats[[nodes.where_row(row) not in placeless for row in repeats.tolist()]]
-    report_repeats(context, nodes, repeats, "node")
+    _report_repeats(context, nodes, repeats, "node")
     return nodes
 
 
@@ -82,9 +82,6 @@ def _coordinates(table: Table) -> Floats:
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
     """Add the rows of a table that have a number; return the other rows."""
     ids, known = whole_numbers(numbers)
-    if np.count_nonzero(known) == len(known):
-        gathered.add(DefinitionBatch(ids, values, where, table))
-        return []
     rows = np.flatnonzero(known)
     gathered.add(DefinitionBatch(ids[rows], values[rows], where, table, rows))
     unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
@@ -151,9 +148,6 @@ class MeshElements(NamedTuple):
     nodes: Indices
     length: Floats
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> MeshElements:
     """Return the elements of the model, then those of a file, which replace them."""
@@ -169,8 +163,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     if external is not None:
         gathered.add(DefinitionBatch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.resolve(2)
-    if elements.repeats.size:
-        report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
+    _report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
     indices = _join(context, elements, nodes)
     length = _lengths(indices, nodes.values)
     if external is not None:
@@ -188,13 +181,12 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
-    """Report labels of nodes in a deck without unread blocks: only such blocks make labelled nodes."""
-    labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
-    if not labels or context.external_definers:
-        return
-    for row, column, word in labels[: MOST_REPORTED + 1]:
+    """Report labels of nodes that are not defined."""
+    for (row, column), word in table.words.items():
+        if not isinstance(word, Label) or not (0 < column < 3 or context.external_definers):
+            continue
         place = where.inside("elements", row, column)
-        if context.is_guessed_label(place):
+        if not context.external_definers and context.is_guessed_label(place):
             context.cannot_place(place)
         else:
             context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)
@@ -270,10 +262,6 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Return distances between the nodes, NaN if one is not known."""
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
-        if np.minimum.reduce(ends[block], axis=None) >= 0:
-            first, last = coordinates.take(ends[block].T, axis=0)  # `take` takes a fifth of the time of an index
-            length[block] = distances(first, last)
-            continue
         first, last = ends[block].T
         known = ((first >= 0) & (last >= 0)).nonzero()[0]
         length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])
@@ -296,28 +284,19 @@ def distances(points: Floats, others: Floats) -> Floats:
     return lengths
 
 
-def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
+def _report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
     """Report definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
-    if not repeats.size:
-        return
     batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)
-    ends = [*begins.tolist()[1:], len(repeats)]
-    for batch, begin, end in zip(batches.tolist(), begins.tolist(), ends, strict=True):
-        if numbered.batches[batch].table:
-            for row in repeats[begin : min(end, begin + MOST_REPORTED + 1)].tolist():
-                _report_repeat(context, numbered, row, thing, 1)
-        else:
-            _report_repeat(context, numbered, int(repeats[begin]), thing, end - begin)
-
-
-def _report_repeat(context: Context, numbered: Numbered, row: int, thing: str, count: int) -> None:
-    where, batch = numbered.where_row(row), int(numbered.batches_of(row))
-    number = numbered.batches[batch].ids[row - numbered.starts[batch]]
-    first = numbered.where_row(int(numbered.firsts[numbered.indices(np.array([number]))[0]]))
-    what = f"{thing} {number} is" if count == 1 else f"{count} {thing}s (first: {number}) are"
-    message = f"{what} defined twice: the later definition holds; remove one"
-    if first.section == where.section:
-        context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
-    else:
-        message += " (inferred: the $MODEL sections of a file make one model)"
-        context.report(REF007, message, where, Severity.WARNING)
+    for index, rows in zip(batches.tolist(), np.split(repeats, begins[1:]), strict=False):
+        batch = numbered.batches[index]
+        for row in rows[: MOST_REPORTED + 1 if batch.table else 1].tolist():
+            where, number = numbered.where_row(row), batch.ids[row - numbered.starts[index]]
+            first = numbered.where_row(int(numbered.firsts[numbered.indices(np.array([number]))[0]]))
+            single = bool(batch.table) or len(rows) == 1
+            what = f"{thing} {number} is" if single else f"{len(rows)} {thing}s (first: {number}) are"
+            message = f"{what} defined twice: the later definition holds; remove one"
+            if first.section == where.section:
+                context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
+            else:
+                message += " (inferred: the $MODEL sections of a file make one model)"
+                context.report(REF007, message, where, Severity.WARNING)

@@ -14,7 +14,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.language.rules import RULES, Rule, findings
 from mudline.model.scene.context import Context
-from mudline.model.scene.curves import check_curves, read_curves
+from mudline.model.scene.curves import read_curves
 from mudline.model.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.model.scene.mesh import read_elements, read_nodes
 from mudline.model.scene.references import (
@@ -23,10 +23,8 @@ from mudline.model.scene.references import (
     check_idents,
     check_lines,
     check_references,
-    check_soil,
 )
 from mudline.model.scene.resolved import ResolvedDeck
-from mudline.model.scene.restart import continued
 from mudline.model.scene.seabed import read_seabed
 from mudline.model.scene.sections import read_sections
 from mudline.model.scene.sets import read_sets
@@ -116,9 +114,13 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     `external` adds elements that the deck does not show, or replaces its own. The models of the decks that it continues
     belong to the scene, if they are found next to it; their faults are in `problems` too.
     """
-    whole, problems_of_restart = continued(deck)
-    ready, problems = evaluated(whole)
-    context = Context(ready, whole, [*problems_of_restart, *problems])
+    problems: list[Problem] = []
+    if "RESTART" in deck.keywords("LOAD CASE"):
+        from mudline.model.scene.restart import continued  # noqa: PLC0415 - most decks continue none
+
+        deck, problems = continued(deck)
+    ready, problems_of_values = evaluated(deck)
+    context = Context(ready, deck, [*problems, *problems_of_values])
     if external is not None:
         context.external_definers = []
     nodes = read_nodes(context, external)
@@ -126,19 +128,19 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     count = len(elements.numbered)
     sets = read_sets(context, elements.numbered, external)
     sections = read_sections(context, sets, elements.numbered, elements.length, external)
-    named, by_set = read_curves(context)
+    named, by_set, other_curves = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
     resistance = read_resistance(context, laws)
     extensions = read_extensions(context, sets, count)
     seabed = read_seabed(context)
-    check_curves(context)
     check_chains(context)
     check_lines(context)
-    check_references(context, sets, laws, with_soil=external is None)
+    check_references(context, sets, with_soil=external is None)
     check_unread_lines(context, sets, nodes if external is None else None)
     if external is None:  # a file of elements does not define every node and set
-        check_soil(context, nodes)
         check_boundaries(context, nodes)
         check_idents(context, nodes, elements.numbered)
     context.report_out_of_sight()
-    return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)
+    return Scene(
+        ready, nodes, elements, sets, sections, laws, other_curves, resistance, extensions, seabed, context.problems
+    )

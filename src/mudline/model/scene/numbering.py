@@ -5,8 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from itertools import pairwise
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,20 +20,8 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
-_FEW = 4096
-_FEW_RUNS = 8
 _AT_ONCE = 1 << 17
-
-_Kind = TypeVar("_Kind", bound=np.generic)
-_Run = tuple[Indices, Ids]
-"""Indices, and their numbers in ascending order."""
-
-
-def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
-    """Return `table[indices]`, which must not be written to; one index for all, as from `later_wins`, stays compact."""
-    if len(indices) and indices.strides == (0,):
-        return np.broadcast_to(table[indices[0]], indices.shape)
-    return table[indices]
+_NO_VALUES = np.zeros((0, 0))
 
 
 def blocks_of(count: int) -> Iterator[slice]:
@@ -52,24 +39,18 @@ def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
 class DefinitionBatch(NamedTuple):
     """Definitions that were given together: rows of a table, or all of one generator (`table` "").
 
-    `rows` are their places in the table; None stands for all of them in order.
+    `rows` are their places in the table.
     """
 
     ids: Ids
     values: Floats
     where: Where
     table: str = ""
-    rows: Indices | None = None
-
-    def __repr__(self) -> str:
-        return short_repr(self)
+    rows: Indices | range = range(0)
 
     def place(self, index: int) -> Where:
         """Return the place of a definition of the batch."""
-        if not self.table:
-            return self.where
-        row = index if self.rows is None else int(self.rows[index])
-        return self.where.inside(self.table, row)
+        return self.where.inside(self.table, int(self.rows[index])) if self.table else self.where
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -79,10 +60,8 @@ class Definitions:
     batches: list[DefinitionBatch] = field(default_factory=list)
     generated: int = 0
     _starts: list[int] = field(default_factory=lambda: [0])
+    _rows: dict[int, int] = field(default_factory=dict)
     _indexed: int = 0
-    _ids: Ids = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    _rows: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
-    _recent: dict[int, int] = field(default_factory=dict)
 
     __repr__ = short_repr
 
@@ -94,61 +73,33 @@ class Definitions:
 
     def find(self, number: int) -> Floats | None:
         """Return the values of the current definition of a number."""
-        self._index()
-        row = self._recent.get(number)
-        if row is None and len(self._ids):
-            at = int(np.searchsorted(self._ids, number))
-            row = int(self._rows[at]) if at < len(self._ids) and self._ids[at] == number else None
+        for batch in range(self._indexed, len(self.batches)):
+            rows = range(self._starts[batch], self._starts[batch + 1])
+            self._rows.update(zip(self.batches[batch].ids.tolist(), rows, strict=True))
+        self._indexed = len(self.batches)
+        row = self._rows.get(number)
         if row is None:
             return None
         batch = bisect_right(self._starts, row) - 1
         values: Floats = self.batches[batch].values[row - self._starts[batch]]
         return values
 
-    def _index(self) -> None:
-        """Index the batches added since: in a dictionary, and when that grows, in a sorted table of all."""
-        first, self._indexed = self._indexed, len(self.batches)
-        pending = self._starts[-1] - self._starts[first] + len(self._recent)
-        if pending <= max(_FEW, len(self._ids)):
-            for batch in range(first, len(self.batches)):
-                ids = self.batches[batch].ids.tolist()
-                self._recent.update(zip(ids, range(self._starts[batch], self._starts[batch + 1]), strict=True))
-            return
-        ids = np.concatenate([batch.ids for batch in self.batches])
-        order = np.argsort(ids, kind="stable")
-        last = np.append(np.flatnonzero(np.diff(ids[order])), len(ids) - 1)
-        self._rows = order[last]
-        self._ids = ids[self._rows]
-        self._recent = {}
-
     def resolve(self, width: int) -> Numbered:
         """Return the valid definitions, in the order in which their numbers first appear, and those given twice.
 
         `width` is the number of values of a definition.
         """
-        if len(self.batches) == 1:
-            ids, values = self.batches[0].ids, self.batches[0].values
-        else:
-            ids = np.concatenate([batch.ids for batch in self.batches] or [np.zeros(0, dtype=np.int64)])
-            values = np.concatenate([batch.values for batch in self.batches] or [np.zeros((0, width))])
-        starts = np.array(self._starts, dtype=np.intp)
-        ascending = _is_ascending(ids)
-        if ascending or _all_different(ids):
-            rows = np.arange(len(ids), dtype=np.intp)
-            if len(self.batches) > 1:  # they keep no memory of their own
-                bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
-                self.batches = [batch._replace(ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
-            runs = [(rows, ids)] if ascending and len(ids) else None
-            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, runs)
+        ids = np.concatenate([np.zeros(0, dtype=np.int64), *(batch.ids for batch in self.batches)])
+        values = np.concatenate([np.zeros((0, width)), *(batch.values for batch in self.batches)])
         order = np.argsort(ids, kind="stable")
-        new = np.append(True, np.diff(ids[order]) > 0)
-        begins = np.flatnonzero(new)
-        firsts = order[begins]
-        lasts = order[np.append(begins[1:], len(ids)) - 1]
+        ends = np.ones(len(ids) + 1, dtype=np.bool_)
+        ends[1:-1] = np.diff(ids[order]) > 0
+        firsts, lasts = order[ends[:-1]], order[ends[1:]]
         appearing = np.argsort(firsts)
-        repeats = np.sort(order[~new])
         firsts, lasts = firsts[appearing], lasts[appearing]
-        return Numbered(ids[firsts], values[lasts], firsts, lasts, repeats, starts, self.batches)
+        starts = np.array(self._starts, dtype=np.intp)
+        batches = [batch._replace(values=_NO_VALUES) for batch in self.batches]  # they keep no memory of their own
+        return Numbered(ids[firsts], values[lasts], firsts, lasts, np.sort(order[~ends[:-1]]), starts, batches)
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -171,9 +122,14 @@ class Numbered:
     repeats: Indices
     starts: Indices
     batches: list[DefinitionBatch]
-    _runs: list[_Run] | None = None
+    _order: Indices = field(init=False)
+    _ordered: Ids = field(init=False)
 
     __repr__ = short_repr
+
+    def __post_init__(self) -> None:
+        self._order = np.argsort(self.ids)
+        self._ordered = self.ids[self._order]
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -193,42 +149,15 @@ class Numbered:
 
     def indices(self, ids: Ids) -> Indices:
         """Return indices of numbers, -1 for those not defined."""
-        indices = np.full(ids.shape, -1, dtype=np.intp)
-        for order, ordered in self._ascending():
-            at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)
-            np.copyto(indices, order[at], where=ordered[at] == ids)
-        return indices
+        if not len(self.ids):
+            return np.full(ids.shape, -1, dtype=np.intp)
+        at = np.minimum(self._ordered.searchsorted(ids), len(self.ids) - 1)
+        return np.where(self._ordered[at] == ids, self._order[at], -1)
 
     def between(self, start: int, end: int, step: int) -> Indices:
         """Return indices of the numbers start, start + step, ... up to end, in ascending order."""
-        parts = []
-        for order, ordered in self._ascending():
-            within = slice(ordered.searchsorted(start), ordered.searchsorted(end, side="right"))
-            parts.append(order[within] if step == 1 else order[within][(ordered[within] - start) % step == 0])
-        indices = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
-        return indices if _is_ascending(indices) else np.sort(indices)
-
-    def _ascending(self) -> list[_Run]:
-        """Return the numbers in ascending order: as they are if they form few runs, which takes no memory."""
-        if self._runs is None:
-            begins = np.flatnonzero(self.ids[1:] <= self.ids[:-1]) + 1
-            if len(begins) < _FEW_RUNS:
-                rows = np.arange(len(self.ids), dtype=np.intp)
-                bounds = pairwise([0, *begins.tolist(), len(self.ids)])
-                self._runs = [(rows[a:b], self.ids[a:b]) for a, b in bounds if b > a]
-            else:
-                order = np.argsort(self.ids, kind="stable")
-                self._runs = [(order, self.ids[order])]
-        return self._runs
-
-
-def _is_ascending(numbers: Ids | Indices) -> bool:
-    return not np.count_nonzero(numbers[1:] <= numbers[:-1])
-
-
-def _all_different(ids: Ids) -> bool:
-    ordered = np.sort(ids)
-    return bool((ordered[1:] != ordered[:-1]).all())
+        within = slice(self._ordered.searchsorted(start), self._ordered.searchsorted(end, side="right"))
+        return np.sort(self._order[within][(self._ordered[within] - start) % step == 0])
 
 
 def picked(values: Iterable[float], index: Indices) -> Floats:

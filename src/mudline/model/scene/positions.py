@@ -126,7 +126,7 @@ def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
         raise data_error(table.file, "no row below the header", 2)
     if len({name in table.columns for name in _VELOCITIES}) > 1:
         raise data_error(table.file, "velocities need all of vx, vy and vz")
-    ids = whole_numbers(table.file, "node", table.columns["node"], table.lines)
+    ids = whole_numbers("node", table.columns["node"], lambda row, why: data_error(table.file, why, table.lines[row]))
     where = nodes.indices(ids)
     if (where < 0).any():
         raise _unknown(table.file, ids[where < 0], table.lines[int(np.argmax(where < 0))])
@@ -257,7 +257,7 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
     if "node" in arrays:
         if arrays["node"].ndim != 1:
             raise _wrong_shape(file, "node", arrays["node"], "one axis")
-        ids = whole_numbers(file, "node", finite(file, "node", arrays["node"]))
+        ids = whole_numbers("node", finite(file, "node", arrays["node"]), lambda _, why: data_error(file, why))
     positions = arrays["positions"]
     expected = len(nodes) if ids is None else len(ids)
     values = positions[np.newaxis] if positions.ndim == 2 else positions

@@ -3,40 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.basics.spelling import same_marks
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
-from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
+from mudline.language.deck.evaluated import EvaluatedDeck
+from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import idents_given, is_read, may_name, names_given
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Label, Names
 from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import makes_labels
-from mudline.model.scene.laws import LawTable
-from mudline.model.scene.numbering import Numbered
+from mudline.model.scene.numbering import Indices, Numbered
 from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import DragChains
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
-    from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
-    from mudline.language.keywords.library.mesh import ElementRows, Elements
-    from mudline.language.keywords.library.soil_springs import LateralSoil
+    from mudline.language.keywords.library.loads import Boundary, FixedValues
 
 
 CURVES = frozenset(
@@ -55,40 +50,10 @@ THINGS = frozenset(
 """Kinds of named objects that are not curves."""
 
 
-@dataclass(eq=False)
-class NamesOfKind:
-    """Names of a kind: those that fields use, and those that they define, by their folded form."""
-
-    used: list[NamedPlace] = field(default_factory=list)
-    defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
-
-    @property
-    def known(self) -> dict[str, str]:
-        """Defined names, as first written, by their folded form."""
-        return {key: given[0].name for key, given in self.defined.items()}
-
-
-def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
-    """Return the names of some kinds that the fields of a deck give."""
-    return {kind: names for kind, names in context.once(every_name).items() if kind in kinds}
-
-
-def every_name(context: Context) -> dict[Names, NamesOfKind]:
-    """Return the names of all kinds that the fields of a deck give; call it by `Context.once`."""
-    names_by_kind: dict[Names, NamesOfKind] = defaultdict(NamesOfKind)
-    for place in context.deck.names():
-        names = names_by_kind[place.kind]
-        if place.role == "names":
-            names.used.append(place)
-        else:
-            names.defined.setdefault(name_key(place.name), []).append(place)
-    return names_by_kind
-
-
 def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are not defined; a warning if that is not certain, because not all was read."""
-    for kind, names in names_of(context, kinds).items():
-        if not names.used or not (definers := catalogue.definers(kind)) or not context.deck.keywords():
+    for names in context.names_of(kinds):
+        if not names.used or not (definers := catalogue.definers(names.kind)) or not context.deck.keywords():
             continue
         known = names.known
         doubt = _doubt(context, definers)
@@ -96,8 +61,7 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
         for use in names.used:
             if name_key(use.name) in known or not use.name:
                 continue
-            thing = kind.value.removeprefix("a ").removeprefix("an ")
-            message = f"{thing} {shown(use.name)} is not defined{context.hint(use.name, known)}: {advice}"
+            message = f"{names.thing} {shown(use.name)} is not defined{context.hint(use.name, known)}: {advice}"
             severity = Severity.WARNING if doubt else None
             yield Problem(code, message + doubt, None, severity, use.where, blocks=Blocks.NEVER, lacks=use.name)
 
@@ -114,20 +78,21 @@ def _doubt(context: Context, definers: Collection[str]) -> str:
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are defined a second time."""
-    for kind, names in names_of(context, kinds).items():
-        thing = kind.value.removeprefix("a ").removeprefix("an ")
+    for names in context.names_of(kinds):
         for definitions in names.defined.values():
             for later in definitions[1:]:
-                message = f"{thing} {shown(later.name)} is already defined: choose another name, or keep one of them"
+                message = (
+                    f"{names.thing} {shown(later.name)} is already defined: choose another name, or keep one of them"
+                )
                 yield Problem(code, message, where=later.where)
 
 
 def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are not used: an info if the keywords that would use them are not read, or not in the deck."""
     raw = ""
-    for kind, names in names_of(context, kinds).items():
+    for names in context.names_of(kinds):
         used = {name_key(use.name) for use in names.used}
-        users = catalogue.users(kind)
+        users = catalogue.users(names.kind)
         for key, (first, *_) in names.defined.items():
             if key in used:
                 continue
@@ -136,22 +101,18 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
                 raw = "\n".join(map(folded, unread)) or "\n"
             if key in raw:
                 continue
-            thing = kind.value.removeprefix("a ").removeprefix("an ")
             by = f"name it in {' or '.join(f'*{keyword}' for keyword in users)}, or remove it" if users else "remove it"
             severity = None if users else Severity.INFO
-            yield Problem(code, f"{thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
+            yield Problem(code, f"{names.thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
 
 
-_FREEDOMS = 6
-
-
-def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
-    """Report undefined names of sets, and remember names of curves; names in soil springs only with `with_soil`.
+def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
+    """Report undefined names of sets; those in soil springs only with `with_soil`.
 
     Postprocessing may have its own sets in addition to those of the model.
     """
     own: dict[str, str] | None = None
-    for name, where in ((use.name, use.where) for use in context.once(every_name)[Names.SET].used):
+    for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
@@ -160,7 +121,6 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
             if name_key(name) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(use.name) for use in context.once(every_name)[Names.CURVE].used)
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
@@ -183,22 +143,6 @@ def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
                 yield name
 
 
-def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
-    """Return the names of some kinds that the fields of a deck use, with their places."""
-    return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
-
-
-def check_soil(context: Context, nodes: Numbered) -> None:
-    """Report every NODE= of soil springs that the deck does not define."""
-    named = [
-        (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
-        for where, block in context.deck.blocks_with("soil_springs")
-        for i, springs in enumerate(cast("LateralSoil", block).sets)
-        for j, curve in enumerate(springs.curves)
-    ]
-    _check_nodes(context, nodes, named)
-
-
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     """Report undefined nodes and elements that keywords refer to, except where nodes and sets are made."""
     for where, _, block in context.deck.every_block():
@@ -211,7 +155,7 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
 
 @cache
 def _names_idents(block: type[Block]) -> bool:
-    elsewhere = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
+    elsewhere = block.facts.defines or block.model_fields["keyword"].default == KEYWORD
     return not elsewhere and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
 
 
@@ -231,11 +175,13 @@ def check_chains(context: Context) -> None:
 
 KEYWORD = "BOUNDARY"
 """Keyword with its own check: some nodes of its ranges may be undefined."""
+FREEDOMS = range(1, 7)
 
 
 def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
     """Report undefined numbers of elements, and in a deck with `*LABEL` undefined labels."""
-    for ident, where in named if "LABEL" in context.deck.keywords() else ():
+    labelled = "LABEL" in context.deck.keywords() and not context.external_definers
+    for ident, where in named if labelled else ():
         if isinstance(ident, Label):
             context.report_label(REF005, ident, where, "ELEMENT", blocks=Blocks.NEVER)
     numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
@@ -257,8 +203,7 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
     shown_nodes = shows_nodes(context, nodes)
     for node, where in named:
         if isinstance(node, Label):
-            check_label(context, REF006, node, where)
-            if shown_nodes and not context.is_guessed_label(where):
+            if (shown_nodes or context.external_definers) and not context.is_guessed_label(where):
                 context.report_label(REF006, node, where, "NODE")
         elif isinstance(node, int):
             numbers.append(node)
@@ -276,32 +221,69 @@ def shows_nodes(context: Context, nodes: Numbered) -> bool:
 
 def check_boundaries(context: Context, nodes: Numbered) -> None:
     """Report undefined nodes of `*BOUNDARY`, and degrees of freedom other than 1 to 6."""
-    named: list[tuple[object, Where]] = []
-    for where, block in context.blocks("BOUNDARY", "LOAD CASE"):
-        types = cast("Boundary", block).types
-        if not types and not context.deck.lost(where):
+    blocks = context.blocks(KEYWORD, "LOAD CASE")
+    for where, block in blocks:
+        if not cast("Boundary", block).types and not context.deck.lost(where):
             message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
             context.report(SYN001, message, where, Severity.WARNING)
-        for i, held in enumerate(types):
-            for j, entry in enumerate(held.entries):
-                place = where.inside("types", i, "entries", j)
-                if hasattr(entry, "generate"):
-                    span = cast("FixedRange", entry)
-                    _check_range(context, nodes, span, place.inside("generate"))
-                    ends = (getattr(span.generate, "start", None), getattr(span.generate, "end", None))
-                    labels = enumerate(ends)
-                    named += [(end, place.inside("generate", at)) for at, end in labels if isinstance(end, Label)]
-                else:
-                    named.append((entry.node, place.inside("node")))
-                    _check_freedom(context, entry.dof, place.inside("dof"))
+    named: list[tuple[object, Where]] = []
+    for place, entry, values in _conditions(blocks):
+        if values is None:
+            named.append((entry.node, place.inside("node")))
+            _check_freedom(context, entry.dof, place.inside("dof"))
+        else:
+            _check_range(context, nodes, values, place)
+            ends = enumerate((values.start, values.end))
+            named += [(end, place.inside(at)) for at, end in ends if isinstance(end, Label)]
     _check_nodes(context, nodes, named)
 
 
-def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
+def _conditions(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any, FixedValues | None]]:
+    """Yield place and entry of each line of `*BOUNDARY` that is read, and the values of a GEN=."""
+    for where, block in blocks:
+        for i, held in enumerate(cast("Boundary", block).types):
+            for j, entry in enumerate(held.entries):
+                place = where.inside("types", i, "entries", j)
+                if not hasattr(entry, "generate"):
+                    yield place, entry, None
+                elif entry.generate is not None:
+                    yield place.inside("generate"), entry, entry.generate
+
+
+class HeldNodes(NamedTuple):
+    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
+
+    where: Where
+    dof: int
+    nodes: Indices
+    how: tuple[object, object]
+
+
+def held_nodes(deck: EvaluatedDeck, nodes: Numbered) -> Iterator[HeldNodes]:
+    """Yield the nodes, among those of a model, that each line of `*BOUNDARY` of a deck holds.
+
+    Lines whose form is not public are left out.
+    """
+    for place, entry, values in _conditions(deck.blocks(KEYWORD, "LOAD CASE")):
+        numbers: tuple[Any, ...]
+        if values is None:
+            numbers, dof, value, where = (entry.node, entry.node, 1), entry.dof, entry.value, place.inside("dof")
+        else:
+            at, step = freedom_and_step(values)
+            fields = (values.third, values.fourth, values.fifth, None)
+            numbers, dof, value, where = (
+                (values.start, values.end, cast("Any", step)),
+                fields[at - 2],
+                fields[at - 1],
+                place,
+            )
+        whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
+        if whole and numbers[2] > 0 and dof in FREEDOMS:
+            yield HeldNodes(where, int(cast("int", dof)), nodes.between(*numbers), (value or 0.0, entry.fixation))
+
+
+def _check_range(context: Context, nodes: Numbered, values: FixedValues, where: Where) -> None:
     """Report undefined nodes of a GEN=, without building them, and its degree of freedom."""
-    values = cast("FixedValues | None", entry.generate)
-    if values is None:
-        return
     at, step = freedom_and_step(values)
     freedom = (values.third, values.fourth)[at - 2]
     if freedom is None:
@@ -346,11 +328,11 @@ def freedom_and_step(values: FixedValues) -> tuple[int, object]:
 def _is_no_freedom(freedom: object) -> bool:
     """Return True if a value is not a degree of freedom; an unreadable value may be one. Equations give 6.0 for 6."""
     known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in range(1, _FREEDOMS + 1)
+    return known and freedom not in FREEDOMS
 
 
 def check_lines(context: Context) -> None:
-    """Report names of lines and groups in `*LINE PATH SECTIONS`, and labels of elements and sets: warnings at most."""
+    """Report names of lines and groups in `*LINE PATH SECTIONS`: warnings at most."""
     blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
     groups = {name_key(group.name): group.name for block in blocks for group in block.groups if group.name}
     for where, block in context.blocks("LINE PATH SECTIONS"):
@@ -363,34 +345,6 @@ def check_lines(context: Context) -> None:
                 if section.repeat:
                     what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
                     _check_name(context, what, section.repeat, place.inside("sections", number, "repeat"), groups)
-    if not context.external_definers:
-        return
-    for where, block in context.blocks("ELEMENT"):
-        for index, entry in enumerate(cast("Elements", block).entries):
-            if hasattr(entry, "elements"):
-                for (row, column), word in cast("ElementRows", entry).elements.words.items():
-                    if isinstance(word, Label):
-                        check_label(context, REF006, word, where.inside("entries", index, "elements", row, column))
-    for where, block in context.blocks("ELEMENT SETS"):
-        for inner, ident in idents_given(block, Names.ELEMENT):
-            if isinstance(ident, Label):
-                check_label(context, REF005, ident, where.inside(*inner))
-
-
-def check_label(context: Context, code: Code, label: str, where: Where) -> None:
-    """Report a label as a warning if it is spelt nearly as a label in an unread line.
-
-    Other labels are not reported: lines are not read, and may make labels in ways that are not known.
-    """
-    name = bare(label)
-    if not context.external_definers or folded(name) in context.labels:
-        return
-    near = context.near(name, context.labels)
-    if near and same_marks(name, near) and not context.is_guessed_label(where):
-        makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
-        makers += " or *LABEL" if "LABEL" in context.deck.keywords() else ""
-        message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
-        context.report(code, f"{message}: correct it", where, Severity.WARNING)
 
 
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:

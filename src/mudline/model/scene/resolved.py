@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.arguments import read_only
 from mudline.basics.limits import SHOWN_LETTERS
-from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers, short_repr
+from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers
 from mudline.language.codes import RUN001
 from mudline.language.codes.references import REF001
 from mudline.language.deck.evaluated import EvaluatedDeck
@@ -22,13 +22,14 @@ from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import facts_of
 from mudline.language.keywords.text import suggestion
+from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.references import CURVES, THINGS, undefined
+from mudline.model.scene.references import CURVES, THINGS, HeldNodes, held_nodes, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,
@@ -119,9 +120,6 @@ class LawArrays(NamedTuple):
     curves: tuple[ForceCurve, ...]
     linear_stiffness: Floats
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 @dataclass(repr=False)
 class ResolvedDeck:
@@ -134,6 +132,7 @@ class ResolvedDeck:
         set_table: sets as indices.
         section_table: cross-sections of the elements.
         laws: the normal law of each element and its origin.
+        other_curves: curves that are not those of the seabed.
         resistance: friction, lateral stiffness and suction of each element.
         extensions: the extension blocks of each element, by keyword.
         seabed: shape of the seabed.
@@ -146,6 +145,7 @@ class ResolvedDeck:
     set_table: Sets
     section_table: SectionTable
     laws: LawTable
+    other_curves: list[SceneCurve]
     resistance: SeabedResistance
     extensions: dict[str, Extension]
     seabed: SeabedShape
@@ -166,9 +166,19 @@ class ResolvedDeck:
         """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
         curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
         clashing = any(each.curve is not None and not each.whole for each in self.laws.curves)
-        missing = any(each.lacks for each in self.noticed) or not self.laws.referenced <= curves
+        missing = any(each.lacks for each in self.noticed) or not self.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
+
+    @cached_property
+    def held(self) -> list[HeldNodes]:
+        """Nodes that each line of `*BOUNDARY` in the deck itself holds."""
+        return list(held_nodes(self.deck, self.nodes))
+
+    @cached_property
+    def referenced(self) -> set[str]:
+        """Folded names of force-embedment curves that a STIFFNESS= gives."""
+        return {folded(use.name) for use in self.context.names[Names.CURVE].used}
 
     @property
     def source(self) -> str:
@@ -314,23 +324,20 @@ class ResolvedDeck:
     @cached_property
     def law_names(self) -> list[str]:
         """Law of each element: `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""
-        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "none"]
-        names_of_elements = [names[position] for position in self.laws.of_element.tolist()]
+        names = np.array([*map(self.law_name, self.laws.set_laws), "none"], dtype=object)[self.laws.of_element]
         for kind, _, _, elements in self.replaced:
-            for element in np.flatnonzero(elements).tolist():
-                names_of_elements[element] = kind.name.lower()
-        return names_of_elements
+            names[elements] = kind.name.lower()
+        return list(map(str, names))
 
     @cached_property
     def law_sets(self) -> list[str | None]:
         """Name of the set through which each element got its law; None without a law."""
         names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
-        sets_of_elements = [[*names, None][index] for index in self.laws.of_element.tolist()]
+        of_elements = np.array([*names, None], dtype=object)[self.laws.of_element]
         for _, _, extension, elements in self.replaced:
-            for element in np.flatnonzero(elements).tolist():
-                holder = extension.sets[int(extension.of_element[element])]
-                sets_of_elements[element] = None if holder is None else holder.name
-        return sets_of_elements
+            holders = np.array([*(set_ and set_.name for set_ in extension.sets), None], dtype=object)
+            of_elements[elements] = holders[extension.of_element[elements]]
+        return list(of_elements)
 
     def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
         """Return elements for a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.short_repr import short_repr
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Where
@@ -15,7 +14,7 @@ from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
-from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
@@ -46,9 +45,6 @@ class Section(NamedTuple):
     faulty: bool
     entry: GeometricSet
 
-    def __repr__(self) -> str:
-        return short_repr(self)
-
 
 class SectionTable(NamedTuple):
     """Sections in the order of the file, and the section of each element.
@@ -66,8 +62,17 @@ class SectionTable(NamedTuple):
     faulty: Mask
     open: bool
 
-    def __repr__(self) -> str:
-        return short_repr(self)
+    def values(self, *names: str, default: float = math.nan) -> Floats:
+        """Return a field (m,) of each element's section: the first of `names` that it gives, else `default`.
+
+        NaN without a section.
+        """
+
+        def first(row: object) -> float:
+            given = (name for name in names if isinstance(getattr(row, name, None), float | int))
+            return number(row, next(given, ""), default)
+
+        return picked((first(section.entry.section) for section in self.sections), self.of_element)
 
 
 def read_sections(
@@ -97,12 +102,11 @@ def read_sections(
             sections += [_section(part, where.inside("sets", index)) for part in parts]
             holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
     of_element = later_wins(holders, len(elements))
-    diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
+    diameter = picked((section.diameter for section in sections), of_element)
     lost = not context.unread.isdisjoint(("GEOMETRIC SETS", "TAPER"))
     unread = (None in holders and not elsewhere) or lost
-    faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
+    faulty = np.array([*(section.faulty for section in sections), unread])[of_element]
     if external is not None:
-        diameter, faulty = diameter.copy(), faulty.copy()
         at = elements.indices(external.ids)
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]

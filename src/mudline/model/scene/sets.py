@@ -16,7 +16,7 @@ from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
 from mudline.model.scene.context import Context
-from mudline.model.scene.numbering import Ids, Indices, Numbered
+from mudline.model.scene.numbering import Indices, Numbered
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import (
@@ -196,35 +196,29 @@ class _SetReader:
                     elements, whole = self._range(range_, where.inside("members", index))
                 parts.append(elements)
                 unsure |= not whole
-        self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure, faulty)
+        union = parts[0] if len(parts) == 1 else _distinct(np.concatenate([_NOTHING, *parts]))
+        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty)
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Return indices of the elements of a list in ascending order, and True if these are all."""
-        numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
-        indices = self.elements.indices(numbers)
-        known = indices >= 0
-        if np.count_nonzero(known) == len(member.elements):
-            return _ascending(indices), not is_partly_unknown(member.elements)
-        positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
-        missing = np.flatnonzero(~known).tolist()
-        self._missing(numbers[missing], [where.inside("elements", positions[at]) for at in missing])
-        for position, element in enumerate(member.elements):
-            place = where.inside("elements", position)
+        numbered = [(element, at) for at, element in enumerate(member.elements) if isinstance(element, int)]
+        indices = self.elements.indices(np.array([number for number, _ in numbered], dtype=np.int64))
+        missing = [numbered[at] for at in np.flatnonzero(indices < 0).tolist()]
+        if len(missing) > 1 and (self.context.external_definers or self.context.restart):
+            message = f"{len(missing)} elements of this list (first: {missing[0][0]}) are not defined"
+            self.context.report_missing(REF005, message, where.inside("elements", missing[0][1]), "ELEMENT")
+            missing = []
+        for number, at in missing:
+            message = f"element {number} is not defined: define it in *ELEMENT"
+            self.context.report_missing(REF005, message, where.inside("elements", at), "ELEMENT", number)
+        for at, element in enumerate(member.elements):
+            place = where.inside("elements", at)
             if isinstance(element, str) and not self.context.is_guessed_label(place):
                 self.context.report_label(REF005, element, place, "ELEMENT")
-        return _ascending(indices[known]), False
-
-    def _missing(self, numbers: Ids, places: list[Where]) -> None:
-        """Report elements of a list that are not defined; if they may be defined out of sight, only once for a list."""
-        if len(numbers) > 1 and (self.context.external_definers or self.context.restart):
-            message = f"{len(numbers)} elements of this list (first: {numbers[0]}) are not defined"
-            self.context.report_missing(REF005, message, places[0], "ELEMENT")
-            return
-        for number, place in zip(numbers.tolist(), places, strict=True):
-            message = f"element {number} is not defined: define it in *ELEMENT"
-            self.context.report_missing(REF005, message, place, "ELEMENT", number)
+        found = indices[indices >= 0]
+        return _distinct(found), len(found) == len(member.elements) and not is_partly_unknown(member.elements)
 
     def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Return the elements of a range, without building it: a typing error may make it very long."""
@@ -254,42 +248,19 @@ class _SetReader:
         return elements, not lacking
 
 
-def _ascending(indices: Indices) -> Indices:
-    """Return indices in ascending order, each once."""
-    return _distinct(indices) if np.count_nonzero(indices[1:] <= indices[:-1]) else indices
-
-
 def _distinct(indices: Indices) -> Indices:
     """Return the same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
     ordered = np.sort(indices)
     return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])] if len(ordered) else ordered
 
 
-def _union(parts: list[Indices]) -> Indices:
-    """Return the union of ascending, distinct parts, also ascending and distinct. Equal sets share an array."""
-    if len(parts) == 1:
-        return parts[0]
-    largest = max(parts, key=len, default=_NOTHING)
-    rest = [part for part in parts if part is not largest and len(part)]
-    if not rest:
-        return largest
-    others = _distinct(np.concatenate(rest))
-    at = np.searchsorted(largest, others)
-    new = largest[np.minimum(at, len(largest) - 1)] != others
-    return np.insert(largest, at[new], others[new]) if new.any() else largest
-
-
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
-    """Return for each of `count` elements the index of the last holder that has it, or -1; not to be written to.
+    """Return for each of `count` elements the index of the last holder that has it, or -1.
 
     A set that holds several objects counts only with the last of them, so repeated sets take no extra time.
     """
     last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
-    order = sorted(last.values())
-    whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
-    if not order or order[-1:] == whole[-1:]:
-        return np.broadcast_to(np.intp(order[-1] if order else -1), (count,))
     winner = np.full(count, -1, dtype=np.intp)
-    for index in order:
+    for index in sorted(last.values()):
         winner[cast("NamedSet", holders[index]).elements] = index
     return winner

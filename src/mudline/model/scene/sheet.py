@@ -13,7 +13,6 @@ from mudline.basics.display import DisplayColumn, number, text
 from mudline.basics.quantities import finite
 from mudline.language.keywords.format import unit_text
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_values import number as number_of
 from mudline.model.scene.numbering import Floats, Indices, picked
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.sections import stiffnesses
@@ -120,8 +119,8 @@ def sheet_of(scene: ResolvedDeck) -> Sheet:
 def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn]]:
     """Return the values (m,) of all elements by column, and the columns of other load cases."""
     table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
-    entries = [section.entry.section for section in table.sections]
-    inner = picked((number_of(each, "di") or np.nan for each in entries), table.of_element)
+    outer, inner, drag_diameter, buoyancy = map(table.values, ("do", "di", "dd", "db"))
+    inner[inner == 0.0] = np.nan
     own = [stiffnesses(scene.deck, section) for section in table.sections]
     friction = scene.resistance.column("friction")
     if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
@@ -129,9 +128,6 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
         friction = np.where((extension.of_element >= 0)[:, None], np.column_stack(given), friction)
     last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
     not_read = (last == 0.0) if set(NOT_READ) & set(left_out(scene)) else np.zeros(len(last), np.bool_)
-    outer, drag_diameter, buoyancy = (
-        picked((number_of(each, name) for each in entries), table.of_element) for name in ("do", "dd", "db")
-    )
     values_by_column = {
         "outer_diameter": scene.diameter,
         "inner_diameter": inner,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from functools import cached_property
 
@@ -15,7 +15,7 @@ from mudline.language.codes.references import REF001, REF006, REF015
 from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import is_read, kept_places
 from mudline.language.keywords.fields import Setting
@@ -30,9 +30,6 @@ from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.references import (
     CURVES,
     KEYWORD,
-    check_label,
-    every_name,
-    names_of,
     sets_of_postprocessing,
     shows_nodes,
 )
@@ -47,7 +44,6 @@ _WORTH = re.compile(r"[={]|[0-9OolI]\.[0-9OolI]")
 """Pattern of a line that is checked."""
 _FREE = ("NAME", Names.FILE.name)
 """Settings whose value may be any text."""
-_UNREAD = "; the line is not read"
 _THINGS = ("GEN", *(kind.name for kind in (Names.SET, Names.ELEMENT, Names.NODE, Names.VESSEL)))
 """Settings that begin a line about an object which has a curve."""
 
@@ -122,11 +118,6 @@ class _Looking:
         self.context = context
         self.sets = sets
         self.parameters: Parameters | None = None
-        self.checks: dict[str, Callable[[Where, str, str], None]] = {
-            Names.SET.name: self._set,
-            Names.VESSEL.name: self._vessel,
-            Names.FILE.name: self._file,
-        }
 
     def look(self, where: Where, keyword: str, line: str) -> None:
         """Check a line."""
@@ -137,21 +128,26 @@ class _Looking:
         self._keyless(where, keyword, groups)
         for problem in problems:  # an equation that is not closed; other marks may be text
             if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
-                place = where.inside(*problem.span)
-                self._note(Problem(SYN006, f"{problem.message}{_UNREAD}", None, Severity.WARNING, place))
+                self._warn(SYN006, problem.message, where.inside(*problem.span))
         for group in groups:
             for field in group.fields:
-                if field.text.startswith("{") and Label.match(field.text):
-                    check_label(self.context, REF006, field.text, where.inside(*field.span))
+                if field.text.startswith("{") and Label.match(field.text) and self.context.external_definers:
+                    self.context.report_label(REF006, field.text, where.inside(*field.span), "NODE")
                 if known and group.key not in _FREE and (number := number_meant(field.text)):
-                    message = f"{shown(field.text)} is not a number: write {number}{_UNREAD}"
-                    self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*field.span)))
+                    message = f"{shown(field.text)} is not a number: write {number}"
+                    self._warn(SYN002, message, where.inside(*field.span))
             value = group.fields[0]
-            if known and value.text and not value.text.startswith("=["):
-                if check := self.checks.get(group.key):
-                    check(where.inside(*value.span), keyword, value.text)
-                elif group.key == "CURVE" and _uses_curve(groups):
-                    self._curve(where.inside(*value.span), keyword, value.text)
+            place = where.inside(*value.span)
+            if not known or not value.text or value.text.startswith("=["):
+                continue
+            if group.key == Names.SET.name:
+                self._set(place, keyword, value.text)
+            elif group.key == Names.VESSEL.name:
+                self._vessel(place, keyword, value.text)
+            elif group.key == Names.FILE.name:
+                self._file(place, value.text)
+            elif group.key == "CURVE" and _uses_curve(groups):
+                self._curve(place, keyword, value.text)
 
     def condition(self, where: Where, keyword: str, line: str, nodes: Numbered | None) -> None:
         """Check the node that follows a vessel, first on its line, and the vessel if it is on the same line.
@@ -173,8 +169,8 @@ class _Looking:
         shows = nodes is not None and shows_nodes(self.context, nodes)
         lacks = nodes is not None and shows and (nodes.indices(np.array([node])) < 0).any()
         if lacks and not self.context.possible_definition("NODE", int(node)):
-            message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number{_UNREAD}"
-            self._note(Problem(REF006, message, None, Severity.WARNING, where, lacks=f"{node:.0f}"))
+            message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number"
+            self._warn(REF006, message, where, lacks=f"{node:.0f}")
 
     def _keyless(self, where: Where, keyword: str, groups: list[FieldGroup]) -> None:
         """Report a line of a keyword that is read, if the key before its first value is missing."""
@@ -188,12 +184,17 @@ class _Looking:
         for keys in (record_schema(record).keys for record in records):
             slot = keys.get(groups[1].key)
             if slot is not None and isinstance(slot.about, Setting) and slot.about.inline:
-                message = f"no line of *{keyword} begins so: write {next(iter(keys))}={first.text}{_UNREAD}"
-                self._note(Problem(SYN001, message, None, Severity.WARNING, where.inside(*first.span)))
+                message = f"no line of *{keyword} begins so: write {next(iter(keys))}={first.text}"
+                self._warn(SYN001, message, where.inside(*first.span))
                 return
 
-    def _note(self, problem: Problem) -> None:
-        self.context.note(replace(problem, blocks=Blocks.NEVER))
+    def _warn(
+        self, code: Code, message: str, where: Where, severity: Severity = Severity.WARNING, lacks: str = ""
+    ) -> None:
+        problem = Problem(
+            code, f"{message}; the line is not read", None, severity, where, blocks=Blocks.NEVER, lacks=lacks
+        )
+        self.context.note(problem)
 
     def _equation(self, text: str, where: Where) -> None:
         self.parameters = self.parameters or Parameters(self.context.written)
@@ -201,7 +202,7 @@ class _Looking:
             self.parameters.evaluate(Equation(text), where)
         except NoValueError as reason:
             if reason.problem:
-                self._note(reason.problem)
+                self.context.note(replace(reason.problem, blocks=Blocks.NEVER))
 
     def _set(self, where: Where, keyword: str, name: str) -> None:
         """Report an undefined set that a line names; postprocessing may have its own sets."""
@@ -211,8 +212,8 @@ class _Looking:
         own = self._sets_of_results if of_results else {}
         if self.sets.find(name) is None and name_key(name) not in own:
             hint = self.context.hint(name, self._set_names) or self.context.hint(name, own)
-            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS{_UNREAD}"
-            self._note(Problem(REF001, message, None, Severity.WARNING, where, lacks=name))
+            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
+            self._warn(REF001, message, where, lacks=name)
 
     @cached_property
     def _set_names(self) -> dict[str, str]:
@@ -237,12 +238,12 @@ class _Looking:
         definers = catalogue.definers(Names.VESSEL)
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
-        vessels = self.context.once(every_name)[Names.VESSEL].known
+        vessels = self.context.names[Names.VESSEL].known
         if vessels and name_key(name) not in vessels:
             from mudline.model.scene.rules.fields import REF019  # noqa: PLC0415 - only for a finding
 
-            message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}{_UNREAD}"
-            self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))
+            message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}"
+            self._warn(REF019, message, where, lacks=name)
 
     def _curve(self, where: Where, keyword: str, name: str) -> None:
         """Report an undefined curve that a line of the model or of a load case uses.
@@ -257,13 +258,13 @@ class _Looking:
             from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
 
             meant = self.context.hint(name, self.curves)
-            message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it{_UNREAD}"
-            self._note(Problem(REF002, message, None, Severity.WARNING, where, lacks=name))
+            message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it"
+            self._warn(REF002, message, where, lacks=name)
 
     @cached_property
     def curves(self) -> dict[str, str]:
         """Curves of all kinds that the deck defines, by their folded names."""
-        kinds = names_of(self.context, CURVES | {Names.CURVE}).values()
+        kinds = self.context.names_of(CURVES | {Names.CURVE})
         return {key: name for names in kinds for key, name in names.known.items()}
 
     @cached_property
@@ -277,7 +278,7 @@ class _Looking:
                     words.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
         return words
 
-    def _file(self, where: Where, _: str, written: str) -> None:
+    def _file(self, where: Where, written: str) -> None:
         """Report a missing file; a path with folders of another machine is looked for like any other.
 
         A file of postprocessing may be one that the run makes.
@@ -288,4 +289,4 @@ class _Looking:
         if folder is None or not given or "%" in name or find_file(folder, name) is not None:
             return
         message, severity = not_found(folder, name)
-        self._note(Problem(REF015, f"{message}{_UNREAD}", None, severity, where))
+        self._warn(REF015, message, where, severity)

@@ -45,8 +45,7 @@ def contents(scene: ResolvedDeck) -> list[PipeContents]:
     """
     if not any(True for _ in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE")):
         return []
-    entries = [section.entry.section for section in scene.section_table.sections]
-    inner = picked((number(each, "di", 0.0) for each in entries), scene.section_table.of_element)
+    inner = scene.section_table.values("di", default=0.0)
     area = np.nan_to_num(math.pi / 4.0 * inner * inner)
     middle = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes].mean(axis=1)
     density = np.zeros(len(area))
@@ -194,12 +193,9 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     filled = contents(scene)
     inside = filled[-1].mass if filled else np.zeros(len(scene.element_ids))
     added, drag, from_deck, with_buoyancy, along = _coefficients(scene)
-    entries = [section.entry.section for section in table.sections]
-    outer = picked((number(each, "do", number(each, "dd")) for each in entries), table.of_element)
-    drag_diameter = picked((number(each, "dd", number(each, "do")) for each in entries), table.of_element)
-    buoyancy = picked((number(each, "db", number(each, "do")) for each in entries), table.of_element)
-    size = np.where(with_buoyancy, buoyancy, drag_diameter)
-    size = np.where(size > 0.0, size, outer)
+    drag_diameter = table.values("dd", "do")
+    size = np.where(with_buoyancy, table.values("db", "do"), drag_diameter)
+    size = np.where(size > 0.0, size, table.values("do", "dd"))
     with np.errstate(all="ignore"):
         displaced = around.density * math.pi / 4.0 * size * size
         of_sections = [stiffnesses(scene.deck, section) for section in table.sections]

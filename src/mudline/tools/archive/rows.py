@@ -22,10 +22,8 @@ from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severit
 from mudline.language.keywords.catalogue import is_extension, is_superseded
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
-from mudline.model.scene.curves import OF_SEABED, other_curves
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.references import used_names
 from mudline.model.scene.sets import ALL
 from mudline.tools.archive.tables import CurveRow, DeckRow, FindingRow, KeywordRow, LawRow, ParameterRow, SetRow
 
@@ -98,7 +96,8 @@ def _keywords(deck: Deck) -> Iterator[KeywordRow]:
 
 def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
-    used = {name_key(name) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
+    names = scene.context.names_of((Names.SET, Names.SUBSET))
+    used = {name_key(use.name) for each in names for use in each.used}
     # Unread lines may name sets.
     unread = "\n".join(line for _, _, block in deck.every_block() for line in raw_lines(block)).casefold()
     for key, entry in named.items():
@@ -110,18 +109,16 @@ def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
 
 def _curves(deck: Deck, scene: Scene) -> Iterator[CurveRow]:
     """Yield the curves of the seabed, then all other curves, which no element follows."""
-    curves: list[tuple[Any, ...]] = []
-    for place, entry in enumerate(scene.laws.curves):
-        followers = len(scene.laws.followers(place)) if len(scene.element_ids) else 0
-        curves.append((entry, OF_SEABED, _keyword_at(scene, entry.where), entry.embedment, entry.curve, followers))
-    curves += [(entry, entry.kind, entry.keyword, False, entry.made(), 0) for entry in other_curves(scene.deck)]
-    for place, (entry, kind, keyword, legacy, curve, followers) in enumerate(curves, 1):
+    for place, entry in enumerate([*scene.laws.curves, *scene.other_curves]):
+        followers = len(scene.laws.followers(place)) if entry.of_seabed and len(scene.element_ids) else 0
+        curve = entry.curve
         over, values = (curve.ratios, curve.forces) if curve else np.ascontiguousarray(entry.points.T)
         first, last, largest = map(float, (over[0], over[-1], values.max())) if len(over) else (None, None, None)
         steepest = float(curve.slopes.max()) if curve else None
         points = (over.tolist(), values.tolist(), first, last, largest, steepest)
         shape = _number(over.tobytes() + values.tobytes())
-        yield CurveRow(place, entry.name, kind, keyword, legacy, *points, followers, shape, _line(deck, entry.title))
+        line, legacy = _line(deck, entry.title), entry.embedment
+        yield CurveRow(place + 1, entry.name, entry.kind, entry.keyword, legacy, *points, followers, shape, line)
 
 
 def _laws(deck: Deck, scene: Scene) -> Iterator[LawRow]:

@@ -19,7 +19,7 @@ from mudline.language.diagnostics import Where
 from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
 from mudline.model.contact.touchdown import line_summaries
-from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms, held_nodes
+from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
@@ -378,7 +378,7 @@ def _report_held(scene: Scene, report: ExportReport, held: dict[int, frozenset[i
             if each.type_ not in ("CONSTANT", "VESSEL"):
                 effect = "its nodes are held and not moved"
                 report.add(where, Outcome.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
-    for line in held_nodes(scene):
+    for line in scene.held:
         value = line.how[0]
         if isinstance(value, float | int) and value and line.nodes.size:
             effect = f"node {int(scene.node_ids[line.nodes[0]])} stays where its coordinates are"

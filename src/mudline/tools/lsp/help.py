@@ -21,7 +21,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.model.results.summary import followers
-from mudline.model.scene.curves import ENDS, DeckCurve, SceneCurve, other_curves
+from mudline.model.scene.curves import ENDS, SceneCurve
 from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
@@ -156,7 +156,7 @@ def named_help(analysis: Analysis, value_site: Site, name: str) -> str:
         entry = next((each for each in scene.laws.curves if not each.embedment and _same(each.name, name)), None)
         return curve_help(scene, entry) if entry else ""
     if kind in CURVES:
-        return "\n\n".join(other_curve_help(curve) for curve in other_curves(scene.deck) if _same(curve.name, name))
+        return "\n\n".join(other_curve_help(curve) for curve in scene.other_curves if _same(curve.name, name))
     if kind in (Names.FILE, Names.DECK):
         path = find_deck(analysis.deck, name) if kind is Names.DECK else find_file(analysis.deck.folder, name)
         return path.as_posix() if path else "this file was not found"
@@ -240,9 +240,9 @@ def _title(entry: SceneCurve) -> str:
     return f"the curve of set {entry.name}" if entry.embedment else f"curve {entry.name}"
 
 
-def other_curve_help(entry: DeckCurve) -> str:
+def other_curve_help(entry: SceneCurve) -> str:
     """Return points and range of a curve that does not belong to a seabed."""
-    curve = entry.made()
+    curve = entry.curve
     head = f"{entry.kind} **{entry.name}** of `*{entry.keyword}`"
     if curve is None:
         return f"{head}: no curve, see its findings"

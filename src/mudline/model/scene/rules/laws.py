@@ -16,7 +16,7 @@ from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.laws import law_named
 from mudline.model.scene.laws import NOTHING, typed_blocks
-from mudline.model.scene.references import CURVES, every_name, undefined
+from mudline.model.scene.references import CURVES, undefined
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_curves import Embedment
@@ -286,15 +286,15 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     yield from undefined(scene.context, CURVES, REF002)
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
-    if names.keys() >= scene.laws.referenced:
+    if names.keys() >= scene.referenced:
         return
     laws = scene.laws.set_laws
     lost = [index for index, law in enumerate(laws) if law.kind is LawKind.CURVE and law.curve == NOTHING]
     followed = {laws[index].where for index in lost if (scene.laws.of_element == index).any()}
-    unused = [name for key, name in names.items() if key not in scene.laws.referenced]
+    unused = [name for key, name in names.items() if key not in scene.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for name, where in ((use.name, use.where) for use in scene.context.once(every_name)[Names.CURVE].used):
+    for name, where in ((use.name, use.where) for use in scene.context.names[Names.CURVE].used):
         if folded(name) in names:
             continue
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else unused_hint)
