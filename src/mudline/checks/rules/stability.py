@@ -283,11 +283,7 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
 
 def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     """Return pairs of elements that meet at a node: the first on a linear seabed, the second on a curve."""
-    law = scene.law
-    if not (np.count_nonzero(law == LawKind.LINEAR) and np.count_nonzero(law == LawKind.CURVE)):
-        nothing: Indices = np.zeros(0, dtype=np.intp)
-        return nothing, nothing
-    nodes = scene.element_nodes.ravel()
+    law, nodes = scene.law, scene.element_nodes.ravel()
     order = np.argsort(nodes, kind="stable")
     elements, at = order // 2, nodes[order]
     meet = (at[1:] == at[:-1]) & (at[1:] >= 0)
