@@ -108,7 +108,7 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
     joins = (ends[:, 0] >= 0) & (ends[:, 1] >= 0) & (ends[:, 0] != ends[:, 1])
     pairs = ends.min(axis=1) * len(scene.node_ids) + ends.max(axis=1)
     unread = (keyword for keyword in context.keywords if catalogue.declared(keyword) is None)
-    if any(map(catalogue.may_have_no_length, unread)):
+    if np.diff(np.sort(pairs[joins])).all() or any(map(catalogue.may_have_no_length, unread)):
         return
     usable = np.flatnonzero(joins & ~without_sections(scene))
     _, firsts, same = np.unique(pairs[usable], return_index=True, return_inverse=True)
@@ -334,11 +334,16 @@ def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
     names: dict[str, int] = {}
     for index, later in enumerate(sets):
         before = holder[later.elements]
-        order = np.argsort(before, kind="stable")
-        parts, starts = np.unique(before[order], return_index=True)
-        for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
-            if earlier >= 0:
-                yield Overlap(earlier, index, elements)
+        first = int(before[0]) if index and before.size else -1
+        if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
+            if first >= 0:
+                yield Overlap(first, index, later.elements)
+        else:
+            order = np.argsort(before, kind="stable")
+            parts, starts = np.unique(before[order], return_index=True)
+            for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
+                if earlier >= 0:
+                    yield Overlap(earlier, index, elements)
         name = folded(later.name)
         if not later.elements.size and name in names:
             yield Overlap(names[name], index, later.elements)

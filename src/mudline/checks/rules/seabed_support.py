@@ -138,7 +138,7 @@ class _LineExtent(NamedTuple):
     heights: tuple[float, float]
     diameter: float
     depth: float
-    flat: tuple[int, int, int]
+    flat: tuple[int, ...]
     """Number of nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
     level: int
     """Number of nodes as low as the lowest one."""
@@ -171,9 +171,8 @@ def _line(context: LintContext) -> _LineExtent | None:
     x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
     with np.errstate(invalid="ignore", over="ignore"):
-        near = np.abs(scene.coordinates[used]) <= diameter
-        low = scene.coordinates[used, 2] - z[0] <= diameter
-    flat = int(near[:, 0].sum()), int(near[:, 2].sum()), int(low.sum())
+        distances = (scene.coordinates[used, axis] - level for axis, level in ((0, 0.0), (2, 0.0), (2, z[0])))
+        flat = tuple(int(np.count_nonzero(np.abs(each) <= diameter)) for each in distances)
     level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
     return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
