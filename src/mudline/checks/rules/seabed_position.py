@@ -77,7 +77,8 @@ def _depths(scene: Scene) -> Floats:
             return _below_planes(floor, x, y, z)
         if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
-            return _along(floor.direction, y, z) * np.sin(slope) - x * np.cos(slope)
+            depth: Floats = _along(floor.direction, y, z) * np.sin(slope) - x * np.cos(slope)
+            return depth
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
         if floor.kind is SeabedKind.SURFACE:
