@@ -16,12 +16,13 @@ from pygls.exceptions import JsonRpcException
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
 from mudline.basics.patterns import matches
-from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError
+from mudline.checks.configuration import Configuration, ConfigurationError
 from mudline.checks.context import LintContext
-from mudline.checks.engine import LintSettings, lint_context, read_deck
+from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
-from mudline.checks.registry import UnknownRule
-from mudline.checks.settings import Settings, merged_settings, nearest_settings
+from mudline.checks.reading import read_deck
+from mudline.checks.registry import UnknownRule, select
+from mudline.checks.settings import Settings, nearest_settings
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.model import Deck
@@ -210,7 +211,7 @@ class Decks:
     def _settings(self, document: OpenDocument) -> tuple[Configuration, LintSettings]:
         """Return configuration and settings of a document; a faulty configuration is recorded and left out."""
         if document.path is None:
-            return Configuration(), merged_settings(Configuration(), CallerSettings())
+            return Configuration(), LintSettings(select())
         try:
             path = str(document.path)
             return self._configured.configured.of(path), self._configured.of(path)
@@ -218,4 +219,4 @@ class Decks:
             if str(error) not in self._shown:
                 self._shown.add(str(error))
                 self.faults.append(str(error))
-        return Configuration(), merged_settings(Configuration(), CallerSettings())
+        return Configuration(), LintSettings(select())
