@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
-from mudline.checks.rules import coordinates, seabed_position
 from tests.checks.findings import PIPE, PROPERTIES, RESTART, found, messages
 from tests.helpers.builders import decks
 
@@ -301,32 +297,6 @@ def test_the_lines_of_a_law_under_another_keyword_are_reported_there() -> None:
     law = "*HYDRODYNAMIC SETS\n SET=ALL, TYPE=CONSTANT\n 1.2, 0.0, 2.0, 1.0, 0.0\n" + LAW.partition("\n")[2]
     assert [line for _, line, _ in found(PIPE + law, "SBD006")] == [PIPE.count("\n") + 4]
     assert found(PIPE + law.replace("HYDRODYNAMIC SETS", "UNHEARD OF"), "SBD006")[0][1] != PIPE.count("\n") + 4
-
-
-HEIGHTS = st.sampled_from(["-0.05", "-2.0", "0.0", "-0.0", "30.0", "1e150", "=[nothing]"])
-PLACES = st.sampled_from(["0.0", "5.0", "10.0", "15.0", "20.0", "-1e150", "1e150", "1e-170", "", "=[nothing]"])
-
-
-@given(
-    st.lists(st.tuples(HEIGHTS, PLACES, PLACES), min_size=2, max_size=7),
-    st.lists(st.tuples(st.integers(1, 8), st.integers(1, 8)), max_size=7),
-)
-@example([("-0.05", "0.0", "0.0"), ("-0.05", "0.0", "5.0"), ("-0.05", "0.0", "0.0")], [(1, 1)])
-def test_a_look_at_the_whole_line_changes_no_finding(
-    nodes: list[tuple[str, str, str]], ends: list[tuple[int, int]]
-) -> None:
-    rows = "".join(f" {number}, {x}, {y}, {z}\n" for number, (x, y, z) in enumerate(nodes, 1))
-    pairs = [*((number, number + 1) for number in range(1, len(nodes))), *ends]
-    elements = "".join(f" {number}, {a}, {b}\n" for number, (a, b) in enumerate(pairs, 1))
-    pipe = "*GEOMETRIC SETS" + PIPE.partition("*GEOMETRIC SETS")[2]
-    deck = f"$MODEL\n*NODE\n{rows}*ELEMENT\n{elements}{pipe}{LAW}{OCEAN}".encode()
-    chosen = select(("UNT006", "SBD022", "GEO005", "CRV014", "STB003"))
-    quick = lint_bytes(deck, "deck.keyxm", chosen)
-    with (
-        patch.object(coordinates, "_goes_forward", lambda *_: False),
-        patch.object(seabed_position, "_is_level", lambda _: False),
-    ):
-        assert lint_bytes(deck, "deck.keyxm", chosen) == quick
 
 
 # ------------------------------------------------------------------------------------------- datum at the sea surface

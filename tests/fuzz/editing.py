@@ -21,9 +21,8 @@ from typing import Any
 from pygls.io_ import run_async
 
 import mudline
-from mudline.checks.configuration import CallerSettings, Configuration
 from mudline.checks.engine import lint_bytes
-from mudline.checks.settings import merged_settings
+from mudline.checks.registry import select
 from mudline.tools.lsp.documents import OpenDocument
 from mudline.tools.lsp.server import DeckServer
 from mudline.tools.lsp.serving import quiet_logs, register
@@ -220,7 +219,7 @@ class Session:
         assert document.text == self.text, "the server has another text"
         shown = [one["params"] for one in self.received if one.get("method") == "textDocument/publishDiagnostics"]
         last = next(one for one in reversed(shown) if one["uri"] == _DECK)
-        found = lint_bytes(self.text.encode(), document.name, merged_settings(Configuration(), CallerSettings()).rules)
+        found = lint_bytes(self.text.encode(), document.name, select())
         codes = Counter(one["code"] for one in last["diagnostics"])
         assert codes == Counter(one.code for one in found), "the server shows other findings"
         answers = Counter(str(one["id"]) for one in self.received if "id" in one and "method" not in one)

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
-from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError, read_configuration
+from mudline.checks.configuration import Configuration, ConfigurationError, read_configuration
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes
 from mudline.checks.fixing import fix_bytes
 from mudline.checks.registry import UnknownRule, rules
-from mudline.checks.settings import merged_settings
+from mudline.checks.settings import nearest_settings
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.keyword_text import to_keyword
@@ -144,7 +144,7 @@ def _configuration(data: bytes) -> None:
         except ConfigurationError:
             return
         try:
-            merged_settings(found or Configuration(), CallerSettings())
+            nearest_settings().merged(found or Configuration())
         except UnknownRule:
             return
 

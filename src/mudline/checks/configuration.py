@@ -267,8 +267,7 @@ class Configured:
     isolated: bool = False
     code_fault: CodeFault | None = None
     _fixed: Configuration | None = field(init=False, default=None)
-    _of_folder: dict[str, Configuration] = field(init=False, default_factory=dict)
-    _nearest: dict[Path, Configuration] = field(init=False, default_factory=dict)
+    _in_folder: dict[Path, Configuration | None] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.config is not None and self.isolated:
@@ -280,32 +279,20 @@ class Configured:
                 self._fixed = read_configuration(Path(self.config), code_fault=self.code_fault) or Configuration()
 
     def of(self, path: str | None) -> Configuration:
-        """Return the configuration of a file, by its path or the name given for standard input."""
+        """Return the configuration of a file, by its path or the name given for standard input.
+
+        It is the nearest one upwards; in a folder, mudline.toml comes before pyproject.toml.
+        """
         if self._fixed is not None:
             return self._fixed
-        folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
-        if folder not in self._of_folder:
-            with _reading_one():
-                self._of_folder[folder] = self._upwards(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
-        return self._of_folder[folder]
-
-    def _upwards(self, folder: Path) -> Configuration:
-        """Return the nearest configuration upwards of a folder; mudline.toml comes before pyproject.toml.
-
-        Each folder is searched once.
-        """
-        passed: list[Path] = []
-        nearest_one = Configuration()
-        for place in (folder, *folder.parents):
-            if place in self._nearest:
-                nearest_one = self._nearest[place]
-                break
-            passed.append(place)
-            if here := _in(place, self.code_fault):
-                nearest_one = here
-                break
-        self._nearest.update(dict.fromkeys(passed, nearest_one))
-        return nearest_one
+        inside = Path(os.path.abspath(os.path.dirname(path or "-")))  # noqa: PTH100, PTH120 - links stay what they are called
+        for folder in (inside, *inside.parents):
+            if folder not in self._in_folder:
+                with _reading_one():
+                    self._in_folder[folder] = _in(folder, self.code_fault)
+            if here := self._in_folder[folder]:
+                return here
+        return Configuration()
 
     def includes(self, path: str) -> bool:
         """Return True if a file is a deck in any form, or `include` of its configuration takes it for one."""

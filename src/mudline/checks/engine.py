@@ -7,24 +7,21 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from mudline.checks.context import LintContext
+from mudline.checks.reading import read_deck
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.deck.faults import MisspeltDeckError
-from mudline.language.deck.forms import KEYWORD
-from mudline.language.deck.loading import coverage_of, load_bytes
+from mudline.language.deck.loading import coverage_of
 from mudline.language.deck.model import BaseProblem, Deck, Opaque
-from mudline.language.deck.reading import TextOrigin, units_of
+from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest
 from mudline.language.keywords.contents import repeated_set
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.language.rules import Rule, findings
-from mudline.language.syntax.tree import RawBlock
 
 if TYPE_CHECKING:
     from mudline.checks.recovery.engine import Recovered
@@ -93,7 +90,11 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     Problems that only repeat another one are joined to it (`Problem.following`). With `suppress` False, problems that
     comments of the deck suppress are included.
     """
-    meant = _meant(context, chosen, suppress=suppress)
+    meant: Recovered | None = None
+    if context.text and (may_recover(context.deck) or context.scene.lacks):
+        from mudline.checks.recovery.engine import recovered  # noqa: PLC0415 - many decks do without
+
+        meant = recovered(context, {rule.code.code for rule in chosen}, suppress=suppress)
     found = problems_in(meant.context if meant else context, chosen)
     if meant is not None:
         found = [*meant.as_written(found)]
@@ -105,26 +106,6 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     from mudline.checks.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
 
     return joined_findings(context, found)
-
-
-def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
-    """Return the corrected deck; None if nothing needs correction, or a program made the deck."""
-    deck = context.deck
-    if context.text is None or not (may_recover(deck) or context.scene.lacks):
-        return None
-    hiding = context.once(suppressions) if suppress else None
-    of_text = deck.origin.takes_edits and units_of(deck) == deck.units  # else corrections do not change the units
-    units = None if of_text else deck.units
-
-    def again(data: bytes) -> Deck:
-        return read_deck(data, deck.file, form=KEYWORD, units=units, folder=deck.folder)
-
-    def reported(problems: Sequence[Problem]) -> Sequence[Problem]:
-        return hiding.split([*problems], ())[0] if hiding else problems
-
-    from mudline.checks.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
-
-    return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
 
 
 _MISSPELT = (SYN009, SYN010)
@@ -249,57 +230,6 @@ def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence
     """Return the problems that comments of the deck do not suppress, and the comments that suppress nothing."""
     found = context.once(suppressions)
     return problems if found is None else found.split(problems, chosen)[0]
-
-
-_SHORT_BLOCK = 4096
-"""Characters of the largest block that is remembered: decks of a project share their short blocks."""
-
-
-class _Piece(str):
-    """Text of a block, equal to any other with the same text; `raw` and `start` are those of the first one read."""
-
-    __slots__ = ("raw", "start")
-
-    raw: RawBlock
-    start: int
-
-
-@lru_cache(512)
-def _read_piece(piece: _Piece, declared: type[Block], last: bool, older: bool) -> ReadBlock:  # noqa: ARG001, FBT001 - for the cache
-    return read_piece(piece, piece.start, piece.raw, declared, last=last)
-
-
-def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Return the result of `read_block` for a block; blocks with the same text share their model."""
-    start = raw.head.span.start
-    end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
-    if end - start > _SHORT_BLOCK:
-        return read_block(text, raw, declared, last=last)
-    piece = _Piece(text[start:end])
-    piece.raw, piece.start = raw, start
-    known = _read_piece(piece, declared, last, raw.older)
-    return known.at(text, start, [_reported_at(problem, start) for problem in known.problems] if known.problems else [])
-
-
-def _reported_at(problem: Problem, by: int) -> Problem:
-    span = problem.span and problem.span.moved(by)
-    repair = problem.repair
-    if repair is not None:
-        repair = replace(repair, edits=tuple((place.moved(by), text) for place, text in repair.edits))
-    return replace(problem, span=span, repair=repair)
-
-
-def read_deck(
-    data: bytes, name: str, *, form: str | None = None, units: str | None = None, folder: Path | None = None
-) -> Deck:
-    """Return the deck of a file's content; it must not be changed, as its models are shared with decks read before.
-
-    Raises DeckError for a JSON or YAML file that holds no deck.
-    """
-    deck = load_bytes(data, name, form=form, units=units, folder=folder, read=_read_once)
-    if isinstance(deck.origin, TextOrigin):
-        deck.origin.no_equations = "[" not in deck.origin.source.text
-    return deck
 
 
 def lint_bytes(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from mudline.basics.files import recording_looks
 from mudline.basics.limits import MOST_PASSES, MOST_TRIES
@@ -24,11 +24,11 @@ from mudline.checks.recovery.blocks import start_of
 from mudline.checks.suppression import MARK
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.model import Deck
-from mudline.language.deck.reading import read_source
+from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Diagnostic, FileReport, Problem, Repair, Severity, Span
 from mudline.language.syntax.edits import TextEdit, Undoing, edited_bytes, with_line_ends
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import LeafKind, SyntaxTree, parse
+from mudline.language.syntax.tree import LeafKind
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
@@ -223,9 +223,14 @@ class FixState:
     """Stage of a deck, and the findings of lint in it, including joined ones."""
 
     data: bytes
-    source: Source
+    text: TextOrigin
     context: LintContext
     findings: list[Problem]
+
+    @property
+    def source(self) -> Source:
+        """Text of this stage."""
+        return self.text.source
 
     @property
     def deck(self) -> Deck:
@@ -237,10 +242,10 @@ class FixState:
 
         After edits of a source, lines are those before the edits, and 0 for lines that the edits brought.
         """
-        text, undoing, written = self.context.text, Undoing(edits), source or self.source
+        undoing, written = Undoing(edits), source or self.source
 
         def place(error: Problem) -> tuple[str, int]:
-            start = start_of(text, error) if text else -1
+            start = start_of(self.text, error)
             span = Span(start, start + 1)
             new = start < 0 or undoing.is_in_new_lines(span)
             return error.code.code, 0 if new else written.position(undoing.before(span).start)[0]
@@ -259,20 +264,15 @@ class FixState:
         ]
 
     @cached_property
-    def tree(self) -> SyntaxTree:
-        """Lines of the text."""
-        return parse(self.source)
-
-    @cached_property
     def comments(self) -> Counter[str]:
         """Comments without their layout and how often each occurs; comments for mudline are left out."""
         text = self.source.unified
-        comments = (text[slice(*leaf.span)] for leaf in self.tree.leaves() if leaf.kind is LeafKind.COMMENT)
+        comments = (text[slice(*leaf.span)] for leaf in self.text.tree.leaves() if leaf.kind is LeafKind.COMMENT)
         return Counter(" ".join(comment[1:].split()) for comment in comments if not MARK.match(comment))
 
     def untouched(self, edits: Sequence[Span]) -> Iterator[tuple[int, int]]:
         """Yield section and block of every block that no edit touches."""
-        for index, section in enumerate(self.tree.sections):
+        for index, section in enumerate(self.text.tree.sections):
             for number, block in enumerate(section.blocks):
                 start, end = block.head.span.start, (block.leaves or [block.head])[-1].span.end
                 if not any(edit.start <= end and start <= edit.end for edit in edits):
@@ -293,7 +293,8 @@ class StageReader(NamedTuple):
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
         problems = joined_problems(context, self.settings.rules)
-        return FixState(data, source, context, [each for problem in problems for each in (problem, *problem.following)])
+        findings = [each for problem in problems for each in (problem, *problem.following)]
+        return FixState(data, cast("TextOrigin", deck.origin), context, findings)
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
         """Return the stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""

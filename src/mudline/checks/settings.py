@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, field
 
 from mudline.basics.patterns import matches
@@ -17,42 +16,6 @@ def hidden_codes(configuration: Configuration, path: str) -> tuple[str, ...]:
     ignores = configuration.table("per-file-ignores")
     relative = configuration.relative(path) if ignores else ""
     return tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
-
-
-def merged_settings(
-    found: Configuration,
-    given: CallerSettings,
-    hidden: tuple[str, ...] = (),
-    *,
-    fixing: Fixing = Fixing.NONE,
-) -> LintSettings:
-    """Return a configuration overridden by a caller's settings; raises UnknownRule.
-
-    `hidden` are the codes that the configuration ignores in the file.
-    """
-    severity = found.table("severity")
-    off = [code for code, word in severity.items() if word == "off"]
-    chosen = list(given.chosen) or found.words("select")
-    ignored, also = [*given.ignored, *hidden], [*given.also]
-    if not given.chosen:
-        ignored += [*found.words("ignore"), *off]
-        also += found.words("extend-select")
-    running = select(chosen, ignored, also)
-    severities = {
-        rule.code.code: Severity(word)
-        for code, word in sorted(severity.items(), key=lambda item: len(item[0]))
-        if word != "off"
-        for rule in select([code])
-    }
-    return LintSettings(
-        running,
-        given.units,
-        given.dialect or found.values.get("dialect", "mudline"),
-        severities,
-        fixing,
-        _unfixable(found),
-        given.no_outside or bool(found.values.get(NO_OUTSIDE)),
-    )
 
 
 def _unfixable(configuration: Configuration) -> frozenset[str]:
@@ -73,24 +36,39 @@ class Settings:
     given: CallerSettings
     fixing: Fixing = Fixing.NONE
     _made: dict[object, LintSettings] = field(default_factory=dict)
-    _of_folder: dict[str, LintSettings] = field(default_factory=dict)
 
     def of(self, path: str) -> LintSettings:
         """Return the settings of a file, by its path or the name given for standard input."""
-        folder = os.path.dirname(path)  # noqa: PTH120 - asked for each of many files
-        if folder in self._of_folder:
-            return self._of_folder[folder]
         found = self.configured.of(path)
         key = (found.path, hidden_codes(found, path))
         if key not in self._made:
             self._made[key] = self.merged(found, key[1])
-        if not found.table("per-file-ignores"):
-            self._of_folder[folder] = self._made[key]
         return self._made[key]
 
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
         """Return a configuration overridden by the caller's settings; `hidden` are codes that it ignores in a file."""
-        return merged_settings(found, self.given, hidden, fixing=self.fixing)
+        given, severity = self.given, found.table("severity")
+        chosen = list(given.chosen) or found.words("select")
+        ignored, also = [*given.ignored, *hidden], [*given.also]
+        if not given.chosen:
+            ignored += [*found.words("ignore"), *(code for code, word in severity.items() if word == "off")]
+            also += found.words("extend-select")
+        running = select(chosen, ignored, also)
+        severities = {
+            rule.code.code: Severity(word)
+            for code, word in sorted(severity.items(), key=lambda item: len(item[0]))
+            if word != "off"
+            for rule in select([code])
+        }
+        return LintSettings(
+            running,
+            given.units,
+            given.dialect or found.values.get("dialect", "mudline"),
+            severities,
+            self.fixing,
+            _unfixable(found),
+            given.no_outside or bool(found.values.get(NO_OUTSIDE)),
+        )
 
 
 def nearest_settings() -> Settings:

@@ -13,7 +13,6 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,10 +21,8 @@ from mudline.basics.paths import relative_path
 from mudline.basics.spelling import nearest
 from mudline.checks.context import LintContext
 from mudline.checks.registry import find, rules
-from mudline.language.deck.keyword_text import to_keyword
-from mudline.language.deck.model import Opaque, comment_texts
-from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Code, Diagnostic, Problem, Repair, Severity, Span, Where
 from mudline.language.rules import Rule, first_reported
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Leaf, LeafKind
@@ -35,7 +32,6 @@ STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
 """Beginning of a comment for mudline."""
 
-_NAMED = re.compile(r"mudline", re.IGNORECASE)
 _ORDER = re.compile(r"[\w-]+")
 _WORD = re.compile(r"[^,\s]+")
 _REASON = r"(?:(?<=[\s,])|^)--(?=\s|$)"
@@ -66,7 +62,6 @@ class Directive:
     leaf: Span
     span: Span
     words: list[Word]
-    where: Where
     scope: Hashable = _NOTHING
     reason: str = ""
 
@@ -75,14 +70,13 @@ class Directive:
 class Suppressions:
     """Comments of a deck that hide findings, and those that look like one.
 
-    origin: places in the deck's own text, or in the text that a JSON or YAML deck would be.
+    origin: places in the deck's text, which of a JSON or YAML deck is the keyword text that it would be.
     misspelt: the words of comments that look like one, each with the word that was meant.
     """
 
     origin: TextOrigin
-    own_text: bool
     directives: list[Directive] = field(default_factory=list)
-    misspelt: list[tuple[Word, str, Where]] = field(default_factory=list)
+    misspelt: list[tuple[Word, str]] = field(default_factory=list)
     blocks: list[tuple[int, Hashable]] = field(default_factory=list)
 
     def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
@@ -110,16 +104,16 @@ class Suppressions:
 
     def unknown(self) -> Iterator[Problem]:
         """Yield problems for names that no rule has, and for unknown instructions in comments."""
-        for word, meant, where in self.misspelt:
+        for word, meant in self.misspelt:
             message = f"{word.text!r} is not an instruction: did you mean {meant}?"
-            yield self._problem(message, word.span, where, self._replacing(word, meant))
+            yield Problem(STY010, message, word.span, repair=_replacing(word, meant))
         for directive in self.directives:
             for number, word in enumerate(directive.words):
                 if not word.codes:
                     near = nearest(word.text, _names())
                     hint = f"did you mean {near}?" if near else "`mudline rules` lists all rules; remove it"
-                    repair = self._replacing(word, near) if near else self._removing(directive, number, "unsafe")
-                    yield self._problem(f"{word.text!r} names no rule: {hint}", word.span, directive.where, repair)
+                    repair = _replacing(word, near) if near else _removing(directive, number, "unsafe")
+                    yield Problem(STY010, f"{word.text!r} names no rule: {hint}", word.span, repair=repair)
 
     def _present(self, problems: Iterable[Problem]) -> dict[Hashable, set[str]]:
         """Return the codes of the findings in every scope."""
@@ -142,31 +136,27 @@ class Suppressions:
             place = _place(directive)
             if not directive.words and not codes_found and everything <= selected:
                 message = f"nothing is found in {place}: remove this comment"
-                yield self._problem(message, directive.span, directive.where, self._removing(directive, 0, "safe"))
+                yield Problem(STY010, message, directive.span, repair=_removing(directive, 0, "safe"))
             for number, word in enumerate(directive.words):
                 judged = (word.codes & everything) or word.codes
                 if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & codes_found:
                     message = f"{word.text} is not found in {place}: remove it from this comment"
-                    repair = self._removing(directive, number, "safe")
-                    yield self._problem(message, word.span, directive.where, repair)
+                    yield Problem(STY010, message, word.span, repair=_removing(directive, number, "safe"))
 
-    def _problem(self, message: str, span: Span, where: Where, repair: Repair) -> Problem:
-        if self.own_text:
-            return Problem(STY010, message, span, repair=repair)
-        return Problem(STY010, message, where=where)
 
-    def _replacing(self, word: Word, replacement: str) -> Repair:
-        return Repair("unsafe", f"write {replacement}", ((word.span, replacement),))
+def _replacing(word: Word, replacement: str) -> Repair:
+    return Repair("unsafe", f"write {replacement}", ((word.span, replacement),))
 
-    def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
-        """Return a repair that removes a word and its separator, or the comment if nothing else is named."""
-        words = directive.words
-        if len(words) <= 1:
-            return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
-        own = words[number].span
-        last = number == len(words) - 1
-        span = Span(words[number - 1].span.end, own.end) if last else Span(own.start, words[number + 1].span.start)
-        return Repair(applicability, f"remove {words[number].text}", ((span, ""),))
+
+def _removing(directive: Directive, number: int, applicability: str) -> Repair:
+    """Return a repair that removes a word and its separator, or the comment if nothing else is named."""
+    words = directive.words
+    if len(words) <= 1:
+        return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
+    own = words[number].span
+    last = number == len(words) - 1
+    span = Span(words[number - 1].span.end, own.end) if last else Span(own.start, words[number + 1].span.start)
+    return Repair(applicability, f"remove {words[number].text}", ((span, ""),))
 
 
 def _place(directive: Directive) -> str:
@@ -188,29 +178,15 @@ def _covers(named: set[str], code: str) -> bool:
 def suppressions(context: LintContext) -> Suppressions | None:
     """Return the suppressions of a deck's comments; None for a deck without such comments. Rules call `context.once`.
 
-    A deck in JSON or YAML is seen as the keyword text that it would be; a deck without such a text hides nothing.
+    A deck without a text, which a program made, hides nothing.
     """
-    deck = context.deck
-    if isinstance(deck.origin, TextOrigin):
-        return _read(deck.origin, own_text=True) if deck.origin.source.readable else None
-    lines = (block.lines for section in deck.sections for block in section.blocks if isinstance(block, Opaque))
-    if not any("mudline" in text.lower() for text in chain(comment_texts(deck), *lines)):
-        return None
-    try:
-        text = to_keyword(deck)
-    except DeckError:
-        return None
-    written = read_source(Source.from_bytes(text.encode(errors="replace"), deck.file), units=deck.units)
-    return _read(written.origin, own_text=False) if isinstance(written.origin, TextOrigin) else None
-
-
-def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
-    text = origin.source.unified
-    if not ("mudline" in text.lower() if text.isascii() else _NAMED.search(text)):  # the first is many times as fast
+    origin = context.text
+    text = origin.source.unified if origin and origin.source.readable else ""
+    if origin is None or "mudline" not in text.lower():
         return None
     if not any(leaf.kind is LeafKind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None
-    suppressions_ = Suppressions(origin, own_text)
+    suppressions_ = Suppressions(origin)
     waiting: list[Directive] = []
     for leaf, where in _placed(origin, suppressions_.blocks):
         if leaf.kind is LeafKind.COMMENT:
@@ -247,14 +223,14 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
     name = order.group().lower()
     if name not in _PLACES:
         if near := nearest(name, _PLACES):
-            found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near, where))
+            found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near))
         return None
     end = leaf.start + len(text[slice(*leaf)].rstrip())
     reason = re.search(_REASON, text[order.end() : end])
     names = list(_WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end))
     codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {each.group() for each in names}}
     words = [Word(each.group(), Span(*each.span()), codes[each.group()]) for each in names]
-    directive = Directive(name, leaf, Span(leaf.start, end), words, where)
+    directive = Directive(name, leaf, Span(leaf.start, end), words)
     directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
     if name == "ignore-file":
         directive.scope = ("file",)

@@ -117,12 +117,6 @@ class Blocks:
         """All blocks, each with the name of its section."""
         return [(section.name, block) for section in self._sections for block in section.blocks]
 
-    def declared(self) -> Iterator[tuple[RawBlock, type[Block]]]:
-        """Yield the blocks whose lines are read, each with its declaration."""
-        for section, block in self.blocks:
-            if (declared := catalogue.block_class(section, block.name)) is not None:
-                yield block, declared
-
     @cached_property
     def keywords(self) -> set[str]:
         """Names of all blocks."""

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 from itertools import chain
 
 from mudline.checks.context import LintContext
+from mudline.checks.reading import read_deck, read_once
 from mudline.checks.recovery import lines, values
 from mudline.checks.recovery.blocks import (
     Blocks,
@@ -24,13 +25,14 @@ from mudline.checks.recovery.blocks import (
     start_of,
 )
 from mudline.checks.rules.keywords import LEG001
+from mudline.checks.suppression import suppressions
 from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010, SYN011, SYN013
+from mudline.language.deck.forms import KEYWORD
 from mudline.language.deck.model import Deck
-from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.deck.reading import TextOrigin, read_source, units_of
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.reader import BlockReader
 from mudline.language.syntax.edits import OverlapError, TextEdit, Undoing, apply_edits, edited_bytes, with_line_ends
 from mudline.language.syntax.source import Source
 
@@ -75,32 +77,17 @@ class Recovery:
     last: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """Functions that read a deck and select the problems to report.
-
-    again: reads a text.
-    block: reads a block of a text.
-    reported: returns the problems that a user sees, with their places in the file. Recovery from other faults would go
-        unnoticed, so they are left alone.
-    """
-
-    again: Callable[[bytes], Deck]
-    block: BlockReader
-    reported: Callable[[Sequence[Problem]], Sequence[Problem]]
-
-
 @dataclass
 class Recovered:
     """Deck with its faults corrected.
 
-    again: reads a text.
+    units: the units of the deck, None if its text tells them.
     causes: the findings of the corrected faults, at their places in the file.
     steps: the edits, by which places lead back to the file.
     """
 
     context: LintContext
-    again: Callable[[bytes], Deck]
+    units: str | None
     causes: list[Problem] = field(default_factory=list)
     steps: list[Undoing] = field(default_factory=list)
 
@@ -125,11 +112,13 @@ class Recovered:
 
     def _edited(self, context: LintContext, source: Source, edits: Sequence[TextEdit]) -> LintContext | None:
         """Return the deck of a context with edits made; None if they cannot be made."""
+        deck = context.deck
         try:
-            deck = self.again(edited_bytes(source, edits))
+            data = edited_bytes(source, edits)
         except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
             return None
-        return LintContext(deck, context.dialect, context.fixing)
+        edited = read_deck(data, deck.file, form=KEYWORD, units=self.units, folder=deck.folder)
+        return LintContext(edited, context.dialect, context.fixing)
 
     def without_errors(self, written: LintContext) -> LintContext | None:
         """Return the deck as written with only those causes corrected that are errors; None if one cannot be."""
@@ -163,16 +152,21 @@ class Recovered:
                 yield replace(problem, span=span, where=problem.where if span else None, repair=repair)
 
 
-def recovered(context: LintContext, codes: Collection[str], reading: Reading) -> Recovered | None:
+def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -> Recovered | None:
     """Return the corrected deck; None if nothing was corrected.
 
-    `codes` are those of the findings that the caller wants.
+    `codes` are those of the findings that the caller wants. With `suppress`, faults that comments of the deck suppress
+    are left alone: recovery from them would go unnoticed.
     """
-    found = Recovered(context, reading.again)
-    reported = reading.reported([one for one in context.deck.problems if one.code.code in codes])
+    deck = context.deck
+    of_text = deck.origin.takes_edits and units_of(deck) == deck.units  # else corrections do not change the units
+    found = Recovered(context, None if of_text else deck.units)
+    hiding = context.once(suppressions) if suppress else None
+    reported = [one for one in deck.problems if one.code.code in codes]
+    reported = hiding.split(reported, ())[0] if hiding else reported
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
-        round_ = _Round(Blocks(found.deck, text), reading.block, codes, trials)
+        round_ = _Round(Blocks(found.deck, text), codes, trials)
         if not found.take(round_.taken(reported)):
             break
         trials = round_.trials
@@ -180,7 +174,9 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
     if found.context.scene.lacks:
         late = values.scene_corrections(found.context)
         wanted = [one for one in late if one.cause.code.code in codes]
-        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])])
+        if hiding:
+            wanted = [one for one in wanted if hiding.split([*found.as_written([one.cause])], ())[0]]
+        found.take(wanted)
     return found if found.steps else None
 
 
@@ -194,10 +190,9 @@ def _cause(correction: Correction) -> Problem:
 class _Round:
     """Corrections of a text that are accepted, no two of which change the same lines."""
 
-    def __init__(self, blocks: Blocks, read: BlockReader, codes: Collection[str], trials: int) -> None:
+    def __init__(self, blocks: Blocks, codes: Collection[str], trials: int) -> None:
         self.blocks = blocks
         self.text = blocks.text
-        self.read = read
         self.codes = codes
         self.trials = trials
         self.errors: dict[Span, Counter[tuple[Code, str]]] = {}
@@ -258,7 +253,7 @@ class _Round:
         edited = apply_edits(text, moved)
         behind = ("" if edited.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
         source = Source(self.text.source.name, f"{head}{edited}{behind}", clean=self.text.source.clean)
-        for problem in read_source(source, units="user", read=self.read).problems:
+        for problem in read_source(source, units="user", read=read_once).problems:
             if problem.weight is Severity.ERROR or problem.code in (SYN009, SYN013):
                 yield problem.code, problem.message
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.seabed_position import bounds_of, depths
+from mudline.checks.rules.seabed_position import depths
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
@@ -164,8 +164,6 @@ def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
 def _turned(scene: Scene, block: slice) -> list[int]:
     """Return the elements that run back over the element before them, which lies in the block."""
     ends = scene.element_nodes[block.start : block.stop + 1]
-    if _goes_forward(scene, ends):
-        return []
     joined = (ends[:-1, 1] == ends[1:, 0]) & (ends[:-1] >= 0).all(axis=1) & (ends[1:] >= 0).all(axis=1)
     if not joined.any():
         return []
@@ -174,16 +172,6 @@ def _turned(scene: Scene, block: slice) -> list[int]:
         np.flatnonzero(joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)) + 1 + block.start
     ).tolist()
     return turned
-
-
-def _goes_forward(scene: Scene, ends: Indices) -> bool:
-    """Return True if every element turns by less than a right angle into the next one, as in most lines."""
-    if not len(scene.coordinates):
-        return False
-    with np.errstate(all="ignore"):
-        start, end = scene.coordinates.take(ends.T, axis=0)  # `take` takes a fifth of the time of an index
-        steps = end - start
-        return bool(np.minimum.reduce(np.add.reduce(steps[:-1] * steps[1:], axis=1)) > 0.0)
 
 
 def _directions(scene: Scene, ends: Indices) -> Floats:
@@ -207,8 +195,6 @@ def _skipping(scene: Scene) -> Iterator[Problem]:
     parts = []
     for block in blocks_of(max(len(ends) - 2, 0)):
         of_three, alike = ends[block.start : block.stop + 2], sections[block.start : block.stop + 2]
-        if not np.count_nonzero(of_three[1:, 0] != of_three[:-1, 1]):
-            continue  # each begins where the one before it ends
         before, here, behind = of_three[:-2], of_three[1:-1], of_three[2:]
         apart: Mask = (before[:, 1] == here[:, 0]) & (here[:, 1] != behind[:, 0])
         apart &= (before >= 0).all(axis=1) & (here >= 0).all(axis=1) & (behind >= 0).all(axis=1)
@@ -320,10 +306,10 @@ def height_over_depth(context: LintContext) -> Iterator[Problem]:
     if not oceans or not len(scene.node_ids):
         return
     where, depth = oceans[-1][0], number(oceans[-1][1], "depth")
-    bounds, metres = context.once(bounds_of), METRES.get(scene.units)
-    height = bounds.highest
+    metres = METRES.get(scene.units)
+    deepest, height = context.once(depths).max(), -context.once(depths).min()
     above_sea = (height - depth) * (metres or math.inf)
-    if not 0.0 < depth < math.inf or -bounds.deepest > depth or not height < math.inf:
+    if not 0.0 < depth < math.inf or -deepest > depth or not height < math.inf:
         return
     if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
         highest = scene.node_ids[context.once(depths).argmin()]

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.coordinates import UNT006
 from mudline.checks.rules.curve_shape import LARGEST_RATIO, is_upside_down
-from mudline.checks.rules.seabed_position import DEEPEST, bounds_of
+from mudline.checks.rules.seabed_position import DEEPEST
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
@@ -212,10 +212,6 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     if scene.seabed.kind is not SeabedKind.FLAT:
-        return
-    ends = [float(entry.curve.ratios[-1]) for entry in scene.laws.curves if entry.curve is not None and entry.whole]
-    bounds = context.once(bounds_of)
-    if not ends or (bounds.thinnest > 0.0 and max(-bounds.lowest, 0.0) / bounds.thinnest <= min(ends)):
         return
     heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
     with np.errstate(over="ignore"):

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
-from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +11,7 @@ from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Mask, blocks_of
+from mudline.model.scene.numbering import Floats, Mask
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.vertical_axis import FLAT
 
@@ -21,7 +19,6 @@ SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
 _VERTICAL = 90.0
-_FEW = 64
 
 DEEPEST = 5.0
 """Depth below the seabed in diameters."""
@@ -79,14 +76,7 @@ def _depths(scene: Scene) -> Floats:
             return _below_planes(floor, x, y, z)
         if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
-            level = _is_level(floor)
-            depth = np.empty(len(x))
-            for block in blocks_of(len(x)):
-                if level:
-                    depth[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
-                else:
-                    along = _along(floor.direction, y[block], z[block])
-                    depth[block] = along * np.sin(slope) - x[block] * np.cos(slope)
+            depth: Floats = _along(floor.direction, y, z) * np.sin(slope) - x * np.cos(slope)
             return depth
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
@@ -95,61 +85,12 @@ def _depths(scene: Scene) -> Floats:
         return _below_profile(floor, x, _along(floor.direction, y, z))
 
 
-def _is_level(floor: SeabedShape) -> bool:
-    """Return True if the seabed is X = 0."""
-    kind = floor.kind
-    return (kind is SeabedKind.FLAT or kind is SeabedKind.SLOPING) and floor.slope == 0.0 and floor.direction == 0.0
-
-
 def _is_bed(scene: Scene) -> bool:
     """Return True if slopes are below 90 degrees and the deck describes one seabed; other rules report the contrary."""
     floor = scene.seabed
     if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
     return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
-
-
-class Bounds(NamedTuple):
-    """Extremes of the nodes, computed once for all rules; NaN if a coordinate is NaN, infinite without nodes.
-
-    highest, deepest: the largest distances above and below the seabed, normal to it.
-    lowest: the smallest X.
-    first, last: the smallest and the largest Z.
-    thinnest: the smallest known diameter, inf without any.
-    """
-
-    highest: float
-    deepest: float
-    lowest: float
-    first: float
-    last: float
-    thinnest: float
-
-
-def bounds_of(context: LintContext) -> Bounds:
-    """Return the extremes of the nodes, which excuse most decks from further checks; rules call `context.once`."""
-    scene = context.scene
-    axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= _FEW else []
-    if axes and isfinite(sum(map(sum, axes))):  # of few without numpy, which takes three times as long
-        (lowest, left, first), (top, right, last) = map(min, axes), map(max, axes)
-    else:
-        lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
-        top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
-    level = _is_level(scene.seabed) and "SEABED TRENCH" not in scene.extensions
-    if level and isfinite(left + right + first + last):
-        highest, deepest = top, -lowest
-    else:
-        depth = context.once(depths)
-        highest = -float(np.minimum.reduce(depth, initial=np.inf))
-        deepest = float(np.maximum.reduce(depth, initial=-np.inf))
-    return Bounds(
-        highest,
-        deepest,
-        lowest,
-        first,
-        last,
-        float(np.fmin.reduce(scene.diameter, initial=np.inf)),
-    )
 
 
 def steepness(scene: Scene) -> Floats:
@@ -233,9 +174,6 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     if not (scene.laws.types or scene.laws.set_laws) or context.in_soil:
-        return
-    bounds = context.once(bounds_of)
-    if bounds.thinnest > 0.0 and bounds.deepest <= DEEPEST * bounds.thinnest:
         return
     depth = context.once(depths)
     with np.errstate(over="ignore", invalid="ignore"):

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.seabed_position import bounds_of, depths, first_of
+from mudline.checks.rules.seabed_position import depths, first_of
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
-from mudline.language.deck.model import Opaque
-from mudline.language.diagnostics import Problem, Repair, Span, Where
-from mudline.language.keywords.catalogue import is_superseded, sections_of
+from mudline.language.diagnostics import Problem, Where
+from mudline.language.keywords.catalogue import is_superseded
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
@@ -67,7 +65,7 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     scene = context.scene
-    if scene.context.external_definers or scene.context.restart or context.in_soil or _is_low(context):
+    if scene.context.external_definers or scene.context.restart or context.in_soil:
         return
     if (line := _line(context)) is not None and (message := _above(line) or _along_z(line)):
         lowest = int(np.where(line.used, context.once(depths), -np.inf).argmax())
@@ -140,7 +138,7 @@ class _LineExtent(NamedTuple):
     heights: tuple[float, float]
     diameter: float
     depth: float
-    flat: tuple[int, int, int]
+    flat: tuple[int, ...]
     """Number of nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
     level: int
     """Number of nodes as low as the lowest one."""
@@ -150,17 +148,6 @@ LAID = 3
 """Number of nodes of a line that lie on the seabed, at least."""
 ROUNDED = 1e-3
 """Height difference in diameters up to which nodes are on one level."""
-
-
-def _is_low(context: LintContext) -> bool:
-    """Return True if no line can be reported: every node lies near the seabed, and Z does not span the depth."""
-    bounds, depth = context.once(bounds_of), _water_depth(context)
-    if not bounds.highest <= HIGHEST * bounds.thinnest:
-        return False
-    if not depth > 0.0:
-        return True
-    rise = bounds.last - bounds.first
-    return bounds.highest <= depth and rise < (1.0 - 2.0 * NEAR) * depth and bounds.first > (NEAR - 1.0) * depth
 
 
 def _water_depth(context: LintContext) -> float:
@@ -183,10 +170,9 @@ def _line(context: LintContext) -> _LineExtent | None:
     deepest, highest = _extent(context.once(depths), used)[::-1]
     x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
-    with np.errstate(invalid="ignore"):
-        near = np.abs(scene.coordinates[used]) <= diameter
-        low = scene.coordinates[used, 2] - z[0] <= diameter
-    flat = int(near[:, 0].sum()), int(near[:, 2].sum()), int(low.sum())
+    with np.errstate(invalid="ignore", over="ignore"):
+        distances = (scene.coordinates[used, axis] - level for axis, level in ((0, 0.0), (2, 0.0), (2, z[0])))
+        flat = tuple(int(np.count_nonzero(np.abs(each) <= diameter)) for each in distances)
     level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
     return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
@@ -264,9 +250,6 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     reading = scene.context
-    if stray := list(_stray_laws(context)):
-        yield from stray
-        return
     if reading.restart or any(map(is_superseded, reading.misplaced)) or "SEABED PROPERTIES" in reading.misplaced:
         return
     if "SEABED CONTACT" in context.keywords:
@@ -283,29 +266,6 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
         if not context.problems_of(SYN014):  # else the law may be in the part that was cut off
             yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
-
-
-_LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORECASE | re.MULTILINE)
-
-
-def _stray_laws(context: LintContext) -> Iterator[Problem]:
-    """Yield lines of *SEABED PROPERTIES in blocks that are passed through: their keyword line is missing."""
-    for i, section in enumerate(context.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque or section.name not in (sections_of(block.keyword) or ()):
-                continue
-            if not any(map(_LAW.match, block.lines)) or not context.text:
-                continue
-            where = Where(i, j)
-            head = context.text.head(where)
-            match = _LAW.search(context.text.source.text, head.end if head else 0)
-            message = (
-                f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
-            )
-            place = Span(*match.span()) if match else head or Span(0, 0)
-            line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
-            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if match else None
-            yield Problem(SBD006, message, place, repair=repair)
 
 
 def _zeros(context: LintContext) -> Iterator[Problem]:

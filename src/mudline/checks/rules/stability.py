@@ -19,10 +19,12 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.rules.extensions import rule_of_extension
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import TimeSpan
     from mudline.model.contact.laws.suction import SuctionLaw
+    from mudline.model.scene.laws import Extension
     from mudline.model.scene.oscillation import Oscillation
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
@@ -38,8 +40,8 @@ _TWICE = 2.0
 FARTHEST = 1.0e4
 
 
-@rule(STB001)
-def suction_snap(context: LintContext) -> Iterator[Problem]:
+@rule_of_extension(STB001, "SEABED SUCTION", blocks=False)
+def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
     """The suction force decreases while the pipe keeps rising.
 
     From the second corner of the trapezoid to breakout, the suction decreases with slope F_max / ((1 - xc2) Delta_B).
@@ -57,14 +59,10 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
 
     Finds: 18:2
     """
-    scene = context.scene
-    extension = scene.extensions.get("SEABED SUCTION")
-    if extension is None:
-        return
     from mudline.model.scene.assignments import suction_law  # noqa: PLC0415 - most decks do without
 
-    for index, where in enumerate(extension.places):
-        elements = np.flatnonzero(extension.of_element == index)
+    for _, where, held in extension.blocks():
+        elements = np.flatnonzero(held)
         needed = _release(suction_law(scene, extension, elements))
         known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
         if known.size:
@@ -141,8 +139,8 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
-@rule(STB004)
-def lateral_softening(context: LintContext) -> Iterator[Problem]:
+@rule_of_extension(STB004, "SEABED FRICTION", blocks=False)
+def lateral_softening(scene: Scene, extension: Extension) -> Iterator[Problem]:
     """The lateral resistance decreases while the pipe keeps moving.
 
     Beyond the breakout of LATERAL=PEAK-RESIDUAL or F114 the resistance decreases to its residual. This is a negative
@@ -170,10 +168,6 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
 
     Finds: 24:2
     """
-    scene = context.scene
-    extension = scene.extensions.get("SEABED FRICTION")
-    if extension is None:
-        return
     from mudline.model.scene.assignments import softens  # noqa: PLC0415 - most decks do without
     from mudline.model.scene.oscillation import oscillations, softening_needs  # noqa: PLC0415 - most decks do without
 
@@ -283,11 +277,7 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
 
 def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     """Return pairs of elements that meet at a node: the first on a linear seabed, the second on a curve."""
-    law = scene.law
-    if not (np.count_nonzero(law == LawKind.LINEAR) and np.count_nonzero(law == LawKind.CURVE)):
-        nothing: Indices = np.zeros(0, dtype=np.intp)
-        return nothing, nothing
-    nodes = scene.element_nodes.ravel()
+    law, nodes = scene.law, scene.element_nodes.ravel()
     order = np.argsort(nodes, kind="stable")
     elements, at = order // 2, nodes[order]
     meet = (at[1:] == at[:-1]) & (at[1:] >= 0)
@@ -297,8 +287,8 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     return first[mixed], second[mixed]
 
 
-@rule(EXT008)
-def soft_unloading(context: LintContext) -> Iterator[Problem]:
+@rule_of_extension(EXT008, "SEABED UNLOADING", blocks=False)
+def soft_unloading(scene: Scene, extension: Extension) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 
     Soil unloads at least as stiffly as it was loaded. With a softer return path a cycle would release energy, and the
@@ -313,14 +303,10 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
 
     Finds: 19:12
     """
-    scene = context.scene
-    extension = scene.extensions.get("SEABED UNLOADING")
-    if extension is None:
-        return
     steepest = np.where(scene.nodal, np.nan, _steepest(scene))
-    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+    for entry, where, held in extension.blocks():
         stiffness = number(entry, "stiffness")
-        softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
+        softer = np.flatnonzero(held & (steepest > stiffness))
         if stiffness > 0.0 and softer.size:
             unit = unit_names(scene.units).behind("stiffness")
             message = (

@@ -33,25 +33,17 @@ STY007 = Code("STY007", "trailing-blank", Severity.INFO)
 
 _DATA = (LeafKind.RUN, LeafKind.SETTING, LeafKind.TEXT)
 
-_KEY_LIKE = r"\n[Cc][A-Za-z]"
 INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
-_COMMENT_BELOW = rf"\n{INDENTED_COMMENT.pattern}"
-
-_SMALL = r"[a-z]"
-_INDENTED_HEAD = r"[ \t]++[*$]"
-_HEAD_BELOW = rf"\n{_INDENTED_HEAD}"
-_SMALL_HEAD = r"[ \t]*+[*$][^\na-z]*+[a-z]"
-_SMALL_BELOW = rf"\n{_SMALL_HEAD}"
+_SMALL = re.compile(r"[a-z]")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 
 
 def rule_of_text(
-    code: Code, gate: Callable[[str], object], *, off: bool = False
+    code: Code, *, off: bool = False
 ) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
     """Return a decorator that makes a rule of a function of a text and its unified source.
 
-    Decks in JSON and YAML have no text, and nothing is reported in them. `gate` is a quick test of the whole source:
-    without a match the function is not called.
+    Decks in JSON and YAML have no text, and nothing is reported in them.
     """
 
     def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
@@ -59,9 +51,7 @@ def rule_of_text(
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:
             text = context.text
-            if text is None or not gate(text.source.unified):
-                return ()
-            return find(text, text.source.unified)
+            return find(text, text.source.unified) if text else ()
 
         return check
 
@@ -117,7 +107,7 @@ def line_around(source: str, offset: int) -> Span:
     return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
 
 
-@rule_of_text(STY002, lambda source: "\nc" in source or source.startswith("c"))
+@rule_of_text(STY002)
 def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A comment begins with a lower-case c.
 
@@ -139,7 +129,7 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
-@rule_of_text(STY008, lambda source: re.search(_KEY_LIKE, source))
+@rule_of_text(STY008)
 def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
@@ -161,7 +151,7 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule_of_text(STY009, lambda source: re.search(_COMMENT_BELOW, source) or INDENTED_COMMENT.match(source))
+@rule_of_text(STY009)
 def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line that looks like a comment is indented, so it is read as data.
 
@@ -184,7 +174,7 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY009, message, trimmed(source, *leaf.span))
 
 
-@rule_of_text(STY005, lambda source: re.search(_HEAD_BELOW, source) or re.match(_INDENTED_HEAD, source))
+@rule_of_text(STY005)
 def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
@@ -198,8 +188,8 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     Finds: 2:3
     """
     for line in head_lines(text):
-        head = trimmed(source, *line)
-        if line.start < head.start:
+        if source[line.start] in " \t":
+            head = trimmed(source, *line)
             mark = source[head.start]
             what = "section" if mark == "$" else "keyword"
             message = f"the {what} is indented: put its {mark} in column 1"
@@ -207,7 +197,7 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY005, message, head, repair=repair)
 
 
-@rule_of_text(STY006, lambda source: re.search(_SMALL_BELOW, source) or re.match(_SMALL_HEAD, source))
+@rule_of_text(STY006)
 def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 
@@ -220,10 +210,9 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 2:1
     """
-    for line in head_lines(text):
-        head = trimmed(source, *line)
+    for head in (trimmed(source, *line) for line in head_lines(text) if _SMALL.search(source, *line)):
         written = source[slice(*head)]
-        if re.search(_SMALL, written) and _known(written):
+        if _known(written):
             what = "section" if written[0] == "$" else "keyword"
             repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
             message = f"the {what} is not in upper case: write it in upper case"
@@ -270,22 +259,15 @@ _TABS = re.compile(r"\t+")
 _NUMERALS = r"[-+.0-9][-+.0-9eEdD]*+"
 _ROW = rf"{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+(?![^\n])"
 _BLANK_SEPARATED = re.compile(rf"^[ \t]*+{_ROW}", re.MULTILINE)
-_GATE = re.compile(rf"\n[ \t]*+{_ROW}")
 _BEHIND_KEY = re.compile(rf"=[ \t]*+(?={_ROW})")
 _GAP = re.compile(r"(?<=[^ \t])(?=[ \t]+[^ \t])")
 _TRAILING = re.compile(r"[ \t]++(?=\r?(?:\n|(?![^\n])))")
-_ENDINGS = (" \n", "\t\n", " \r", "\t\r")
-
-_EXPONENT = r"(?<=[0-9.]{0})[-+]?+[0-9]"
-_GATES = (re.compile("D" + _EXPONENT.format("D")), re.compile("d" + _EXPONENT.format("d")))
-"""Two patterns that begin with one letter each: the search is many times as fast as for both letters in one pattern."""
-
 _SEEN = re.compile(r"[0-9.][dD][-+]?+[0-9]")
 _NUMBER = re.compile(r"(?<![^ \t\n,=])[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)[dD][-+]?[0-9]++(?![^ \t\r\n,])")
 _TO_E = str.maketrans("dD", "eE")
 
 
-@rule_of_text(STY001, lambda source: "\t" in source)
+@rule_of_text(STY001)
 def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
     r"""A data line contains a TAB.
 
@@ -329,7 +311,7 @@ def _holds_tab(source: str, group: FieldGroup) -> bool:
     return within and not (len(group.fields) == 1 and blank_separated(group.fields[0].text))
 
 
-@rule_of_text(STY004, lambda source: _GATE.search(source) or _BEHIND_KEY.search(source))
+@rule_of_text(STY004)
 def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The numbers of a row are separated only by spaces.
 
@@ -345,29 +327,25 @@ def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
     last: ReadBlock | None = None
     values: set[Span] = set()
     for leaf, read in data_leaves(text):
-        if read is not last:
-            last, values = read, set(read.places.spans.values())
-        for row in _rows(source, leaf, values):
+        for row in _rows(source, leaf):
+            if read is not last:
+                last, values = read, set(read.places.spans.values())
             written = source[slice(*row)]
-            if blank_separated(written):
+            if blank_separated(written) and (leaf.kind is LeafKind.RUN or row not in values):  # else it is a name
                 repair = Repair("safe", "put commas between the numbers", ((row, _GAP.sub(",", written)),))
                 message = "the numbers are separated only by spaces: put commas between them"
                 yield Problem(STY004, message, row, repair=repair)
 
 
-def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
-    """Yield the lines of a run, or the text after a KEY=, of numbers and spaces only; a single value is a name."""
+def _rows(source: str, leaf: Leaf) -> Iterator[Span]:
+    """Yield the lines of a run, or the text after a KEY=, of numbers and spaces only."""
     if leaf.kind is LeafKind.RUN:
         yield from (trimmed(source, *match.span()) for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span))
     elif match := _BEHIND_KEY.search(source, *leaf.span):
-        row = trimmed(source, match.end(), leaf.span.end)
-        if row not in values:
-            yield row
+        yield trimmed(source, match.end(), leaf.span.end)
 
 
-@rule_of_text(
-    STY007, lambda source: any(blank in source for blank in _ENDINGS) or source.endswith((" ", "\t")), off=True
-)
+@rule_of_text(STY007, off=True)
 def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line ends with spaces or TABs.
 
@@ -395,7 +373,7 @@ def _own_lines(text: TextOrigin) -> Iterator[Span]:
             yield leaf.span
 
 
-@rule_of_text(STY003, lambda source: _GATES[0].search(source) or _GATES[1].search(source))
+@rule_of_text(STY003)
 def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A number has the exponent D of Fortran's double precision.
 

@@ -274,6 +274,11 @@ class Extension(NamedTuple):
     sets: list[NamedSet | None]
     of_element: Indices
 
+    def blocks(self) -> Iterator[tuple[Record, Where, Mask]]:
+        """Yield each block with its place, and a mask (m,) of the elements that follow it."""
+        for index, (entry, where) in enumerate(zip(self.entries, self.places, strict=True)):
+            yield entry, where, self.of_element == index
+
     def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
         """Return a number of the block of each index, `default` if the block does not give it, NaN for -1.
 

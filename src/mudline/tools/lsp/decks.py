@@ -15,12 +15,13 @@ from pygls.exceptions import JsonRpcException
 
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
-from mudline.checks.configuration import CallerSettings, Configuration, ConfigurationError
+from mudline.checks.configuration import ConfigurationError
 from mudline.checks.context import LintContext
-from mudline.checks.engine import LintSettings, lint_context, read_deck
+from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
-from mudline.checks.registry import UnknownRule
-from mudline.checks.settings import Settings, merged_settings, nearest_settings
+from mudline.checks.reading import read_deck
+from mudline.checks.registry import UnknownRule, select
+from mudline.checks.settings import Settings, nearest_settings
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.model import Deck
@@ -210,4 +211,4 @@ class Decks:
             if str(error) not in self._shown:
                 self._shown.add(str(error))
                 self.faults.append(str(error))
-        return merged_settings(Configuration(), CallerSettings()), False
+        return LintSettings(select()), False

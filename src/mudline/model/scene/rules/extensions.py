@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Iterator
+from functools import wraps
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,6 +29,27 @@ EXT006 = Code("EXT006", "suction-conflict", Severity.ERROR)
 EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
 
 _LOWEST, _HIGHEST = 0.01, 0.99
+
+
+def rule_of_extension(
+    code: Code, keyword: str, *, blocks: bool = True
+) -> Callable[[Callable[[Any, Extension], Iterator[Problem]]], object]:
+    """Return a decorator that makes a rule of a function of a resolved deck and its blocks of an extension keyword.
+
+    A rule that only advises (`blocks` False) has the scene of the deck. Nothing is reported in decks without blocks.
+    """
+
+    def register(find: Callable[[Any, Extension], Iterator[Problem]]) -> object:
+        @rule(code, blocks=blocks)
+        @wraps(find)
+        def check(subject: Any) -> Iterable[Problem]:  # noqa: ANN401 - as the function of any rule
+            scene = subject if blocks else subject.scene
+            extension = scene.extensions.get(keyword)
+            return find(scene, extension) if extension else ()
+
+        return check
+
+    return register
 
 
 @rule(EXT001, blocks=True)
@@ -69,8 +91,8 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT001, message, where=next(rigid, where))
 
 
-@rule(EXT004, blocks=True)
-def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT004, "SEABED SUCTION")
+def bad_cutoff(_: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """The corners of the suction trapezoid are out of order or out of range.
 
     Suction rises up to the first corner, holds, and falls from the second corner to breakout. Both are fractions of the
@@ -86,8 +108,7 @@ def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    extension = scene.extensions.get("SEABED SUCTION")
-    for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
+    for entry, where in zip(extension.entries, extension.places, strict=True):
         cutoff = getattr(entry, "cutoff", None)
         corners = [number(cutoff, name) for name in ("first", "second")]
         known = [corner for corner in corners if np.isfinite(corner)]
@@ -96,8 +117,8 @@ def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT004, message, where=where.inside("cutoff"))
 
 
-@rule(EXT005, blocks=True)
-def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT005, "SEABED SUCTION")
+def suction_incomplete(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """A suction law lacks a value that it needs.
 
     COHESION= gives both the largest force and the suction depth, computed with the external diameter of the elements.
@@ -114,15 +135,12 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 7:6
     """
-    extension = scene.extensions.get("SEABED SUCTION")
-    if extension is None:
-        return
     user = scene.units == "user"
     bare = (scene.law != LawKind.RIGID) & np.isnan(scene.diameter) & ~scene.section_table.faulty
-    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+    for entry, where, held in extension.blocks():
         lacks = {key for key in ("cohesion", "force", "depth", "regularisation") if getattr(entry, key, None) is None}
         title, cohesion = where.inside("set"), where.inside("cohesion")
-        unsized = bare & (extension.of_element == index)
+        unsized = bare & held
         if missing := " and ".join(f"{key.upper()}=" for key in ("force", "depth") if key in lacks):
             if "cohesion" in lacks:
                 yield Problem(EXT005, f"the suction law is incomplete: give COHESION=, or {missing}", where=title)
@@ -139,8 +157,8 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT005, "REGULARISATION= is missing: with user units it has no default; give it", where=title)
 
 
-@rule(EXT006, blocks=True)
-def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT006, "SEABED SUCTION")
+def suction_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """Elements have two suction laws.
 
     *SEABED SUCTION describes the whole uplift resistance of an element. SUCTION= of *SEABED PROPERTIES, or a curve with
@@ -157,14 +175,10 @@ def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 19:6
     """
-    extension = scene.extensions.get("SEABED SUCTION")
-    if extension is None:
-        return
     springs = (scene.resistance.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
     listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
-    for index, where in enumerate(extension.places):
+    for _, where, held in extension.blocks():
         place = where.inside("set")
-        held = extension.of_element == index
         if np.any(both := held & springs):
             message = f"{scene.describe(both)} SUCTION= of the seabed too: remove one of the two"
             yield Problem(EXT006, message, where=place)
@@ -203,8 +217,8 @@ def _may_pull(entry: SceneCurve) -> bool:
     return bool(force[0] < 0.0 or force[1] < 0.0 or slope[1] < 0.0)
 
 
-@rule(EXT009, blocks=True)
-def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT009, "SEABED UNLOADING")
+def unloading_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """Unloading is combined with smoothing or a nodal stiffness, or its stiffness is not above 0.
 
     Smoothing and unloading both change the reaction near the seabed, and there is no law for the two together.
@@ -221,24 +235,21 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 8:12
     """
-    extension = scene.extensions.get("SEABED UNLOADING")
-    if extension is None:
-        return
     smooth, nodal = np.zeros(len(scene.element_ids), dtype=np.bool_), scene.law == LawKind.NODAL
     if "SEABED CONTACT" in scene.extensions:
         from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
 
         smooth[element_smoothing(scene).rows] = True
-    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-        stiffness, named = number(entry, "stiffness"), extension.of_element == index
+    for entry, where, held in extension.blocks():
+        stiffness = number(entry, "stiffness")
         if stiffness <= 0.0:
             message = f"unloading stiffness {stiffness!r}: it must be above 0"
             yield Problem(EXT009, message, where=where.inside("stiffness"))
         place = where.inside("set")
-        if np.any(both := named & smooth):
+        if np.any(both := held & smooth):
             advice = "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
             yield Problem(EXT009, f"{scene.describe(both)} smoothing too: {advice}", where=place)
-        if np.any(both := named & nodal):
+        if np.any(both := held & nodal):
             message = (
                 f"{scene.describe(both)} NODAL STIFFNESS=, which does not unload along a line of its own: "
                 "remove one of the two"
@@ -270,8 +281,8 @@ def _fields(extension: Extension) -> Iterator[tuple[int, Parameter, tuple[str, .
                 yield index, parameter, path, value
 
 
-@rule(EXT010, blocks=True)
-def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT010, _KEYWORD)
+def soil_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """An element with *SEABED SOIL has another law for its normal reaction.
 
     The soil describes the resistance against penetration, uplift and renewed penetration. *SEABED SUCTION and
@@ -290,9 +301,6 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 18:6
     """
-    extension = scene.extensions.get(_KEYWORD)
-    if extension is None:
-        return
     soft = scene.laws_given != LawKind.RIGID
     beside = {
         f"*{keyword}": scene.extensions[keyword].of_element >= 0
@@ -300,10 +308,9 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
         if keyword in scene.extensions
     }
     beside["NODAL STIFFNESS="] = scene.nodal
-    for index, where in enumerate(extension.places):
-        held = (extension.of_element == index) & soft
+    for _, where, held in extension.blocks():
         for name, others in beside.items():
-            if np.any(both := held & others):
+            if np.any(both := held & soft & others):
                 message = f"{scene.describe(both)} {name} too, which the soil has no place for: remove one of the two"
                 yield Problem(EXT010, message, where=where.inside("set"))
         if np.any(both := held & (scene.laws_given == LawKind.CURVE)):
@@ -311,8 +318,8 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT010, message, None, Severity.INFO, where.inside("set"))
 
 
-@rule(EXT011, blocks=True)
-def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT011, _KEYWORD)
+def impossible_soil(_: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """A value of *SEABED SOIL is impossible for a soil.
 
     Strength at the mudline, bearing factor and exponent, K_max and the decay length of suction are divisors or raised
@@ -328,9 +335,6 @@ def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 8:19
     """
-    extension = scene.extensions.get(_KEYWORD)
-    if extension is None:
-        return
     for index, parameter, path, value in _fields(extension):
         if parameter.invalid(np.array([value]))[0]:
             message = f"{value!r}: expected {parameter.valid_range} for the {parameter.meaning.split(', ')[-1]}"
@@ -343,8 +347,8 @@ def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
                 yield Problem(EXT011, message, where=where.inside("buoyancy", name))
 
 
-@rule(EXT012, blocks=True)
-def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT012, _KEYWORD)
+def unusual_soil(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """A value of *SEABED SOIL is outside the range of published soils, or its units cannot be checked.
 
     Bearing factors have a from 5 to 7 and b from 0.2 to 0.3, K_max is from 50 to 500, and suction is at most as large
@@ -361,9 +365,6 @@ def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:10
     """
-    extension = scene.extensions.get(_KEYWORD)
-    if extension is None:
-        return
     for index, parameter, path, value in _fields(extension):
         low, high = _USUAL.get(parameter.name, (-np.inf, np.inf))
         if not low <= value <= high and not parameter.invalid(np.array([value]))[0]:

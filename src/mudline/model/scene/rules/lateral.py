@@ -9,14 +9,15 @@ import numpy as np
 
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.unknown import is_partly_unknown
-from mudline.language.rules import rule
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.numbering import Floats, Mask, marked
+from mudline.model.scene.numbering import Floats, Mask
+from mudline.model.scene.rules.extensions import rule_of_extension
 from mudline.model.scene.rules.laws import extends_rigid, lacks_diameter
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_lateral import FrictionSet, TrenchSet
     from mudline.model.contact.input import LawAssignment
+    from mudline.model.scene.laws import Extension
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -31,8 +32,8 @@ _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks its
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
 
-@rule(EXT003, blocks=True)
-def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT003, _KEYWORD)
+def bad_trench(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """A trench has no possible geometry, no resistance, no friction spring, or a self-locking wall.
 
     The walls of a trench rise from its bottom width to a larger upper width, and its depth is above 0. Their resistance
@@ -60,13 +61,11 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    extension = scene.extensions.get(_KEYWORD)
-    if extension is None or extends_rigid(scene):
+    if extends_rigid(scene):
         return
-    bare, locked = _without_spring(scene)
-    for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
-        yield from _of_block(entry, where)
-        held = extension.of_element == index
+    bare, locked = _without_spring(scene, extension)
+    for entry, where, held in extension.blocks():
+        yield from _of_block(cast("TrenchSet", entry), where)
         if np.any(both := held & bare):
             message = f"{scene.describe(both)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
             yield _of_friction(scene, message, where.inside("set"))
@@ -79,10 +78,6 @@ def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
     if _uncertain(scene):
         return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return Problem(EXT003, message, where=where)
-
-
-def _entries(scene: ResolvedDeck) -> list[TrenchSet]:
-    return cast("list[TrenchSet]", scene.extensions[_KEYWORD].entries)
 
 
 def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
@@ -148,17 +143,16 @@ def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], st
         yield ("smoothing",), f"SMOOTHING= is above half of the shortest side of the resistance, {side:g}: give less"
 
 
-def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
+def _without_spring(scene: ResolvedDeck, trenches: Extension) -> tuple[Mask, Mask]:
     """Return masks (m,) of elements in a trench: those without a lateral friction spring, and self-locking ones."""
-    extension = scene.extensions[_KEYWORD]
     nothing: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    if not (extension.of_element >= 0).any() or scene.element_nodes.min(initial=0) < 0 or _unread(scene):
+    if not (trenches.of_element >= 0).any() or scene.element_nodes.min(initial=0) < 0 or _unread(scene):
         return nothing, nothing
     from mudline.model.scene.contact_input import friction_of  # noqa: PLC0415 - a deck without trenches does without it
 
     friction = friction_of(scene)
-    bare: Mask = (extension.of_element >= 0) & ~_sprung(scene, friction)
-    return bare, _self_locking(scene, friction)
+    bare: Mask = (trenches.of_element >= 0) & ~_sprung(scene, friction)
+    return bare, _self_locking(scene, trenches, friction)
 
 
 def _unread(scene: ResolvedDeck) -> bool:
@@ -189,28 +183,27 @@ def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
     return both_ends
 
 
-def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
+def _self_locking(scene: ResolvedDeck, trenches: Extension, friction: LawAssignment | None) -> Mask:
     """Return a mask (m,) of the elements in a trench with sloped walls where a node has mu2 tan(theta) >= 1."""
     from mudline.model.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
 
-    extension = scene.extensions[_KEYWORD]
     coefficient: Floats = np.zeros(len(scene.node_ids))
     if friction is not None:
         coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
-    depth, bottom, upper = (extension.values(extension.of_element, "geometry", name) for name in _SIZES)
+    depth, bottom, upper = (trenches.values(trenches.of_element, "geometry", name) for name in _SIZES)
     locking: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for end in scene.element_nodes.T:
         added = wall_coefficient(depth, bottom, upper, coefficient[end])
         locking |= ~(np.isfinite(added) & (added >= 0.0))
     usable = (depth > 0.0) & (bottom > 0.0) & (upper > bottom)
-    return locking & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)
+    return locking & usable & trenches.says(trenches.of_element, "model", "WALL")
 
 
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)
 
 
-@rule(EXT013, blocks=True)
-def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
+@rule_of_extension(EXT013, "SEABED FRICTION")
+def bad_breakout(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     """The lateral breakout of *SEABED FRICTION is incomplete, impossible, or combined with a law that it excludes.
 
     LATERAL=PEAK-RESIDUAL needs PEAK= and RESIDUAL= with a factor and a displacement each. The residual is at most the
@@ -231,15 +224,11 @@ def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 12:2
     """
-    extension = scene.extensions.get("SEABED FRICTION")
-    if extension is None:
-        return
     from mudline.model.scene.assignments import breaks_out  # noqa: PLC0415 - most decks have no such friction
 
     trench = scene.extensions.get("SEABED TRENCH")
-    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+    for entry, where, held in extension.blocks():
         friction = cast("FrictionSet", entry)
-        held = extension.of_element == index
         if not breaks_out(friction):
             for name in ("peak", "residual"):
                 if getattr(friction, name) is not None:
