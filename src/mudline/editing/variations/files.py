@@ -9,14 +9,13 @@ import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
-from pathlib import Path, PurePath
-from typing import NamedTuple, cast
+from pathlib import Path
+from typing import cast
 
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
-from mudline.editing.variations.cases import Action, ParameterTargets, Removal, Values
-from mudline.editing.variations.names import filled
-from mudline.language.deck.forms import SUFFIXES, form_of
+from mudline.editing.variations.cases import Action, ParameterTargets, Removal
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
@@ -25,7 +24,6 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import all_keys
-from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.fields import first_key, read_line
@@ -40,58 +38,6 @@ PART_BYTES = 240
 """Longest name of a folder or a file, in bytes; the systems in use allow 255."""
 PATH_BYTES = 1000
 """Longest path within the output folder, in bytes."""
-
-
-_ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
-"""Suffixes of decks; a file name without one gets the suffix of the source."""
-
-
-class Template(NamedTuple):
-    """Names that a combination gives its files, without quotes; None for a name that it does not give."""
-
-    directory: str | None
-    subdirectory: str | None
-    filename: str | None
-
-
-class Namer:
-    """Generator of file names for the decks from one source."""
-
-    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
-        own = PurePath(deck.file).name
-        self.source = PurePath("deck" if path_fault(own) else own)
-        self.suffix = self.source.suffix or ".keyx"
-        self.targets = targets
-
-    def path(self, template: Template, values: Values, counter: str) -> tuple[str, str]:
-        """Return the path of a deck with `/` in the output folder, and the reason why it may not be used, or "".
-
-        `counter` distinguishes decks whose combination gives no name at all.
-
-        A deck without a name of its own has that of the source, in a folder of its own or followed by the counter.
-        """
-        missing: list[str] = []
-
-        def value_of(name: str) -> str:
-            value = self.targets.in_a_name(name, values)
-            if value is None:
-                missing.append(name)
-            return value or ""
-
-        folders = [filled(text, value_of) for text in (template.directory, template.subdirectory) if text is not None]
-        if template.filename is not None:
-            name = filled(template.filename, value_of)
-        else:
-            name = self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"
-        file = name if name.lower().endswith(_ENDINGS) else name + self.suffix
-        path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
-        if missing:
-            return path, f"needs the value of {shown(missing[0])}, which has none"
-        if "/" in name:
-            return path, "has a / in FILENAME=: folders belong in SUBDIRECTORY="
-        if "" in folders:
-            return path, "has a folder without a name"
-        return path, path_fault(name) or path_fault(path)
 
 
 def path_fault(path: str) -> str:
