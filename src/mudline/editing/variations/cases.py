@@ -11,7 +11,6 @@ from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort
 from mudline.editing.variations.names import undefined_parameter, unquoted
-from mudline.language.codes import EXP001
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
@@ -155,16 +154,13 @@ class RefusedError(Exception):
     """Reason why an action cannot be carried out."""
 
 
-def action_of(deck: Deck, varied: VariedBlock, where: Where) -> Action | Problem:
-    """Return the effect of an ACTION= line on a deck that was read from text, or the problem that prevents it."""
-    try:
-        keyword = _keyword(varied)
-        section = _section(deck, varied, keyword)
-        if varied.action == "REMOVE":
-            return _removal(deck, keyword, section)
-        return _addition(deck, varied, keyword, section)
-    except RefusedError as reason:
-        return Problem(EXP001, str(reason), None, None, where)
+def action_of(deck: Deck, varied: VariedBlock) -> Action:
+    """Return the effect of an ACTION= line on a deck that was read from text; raises RefusedError."""
+    keyword = _keyword(varied)
+    section = _section(deck, varied, keyword)
+    if varied.action == "REMOVE":
+        return _removal(deck, keyword, section)
+    return _addition(deck, varied, keyword, section)
 
 
 def _keyword(varied: VariedBlock) -> str:

@@ -12,14 +12,12 @@ from typing import TYPE_CHECKING
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
-from mudline.editing.variations.cases import Action, ParameterTarget, ParameterTargets, Values, action_of
+from mudline.editing.variations.cases import Action, ParameterTarget, ParameterTargets, RefusedError, Values, action_of
 from mudline.editing.variations.files import (
     MANIFEST,
-    CaseRewriter,
     ExpansionPlan,
     PlannedDeck,
     Taken,
-    companions,
     path_fault,
 )
 from mudline.editing.variations.names import filled, name_key, placeholders, undefined_variation, unquoted
@@ -100,7 +98,6 @@ class _Planner:
         self.deck = deck
         self.text = as_text(deck).require()
         self.targets = ParameterTargets(self.text)
-        self.rewriter = CaseRewriter(self.text, self.targets)
         self.problems: list[Problem] = []
         self.effort = Effort()
 
@@ -117,10 +114,11 @@ class _Planner:
         self._raise_any()
         decks = self._named(groups, total) if total <= most_named else []
         self._raise_any()
-        self._readable(decks)
-        self._raise_any()
         notes = ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"] if self._excel() else []
-        return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, notes, companions(self.text))
+        planned = ExpansionPlan(PurePath(self.deck.file).name, self.text, self.targets, decks, notes)
+        self._readable(planned)
+        self._raise_any()
+        return planned
 
     def _report(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
@@ -163,9 +161,12 @@ class _Planner:
             columns[target.name] = self._values(varied, target, place)
         self._check_counts(name, columns, where)
         rows = list(zip(*columns.values(), strict=False)) if columns else [()]
-        effects = [action_of(self.text, one, where.inside("blocks", at)) for at, one in enumerate(variation.blocks)]
-        self.problems += [effect for effect in effects if isinstance(effect, Problem)]
-        actions = [effect for effect in effects if not isinstance(effect, Problem)]
+        actions = list[Action]()
+        for at, varied_block in enumerate(variation.blocks):
+            try:
+                actions.append(action_of(self.text, varied_block))
+            except RefusedError as reason:
+                self._report(str(reason), where.inside("blocks", at))
         return Cases(name, list(columns), rows, actions)
 
     def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
@@ -318,15 +319,15 @@ class _Planner:
             return path, "has a folder without a name"
         return path, path_fault(name) or path_fault(path)
 
-    def _readable(self, decks: Sequence[PlannedDeck]) -> None:
+    def _readable(self, planned: ExpansionPlan) -> None:
         """Read a deck for each set of actions: the lines that a file adds may be faulty."""
         tried: set[tuple[int, ...]] = set()
-        for deck in decks:
+        for deck in planned.decks:
             key = tuple(id(action) for action in deck.actions)
             if key in tried:
                 continue
             tried.add(key)
-            content = self.rewriter.content(PlannedDeck("", "", (), deck.values, deck.actions))
+            content = planned.content(replace(deck, path=""))
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
             for fault in read.diagnose(faults[:SHOWN_ROWS]):
