@@ -97,7 +97,13 @@ def target_of(path: FieldPath, operand: WrittenOperand | None) -> FieldTarget:
 
 def values_of(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
     """Return the values at a path in the blocks of a deck, in the order of the file."""
-    values = _all_values(deck, target)
+    values = (
+        value
+        for where, block in blocks_of(deck, target.path.keyword)
+        for field in target.fields
+        if any(field is own for own in declared_fields(type(block)))
+        for value in _values([block], where, field, target.path.selectors)
+    )
     count = target.path.count
     return values if count is None else islice(values, count - 1, count)
 
@@ -171,13 +177,6 @@ def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
     for where, _, block in deck.alone.every_block():
         if block.keyword == keyword and not isinstance(block, Opaque):
             yield where, block
-
-
-def _all_values(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
-    for where, block in blocks_of(deck, target.path.keyword):
-        own = list(map(id, declared_fields(type(block))))
-        for field in (field for field in target.fields if id(field) in own):
-            yield from _values([block], where, field, target.path.selectors)
 
 
 def _values(parts: list[Part], where: Where, field: DeclaredField, selectors: Selectors) -> Iterator[FieldValue]:

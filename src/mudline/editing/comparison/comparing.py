@@ -159,10 +159,9 @@ def _curves(pair: Pair) -> Iterator[Difference]:
         old, new = first.get(name), second.get(name)
         if old and new:
             yield from _points_differ(_title(old), old, new, pair)
-        elif old:
-            yield pair.difference("curves", _title(old), (shown_points(old), old.where), None)
-        elif new:
-            yield pair.difference("curves", _title(new), None, (shown_points(new), new.where))
+        elif curve := old or new:
+            held = ((shown_points(one), one.where) if one else None for one in (old, new))
+            yield pair.difference("curves", _title(curve), *held)
 
 
 def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> Iterator[Difference]:
