@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.editing.comparison.comparing import compare
+from mudline.editing.comparison.decks import without_spelling
 from mudline.editing.comparison.model import Difference
-from mudline.editing.comparison.superseded import without_spelling
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
 from mudline.editing.migration.rewriting import Rewriting, rewrite, unused_definitions
 from mudline.language.codes import MIG001
