@@ -25,8 +25,8 @@ from mudline.model.scene import model as scenes
 if TYPE_CHECKING:
     from mudline.checks.overview import Overview
     from mudline.checks.verdict import Judgement
+    from mudline.editing.comparison.decks import Comparison
     from mudline.editing.comparison.matrix import DiffRow
-    from mudline.editing.comparison.superseded import Comparison
     from mudline.editing.migration.migrating import Verification
     from mudline.editing.migration.refusals import Continuations
     from mudline.tools.exporting.report import Export
@@ -252,8 +252,11 @@ def diff(
         OSError: one of two files cannot be read, or the folders have no deck in common.
         ValueError: one argument is a folder, the other is not.
     """
-    from mudline.editing.comparison.folders import compare_folders  # noqa: PLC0415 - as above
-    from mudline.editing.comparison.superseded import Comparison, compare_decks  # noqa: PLC0415 - as above
+    from mudline.editing.comparison.decks import (  # noqa: PLC0415 - as above
+        Comparison,
+        compare_decks,
+        compare_folders,
+    )
 
     expect_number(tolerance, "tolerance", or_zero=True)
     expect(strict, "strict", bool, "True or False")

@@ -14,7 +14,7 @@ from mudline.checks.fixing import FixState, StageReader, fix_bytes
 from mudline.checks.overview import overview
 from mudline.checks.registry import rules, select
 from mudline.checks.verdict import errors_beside, judge_content
-from mudline.editing.comparison.superseded import compare_decks
+from mudline.editing.comparison.decks import compare_decks
 from mudline.editing.variations.planning import plan
 from mudline.language.deck.faulty_blocks import with_raw_lines
 from mudline.language.deck.loading import coverage_of, dump, load_bytes

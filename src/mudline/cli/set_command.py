@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import click
@@ -20,10 +20,12 @@ from mudline.cli.many_files import each_deck
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.editing.assignment.fields import ConditionError, DeckCondition, FieldTarget, target_of
-from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment, parse_condition
+from mudline.editing.assignment.conditions import ConditionError, parse_condition
+from mudline.editing.assignment.fields import FieldTarget, target_of
+from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Diagnostic, Severity
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.source import Source
@@ -57,7 +59,7 @@ def command(
     try:
         change = parse_assignment(assignment)
         target = target_of(change.path, WrittenOperand.of(change.value))
-        where = None if condition is None else DeckCondition.of(parse_condition(condition))
+        where = None if condition is None else parse_condition(condition)
     except PathError as error:
         raise click.UsageError(str(error)) from error
     inputs = decks.collect()
@@ -101,7 +103,7 @@ class _SetRun(NamedTuple):
 
     assignment: Assignment
     target: FieldTarget
-    condition: DeckCondition | None
+    condition: Callable[[Deck], bool] | None
     units: str | None
     force: bool
     progress: Progress
@@ -111,7 +113,7 @@ class _SetRun(NamedTuple):
         if form_of(file.name) != KEYWORD:
             raise AssignmentError("only decks in keyword text are changed: convert it first")
         deck = require_text(load_bytes(data, file.name, units=self.units, folder=file.folder))
-        if self.condition is not None and not self.condition.holds(deck):
+        if self.condition is not None and not self.condition(deck):
             return _UNMET
         change = assigned(deck, self.assignment, self.target, self.units)
         if change is None:

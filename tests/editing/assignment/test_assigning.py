@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mudline.editing.assignment.assigning import AssignmentError, assigned
-from mudline.editing.assignment.fields import ConditionError, DeckCondition, target_of
-from mudline.editing.assignment.paths import WrittenOperand, parse_assignment, parse_condition
+from mudline.editing.assignment.fields import target_of
+from mudline.editing.assignment.paths import WrittenOperand, parse_assignment
 from mudline.language.deck.loading import load_bytes
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
@@ -104,35 +104,3 @@ def test_a_character_that_the_encoding_lacks_is_refused() -> None:
     target = target_of(assignment.path, WrittenOperand.of(assignment.value))
     with pytest.raises(AssignmentError, match="encoding, cp1252, lacks"):
         assigned(load_bytes(data, "deck.keyxm"), assignment, target)
-
-
-@pytest.mark.parametrize(
-    ("condition", "holds"),
-    [
-        ("OCEAN.depth > 99", True),
-        ("OCEAN.depth < 100", False),
-        ("OCEAN.depth <= 100 and OCEAN.gravity > 9", True),
-        ("not OCEAN.depth = 100", False),
-        ("OCEAN.depth = 1 or SEABED PROPERTIES.stiffness = CLAY", True),
-        ("SEABED PROPERTIES.stiffness > 4000", True),
-        ("SEABED PROPERTIES[set=Pipe].stiffness > 4000", False),
-        ("SEABED PROPERTIES.type != ELASTIC", False),
-        ("TIME.step > 0", False),
-        ("TIME.step != 0", False),
-        ("not TIME.step > 0", True),
-        ('SEABED PROPERTIES[set="Rest"].friction.transverse == 0.5', True),
-        ("NODE.x > 0.2", True),
-        ("NODE[node=1].x > 0.2", False),
-    ],
-)
-def test_conditions(condition: str, *, holds: bool) -> None:
-    assert DeckCondition.of(parse_condition(condition)).holds(load_bytes(TWO_SETS.encode(), "deck.keyxm")) is holds
-
-
-def test_equations_are_evaluated_in_conditions() -> None:
-    condition = DeckCondition.of(parse_condition("OCEAN.depth == 100"))
-    head = "$PREPROCESSOR\n*PARAMETERS\n d, 50\n"
-    deck = head + CLEAN.replace(" 100.0,", " =[2*d],")
-    assert condition.holds(load_bytes(deck.encode(), "deck.keyxm"))
-    with pytest.raises(ConditionError, match=r"OCEAN.depth is given by an equation without a value, =\[2\*d\]"):
-        condition.holds(load_bytes(deck.removeprefix(head).encode(), "deck.keyxm"))

@@ -1,4 +1,4 @@
-"""Paths, values and conditions as they are written on the command line."""
+"""Paths and values as they are written on the command line."""
 
 from __future__ import annotations
 
@@ -6,15 +6,10 @@ import pytest
 
 from mudline.editing.assignment.fields import target_of
 from mudline.editing.assignment.paths import (
-    Compound,
-    FieldComparison,
-    FieldPath,
-    Negated,
     PathError,
     Selector,
     WrittenOperand,
     parse_assignment,
-    parse_condition,
 )
 
 
@@ -70,60 +65,6 @@ def test_selectors() -> None:
 def test_what_is_no_assignment(text: str) -> None:
     with pytest.raises(PathError, match="expected"):
         parse_assignment(text)
-
-
-def _comparison(operator: str, operand: WrittenOperand) -> FieldComparison:
-    return FieldComparison(FieldPath("OCEAN.depth", "OCEAN", ("depth",)), operator, operand)
-
-
-@pytest.mark.parametrize(
-    ("text", "operator", "operand"),
-    [
-        ("OCEAN.depth<1", "<", WrittenOperand("1", 1.0)),
-        ("OCEAN.depth >= -1.5D2", ">=", WrittenOperand("-1.5D2", -150.0)),
-        ("OCEAN.depth = METRIC", "==", WrittenOperand("METRIC")),
-        ("OCEAN.depth <> 10mm", "!=", WrittenOperand("10mm")),
-        ('OCEAN.depth == "1 and 2"', "==", WrittenOperand("1 and 2")),
-        ('OCEAN.depth == "1"', "==", WrittenOperand("1")),
-    ],
-)
-def test_comparison(text: str, operator: str, operand: WrittenOperand) -> None:
-    assert parse_condition(text) == _comparison(operator, operand)
-    assert parse_condition(f"(({text}))") == _comparison(operator, operand)
-
-
-def test_the_tightest_binding_is_that_of_not() -> None:
-    small, large = (_comparison("==", WrittenOperand(text, float(text))) for text in ("1", "2"))
-    text = "not OCEAN.depth=1 and OCEAN.depth=2 OR (OCEAN.depth=1 or OCEAN.depth=2)"
-    assert parse_condition(text) == Compound(
-        (Compound((Negated(small), large), any_of=False), Compound((small, large), any_of=True)), any_of=True
-    )
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "OCEAN.depth",
-        "OCEAN.depth <",
-        "OCEAN.depth < 1 <2",
-        "and",
-        "(OCEAN.depth<1",
-        "OCEAN.depth<1 OCEAN.depth<2",
-        "__import__('os')",
-        "OCEAN.depth == f(1)",
-        "1 < OCEAN.depth",
-        "not " * 480 + "OCEAN.depth<1",
-    ],
-)
-def test_what_is_no_condition(text: str) -> None:
-    with pytest.raises(PathError, match="expected"):
-        parse_condition(text)
-
-
-def test_texts_have_no_order() -> None:
-    with pytest.raises(PathError, match="an order needs a number"):
-        parse_condition("UNITS.units > METRIC")
 
 
 def _fields(text: str) -> list[tuple[str, ...]]:

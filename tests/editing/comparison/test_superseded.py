@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mudline.editing.comparison.comparing import compare
-from mudline.editing.comparison.superseded import Comparison, without_spelling
+from mudline.editing.comparison.decks import Comparison, without_spelling
 from mudline.editing.migration.migrating import migrate
 from mudline.model.scene.model import resolve
 from tests.editing.migration.test_migrating import legacy_decks

@@ -15,7 +15,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import lint_context
 from mudline.checks.registry import rules
 from mudline.editing.comparison.comparing import compare
-from mudline.editing.comparison.superseded import without_spelling
+from mudline.editing.comparison.decks import without_spelling
 from mudline.editing.migration.migrating import Migration, legacy_blocks, migrate, verify
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.forms.yaml import to_yaml

@@ -14,7 +14,6 @@ from mudline.model.scene.model import resolve
 from mudline.tools.exporting import moordyn, orcaflex
 from mudline.tools.exporting.line_model import build
 from mudline.tools.exporting.report import Outcome
-from mudline.tools.exporting.soil import governing
 from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
 TARGETS = (moordyn, orcaflex)
@@ -108,13 +107,13 @@ def test_the_one_stiffness_is_that_around_touchdown_with_the_range_over_the_line
     order = np.argsort(lying[:, 1])
     lying[order, 0] = [-0.01] * 8 + [0.2, 0.5, 1.0]
     model = build(scene, lying)
-    assert governing(model.soils, model.soil_lengths).stiffness == 40000.0
+    assert model.soil.stiffness == 40000.0
     moordyn.write(model, "a.txt")
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROPERTIES range")
     assert entry.target == "one stiffness, 40 kN/m2"
     assert entry.effect == "that of the elements around touchdown; over the line 5 to 40 kN/m2"
     lying[order, 0] = -0.01  # no touchdown: that of most of the pipe
-    assert governing((flat := build(scene, lying)).soils, flat.soil_lengths).stiffness == 40000.0
+    assert (flat := build(scene, lying)).soil.stiffness == 40000.0
     assert not flat.at_touchdown
 
 

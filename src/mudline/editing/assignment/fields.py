@@ -1,13 +1,11 @@
-"""Fields that a path names, their values in a deck, and conditions on these values."""
+"""Fields that a path names, and their values in a deck."""
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import islice
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,24 +13,15 @@ from numpy.typing import NDArray
 
 from mudline.basics.limits import LISTED
 from mudline.basics.spelling import edits, nearest
-from mudline.editing.assignment.paths import (
-    Compound,
-    Condition,
-    FieldComparison,
-    FieldPath,
-    Negated,
-    PathError,
-    Selector,
-    WrittenOperand,
-    folded_name,
-)
+from mudline.editing.assignment.paths import FieldPath, PathError, Selector, WrittenOperand, folded_name
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import NoValueError, Parameters
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind, Label
+
+Selectors = tuple[Selector, ...]
 
 
 class DeclaredField(NamedTuple):
@@ -108,7 +97,13 @@ def target_of(path: FieldPath, operand: WrittenOperand | None) -> FieldTarget:
 
 def values_of(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
     """Return the values at a path in the blocks of a deck, in the order of the file."""
-    values = _all_values(deck, target)
+    values = (
+        value
+        for where, block in blocks_of(deck, target.path.keyword)
+        for field in target.fields
+        if any(field is own for own in declared_fields(type(block)))
+        for value in _values([block], where, field, target.path.selectors)
+    )
     count = target.path.count
     return values if count is None else islice(values, count - 1, count)
 
@@ -184,39 +179,43 @@ def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
             yield where, block
 
 
-def _all_values(deck: Deck, target: FieldTarget) -> Iterator[FieldValue]:
-    for where, block in blocks_of(deck, target.path.keyword):
-        own = list(map(id, declared_fields(type(block))))
-        for field in (field for field in target.fields if id(field) in own):
-            yield from _values(block, where, field, 0, _Holders([block], target.path.selectors))
+def _values(parts: list[Part], where: Where, field: DeclaredField, selectors: Selectors) -> Iterator[FieldValue]:
+    """Yield the values of a field below the last of nested parts."""
+    part, name = parts[-1], field.names[len(parts) - 1]
+    for index, slot in enumerate(record_schema(type(part)).slots):
+        if slot.json != name:
+            continue
+        inner: Any = getattr(part, slot.name, None)
+        place = where.inside(index if isinstance(part, ListRow) else name)
+        if len(parts) == len(field.names):
+            if (field.whole or not isinstance(inner, Part | list | Table)) and _selected(parts, selectors):
+                yield FieldValue(place, inner, field, part)
+        elif isinstance(inner, Table):
+            yield from _cells(inner, slot, parts, place, field, selectors)
+        elif isinstance(inner, Part):
+            yield from _values([*parts, inner], place, field, selectors)
+        elif isinstance(inner, list):
+            for number, item in enumerate(inner):
+                if isinstance(item, Part):
+                    yield from _values([*parts, item], place.inside(number), field, selectors)
 
 
-class _Holders:
-    """Records around a value, the outermost first, and the selectors that they must match."""
+def _selected(parts: Sequence[Part], selectors: Iterable[Selector]) -> bool:
+    """Return True if each selector matches the innermost of nested parts that has its field."""
+    return all(_fits(parts, selector) for selector in selectors)
 
-    def __init__(self, parts: list[Part], selectors: tuple[Selector, ...]) -> None:
-        self.parts = parts
-        self.selectors = selectors
 
-    def with_part(self, part: Part) -> _Holders:
-        """Return the holders of a value inside one more record."""
-        return _Holders([*self.parts, part], self.selectors)
-
-    def selected(self, of_table: Sequence[Selector] = ()) -> bool:
-        """Return True if all selectors match, except those that choose rows of a table."""
-        return all(self._fits(selector) for selector in self.selectors if selector not in of_table)
-
-    def _fits(self, selector: Selector) -> bool:
-        for part in reversed(self.parts):
-            slots = record_schema(type(part)).slots
-            for slot in slots if selector.name else [slot for slot in slots if slot.kind is Kind.NAME][:1]:
-                if not selector.name or selector.name in _names_of(slot):
-                    value = getattr(part, slot.name, None)
-                    if value is None and slot.kind is Kind.NAME:
-                        value = slot.about.default or None
-                    if isinstance(value, int | float | str):
-                        return equals(value, selector.value)
-        return False
+def _fits(parts: Sequence[Part], selector: Selector) -> bool:
+    for part in reversed(parts):
+        slots = record_schema(type(part)).slots
+        for slot in slots if selector.name else [slot for slot in slots if slot.kind is Kind.NAME][:1]:
+            if not selector.name or selector.name in _names_of(slot):
+                value = getattr(part, slot.name, None)
+                if value is None and slot.kind is Kind.NAME:
+                    value = slot.about.default or None
+                if isinstance(value, int | float | str):
+                    return equals(value, selector.value)
+    return False
 
 
 def equals(value: float | str, operand: WrittenOperand) -> bool:
@@ -226,40 +225,19 @@ def equals(value: float | str, operand: WrittenOperand) -> bool:
     return value.strip().casefold() == operand.text.strip().casefold()
 
 
-def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders: _Holders) -> Iterator[FieldValue]:
-    """Yield the values of a field in a part that is `depth` names deep."""
-    name = field.names[depth]
-    slots = [slot for slot in record_schema(type(part)).slots if slot.json == name]
-    for slot in slots:
-        inner: Any = getattr(part, slot.name, None)
-        place = where.inside(name)
-        if depth + 1 == len(field.names):
-            if (field.whole or not isinstance(inner, Part | list | Table)) and holders.selected():
-                index = record_schema(type(part)).slots.index(slot)
-                yield FieldValue(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
-        elif isinstance(inner, Table):
-            yield from _cells(inner, place, field, slot, holders)
-        elif isinstance(inner, Part):
-            yield from _values(inner, place, field, depth + 1, holders.with_part(inner))
-        elif isinstance(inner, list):
-            for index, item in enumerate(inner):
-                if isinstance(item, Part):
-                    yield from _values(item, place.inside(index), field, depth + 1, holders.with_part(item))
-
-
 def _cells(
-    table: Table, where: Where, field: DeclaredField, slot: FieldSpec, holders: _Holders
+    table: Table, slot: FieldSpec, parts: list[Part], where: Where, field: DeclaredField, selectors: Selectors
 ) -> Iterator[FieldValue]:
     """Yield the values of a column in the rows that the selectors choose."""
     columns = record_schema(slot.row).columns if slot.row else []
-    choosing: list[Selector] = []
+    outside = set(selectors)
     chosen = np.ones(len(table), dtype=np.bool_)
     for index, column in enumerate(columns):
-        for selector in holders.selectors:
+        for selector in selectors:
             if selector.name in _names_of(column):
-                choosing.append(selector)
+                outside.discard(selector)
                 chosen &= _rows_with(table, index, selector.value)
-    if not holders.selected(choosing) or field.column is None:
+    if field.column is None or not _selected(parts, outside):
         return
     for row in np.flatnonzero(chosen):
         yield FieldValue(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
@@ -277,72 +255,3 @@ def cell(table: Table, row: int, column: int) -> float | str | None:
     """Return the value of a table cell; None if the row ends before it, or the field is empty."""
     value = table.cell(row, column) if column < table.lengths[row] else None
     return None if isinstance(value, float) and np.isnan(value) else value
-
-
-# ----------------------------------------------------------------------------------------------------------- conditions
-
-_ORDER: Mapping[str, Callable[[float, float], bool]] = MappingProxyType(
-    {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
-)
-
-
-class ConditionError(Exception):
-    """Reason why a condition cannot be decided for a deck."""
-
-
-@dataclass(frozen=True, slots=True)
-class DeckCondition:
-    """A condition with the fields of its paths; `of` reports faults of the paths before a deck is read."""
-
-    condition: Condition
-    targets: Mapping[FieldComparison, FieldTarget]
-
-    @classmethod
-    def of(cls, condition: Condition) -> DeckCondition:
-        """Return the condition with its paths resolved; raises PathError."""
-        return cls(condition, {part: target_of(part.path, part.operand) for part in _comparisons(condition)})
-
-    def holds(self, deck: Deck) -> bool:
-        """Return True if the condition holds for a deck. Raises ConditionError for an equation without a value.
-
-        A comparison holds if any value at its path satisfies it, and never if the deck has no such value.
-        """
-        return self._holds(self.condition, deck, Parameters(deck))
-
-    def _holds(self, condition: Condition, deck: Deck, parameters: Parameters) -> bool:
-        if isinstance(condition, Negated):
-            return not self._holds(condition.condition, deck, parameters)
-        if isinstance(condition, Compound):
-            parts = (self._holds(part, deck, parameters) for part in condition.conditions)
-            return any(parts) if condition.any_of else all(parts)
-        values = values_of(deck, self.targets[condition])
-        return any(_fits(value, condition, parameters) for value in values)
-
-
-def _comparisons(condition: Condition) -> list[FieldComparison]:
-    if isinstance(condition, Negated):
-        return _comparisons(condition.condition)
-    if isinstance(condition, Compound):
-        return [comparison for part in condition.conditions for comparison in _comparisons(part)]
-    return [condition]
-
-
-def _fits(candidate: FieldValue, comparison: FieldComparison, parameters: Parameters) -> bool:
-    value = _evaluated(candidate, comparison.path, parameters)
-    if value is None:
-        return False
-    if compare := _ORDER.get(comparison.operator):
-        number = comparison.operand.number
-        return isinstance(value, int | float) and number is not None and compare(value, number)
-    return equals(value, comparison.operand) is (comparison.operator == "==")
-
-
-def _evaluated(field_value: FieldValue, path: FieldPath, parameters: Parameters) -> float | str | None:
-    value = field_value.value
-    if not isinstance(value, Equation):
-        return value
-    try:
-        return parameters.evaluate(value, field_value.where)
-    except NoValueError as error:
-        why = f": {error}" if str(error) else ""
-        raise ConditionError(f"{path} is given by an equation without a value, {value}{why}") from error

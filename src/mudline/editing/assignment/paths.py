@@ -1,4 +1,4 @@
-"""Arguments of `mudline set`, read by a grammar: a path to a field, its new value, a condition."""
+"""Arguments of `mudline set`, read by a grammar: a path to a field, and its new value."""
 
 from __future__ import annotations
 
@@ -14,9 +14,6 @@ from mudline.basics.limits import LONGEST_ASSIGNMENT
 from mudline.basics.resources import grammar_file
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.tree import canonical_name
-
-ORDERING = frozenset({"<", "<=", ">", ">="})
-_SAME = {"=": "==", "<>": "!="}
 
 
 class PathError(ValueError):
@@ -69,33 +66,6 @@ class Assignment:
     value: str
 
 
-@dataclass(frozen=True, slots=True)
-class FieldComparison:
-    """A field compared with a number or a text."""
-
-    path: FieldPath
-    operator: str
-    operand: WrittenOperand
-
-
-@dataclass(frozen=True, slots=True)
-class Negated:
-    """Condition that holds if the inner condition does not."""
-
-    condition: Condition
-
-
-@dataclass(frozen=True, slots=True)
-class Compound:
-    """Conditions of which all must hold, or with `any_of` at least one."""
-
-    conditions: tuple[Condition, ...]
-    any_of: bool
-
-
-Condition = FieldComparison | Negated | Compound
-
-
 def folded_name(name: str) -> str:
     """Return a field name in the form in which names are compared: without case, blanks and hyphens as underscores."""
     return "_".join(name.replace("-", " ").replace("_", " ").split()).casefold()
@@ -103,7 +73,7 @@ def folded_name(name: str) -> str:
 
 def parse_assignment(text: str) -> Assignment:
     """Return the assignment `KEYWORD.field=value` or `KEYWORD[set=NAME].field=value`; raises PathError."""
-    assignment = cast("Assignment", _parsed(text, "assignment"))
+    assignment = cast("Assignment", parsed(text, "assignment"))
     if not assignment.value or not assignment.value.isprintable():
         raise PathError(f"{assignment.path}: expected a value of printable characters after =")
     return assignment
@@ -111,12 +81,7 @@ def parse_assignment(text: str) -> Assignment:
 
 def parse_path(text: str) -> FieldPath:
     """Return the path `KEYWORD.field` or `KEYWORD[set=NAME].field`; raises PathError."""
-    return cast("FieldPath", _parsed(text, "path"))
-
-
-def parse_condition(text: str) -> Condition:
-    """Return the condition: comparisons of fields with numbers or texts, joined by and, or, not; raises PathError."""
-    return cast("Condition", _parsed(text, "condition"))
+    return cast("FieldPath", parsed(text, "path"))
 
 
 _FORMS = {
@@ -126,12 +91,13 @@ _FORMS = {
 }
 
 
-def _parsed(text: str, start: str) -> object:
+def parsed(text: str, start: str, builder: type[PathBuilder] | None = None) -> object:
+    """Return what a builder makes of a text by a start rule of the grammar; raises PathError."""
     if len(text) > LONGEST_ASSIGNMENT:
         raise PathError(f"more than {LONGEST_ASSIGNMENT} characters: expected {_FORMS[start]}")
     try:
         tree = _grammar(start).parse(text)
-        return _PathBuilder(text).transform(tree)
+        return (builder or PathBuilder)(text).transform(tree)
     except UnexpectedInput as error:
         at = cast("int | None", error.pos_in_stream)
         rest = text[at:] if at is not None and at >= 0 else ""
@@ -151,8 +117,8 @@ def _grammar(start: str) -> Lark:
     return Lark(text, parser="lalr", lexer="contextual", start=start, propagate_positions=True)
 
 
-class _PathBuilder(Transformer[Token, Any]):
-    """Builder of paths and conditions from the parsed rules."""
+class PathBuilder(Transformer[Token, Any]):
+    """Builder of paths and assignments from the parsed rules."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -177,24 +143,3 @@ class _PathBuilder(Transformer[Token, Any]):
     def assignment(self, parts: list[Any]) -> Assignment:
         """Return an assignment."""
         return Assignment(parts[0], parts[1][1:].strip())
-
-    def comparison(self, parts: list[Any]) -> FieldComparison:
-        """Return a comparison; texts have no order."""
-        path, written, value = parts
-        operand = WrittenOperand.of(value)
-        operator = _SAME.get(written, str(written))
-        if operator in ORDERING and operand.number is None:
-            raise PathError(f"{path} {operator} {value}: a text is compared by == or !=, an order needs a number")
-        return FieldComparison(path, operator, operand)
-
-    def negated(self, parts: list[Any]) -> Negated:
-        """Return a negation."""
-        return Negated(parts[0])
-
-    def conjunction(self, parts: list[Any]) -> Compound:
-        """Return conditions joined by and."""
-        return Compound(tuple(parts), any_of=False)
-
-    def disjunction(self, parts: list[Any]) -> Compound:
-        """Return conditions joined by or."""
-        return Compound(tuple(parts), any_of=True)

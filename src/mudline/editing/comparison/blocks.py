@@ -90,13 +90,10 @@ class _Flattening:
 
     def part(self, part: Part, where: Where, prefix: str, flat: Flat, leave_out: str = "") -> None:
         """Add the declared fields of a part, below a prefix."""
-        kind: type[Part] = type(part)
-        for slot in record_schema(kind).slots:
+        for slot in record_schema(type(part)).slots:
             value = getattr(part, slot.name, None)
-            if slot.name == leave_out or value is None:
-                continue
-            place = where.inside(slot.json)
-            self._value(value, slot, place, prefix + slot.json, flat)
+            if slot.name != leave_out and value is not None:
+                self._value(value, slot, where.inside(slot.json), prefix + slot.json, flat)
 
     def _value(self, value: object, slot: FieldSpec, where: Where, path: str, flat: Flat) -> None:
         if isinstance(value, Table):
@@ -106,17 +103,10 @@ class _Flattening:
         elif isinstance(value, list) and value and isinstance(value[0], Record):
             self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, flat, {})
         elif isinstance(value, list):
-            self._items(value, where, path, flat)
+            for index, item in enumerate(value):
+                self._value(item, slot, where.inside(index), f"{path}/{index + 1}", flat)
         else:
             flat[path] = self._scalar(value, where)
-
-    def _items(self, values: list[object], where: Where, path: str, flat: Flat) -> None:
-        for index, item in enumerate(values):
-            place = where.inside(index)
-            if isinstance(item, Part):
-                self.part(item, place, f"{path}/{index + 1}/", flat)
-            else:
-                flat[f"{path}/{index + 1}"] = self._scalar(item, place)
 
     def _scalar(self, value: object, where: Where) -> ComparedValue:
         if isinstance(value, float | int):

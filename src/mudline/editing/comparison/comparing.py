@@ -10,9 +10,9 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.limits import MOST_GENERATED
 from mudline.editing.comparison.blocks import blocks, record_values
-from mudline.editing.comparison.model import Allowance, Difference, Members, Pair, Side, Value, plain, spans_of, text_of
+from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, Value, plain
+from mudline.editing.comparison.sets import set_differences, spans_of, text_of
 from mudline.language.deck.parameters import Definition, folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import Record
@@ -37,7 +37,7 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
     of_files = partial(seabed_points, of_files=True)
-    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, of_files)
+    groups = (_units, _parameters, _nodes, _elements, set_differences, _curves, _by_element, of_files)
     return [*(difference for differences in groups for difference in differences(pair)), *of_keywords]
 
 
@@ -152,54 +152,6 @@ def _value(value: float | str | None, definition: Definition | None) -> tuple[Va
     return None if value is None else (plain(value), definition.where if definition else None)
 
 
-_NO_MEMBERS = Members()
-
-
-def _sets(pair: Pair) -> Iterator[Difference]:
-    """Yield the differences of the members of element sets; ALL has all elements."""
-    first, second = pair.before.scene.set_table.named, pair.after.scene.set_table.named
-    written, others = _written(pair.before), _written(pair.after)
-    for name in dict.fromkeys([*first, *second]):
-        if name == "all":
-            continue
-        old, new = first.get(name), second.get(name)
-        before = Members([pair.before.scene.element_ids[old.elements]]) if old else None
-        after = Members([pair.after.scene.element_ids[new.elements]]) if new else None
-        if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
-            before, after = written.get(name, _NO_MEMBERS), others.get(name, _NO_MEMBERS)
-        if before is None or after is None or not before.same(after):
-            title = old.name if old else new.name if new else name
-            sides = (before, old), (after, new)
-            held = ((str(members), group.where) if members and group else None for members, group in sides)
-            yield pair.difference("element sets", f"element sets/{title}", *held)
-
-
-def _written(side: Side) -> dict[str, Members]:
-    """Return members of sets as written, for sets with elements that the deck does not define."""
-    members_by_name: dict[str, Members] = {}
-    for _, block in side.scene.deck.blocks("ELEMENT SETS"):
-        for entry in block.sets:
-            members = members_by_name.setdefault(folded(str(entry.name)), Members())
-            for member in entry.members:
-                if subset := getattr(member, "subset", None):
-                    members.words.add(f"SUBSET={folded(str(subset))}")
-                if listed := getattr(member, "elements", None):
-                    members.words |= {folded(item) for item in listed if isinstance(item, Label)}
-                    whole = [item for item in listed if isinstance(item, int)]
-                    members.arrays.append(np.array(whole, dtype=np.int64))
-                if generated := getattr(member, "generate", None):
-                    members.ranges += _generated(generated.start, generated.end, generated.increment)
-    return members_by_name
-
-
-def _generated(start: object, end: object, step: object) -> list[tuple[int, int, int]]:
-    """Return the range of a GEN=; an empty list if it is invalid."""
-    step = 1 if step is None else step
-    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
-        return []
-    return [(start, min(end, start + MOST_GENERATED * step), step)]
-
-
 def _curves(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of points of the force-embedment curves; the last curve of a name applies."""
     first, second = _by_name(pair.before), _by_name(pair.after)
@@ -207,10 +159,9 @@ def _curves(pair: Pair) -> Iterator[Difference]:
         old, new = first.get(name), second.get(name)
         if old and new:
             yield from _points_differ(_title(old), old, new, pair)
-        elif old:
-            yield pair.difference("curves", _title(old), (shown_points(old), old.where), None)
-        elif new:
-            yield pair.difference("curves", _title(new), None, (shown_points(new), new.where))
+        elif curve := old or new:
+            held = ((shown_points(one), one.where) if one else None for one in (old, new))
+            yield pair.difference("curves", _title(curve), *held)
 
 
 def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> Iterator[Difference]:

@@ -1,9 +1,8 @@
-"""Differences between two decks, tolerances, the two compared decks, and spans of whole numbers."""
+"""Differences between two decks, tolerances, and the two compared decks."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias, cast
@@ -18,7 +17,6 @@ from mudline.language.deck.parameters import Parameters
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Where
 from mudline.language.keywords.model import Block
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Ids
 
 Value: TypeAlias = float | int | str | list["Value"] | None
 """A value as reported; None for a missing value."""
@@ -86,118 +84,6 @@ def plain(value: float | str | None) -> Value:
     if value is None or isinstance(value, str) or math.isfinite(value):
         return value
     return None if math.isnan(value) else str(value)
-
-
-Spans = NDArray[np.int64]
-"""First and last numbers (k, 2) in ascending order, with gaps between the spans."""
-
-NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
-_WORTH_A_RANGE = 5
-"""Least number of equally spaced single numbers that are written as a range with a step."""
-_AT_ONCE = 100_000
-
-
-def spans_of(numbers: NDArray[np.int64]) -> Spans:
-    """Return the spans of numbers in any order."""
-    return _joined(numbers, numbers)
-
-
-def spans_of_run(start: int, end: int, step: int) -> Spans:
-    """Return the spans of start, start + step, ... up to end; the step is at least 1."""
-    if step == 1:
-        return np.array([(start, end)] * (start <= end), dtype=np.int64).reshape(-1, 2)
-    numbers = np.arange(start, end + 1, step, dtype=np.int64)
-    return np.broadcast_to(numbers[:, np.newaxis], (len(numbers), 2))
-
-
-def union(parts: Sequence[Spans]) -> Spans:
-    """Return the spans of all numbers in any of several spans."""
-    parts = [part for part in parts if len(part)]
-    if len(parts) == 1:
-        return parts[0]
-    return _joined(*(np.concatenate([NO_SPANS[:, end], *(part[:, end] for part in parts)]) for end in (0, 1)))
-
-
-def text_of(spans: Spans) -> str:
-    """Return spans as a text: `1-20, 25, 31-99 step 2`."""
-    return ", ".join(_pieces(spans))
-
-
-def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
-    """Return spans with gaps between them, from spans that may overlap or touch."""
-    if not len(firsts):
-        return NO_SPANS
-    if not (firsts[1:] >= firsts[:-1]).all():
-        alone = firsts is lasts
-        order = np.argsort(firsts, kind="stable")
-        firsts = firsts[order]
-        lasts = firsts if alone else lasts[order]
-    if firsts is lasts and (firsts[1:] - firsts[:-1] > 1).all():  # no neighbours: the numbers are the spans
-        return np.broadcast_to(firsts[:, np.newaxis], (len(firsts), 2))
-    reached = np.maximum.accumulate(lasts)
-    begins = np.flatnonzero(firsts[1:] - reached[:-1] > 1) + 1
-    ends = np.append(begins - 1, len(firsts) - 1)
-    return np.column_stack([firsts[np.append(0, begins)], reached[ends]])
-
-
-def _pieces(spans: Spans) -> Iterator[str]:
-    """Yield pieces of the text; spans are joined in large pieces, which takes less memory than a text for each."""
-    written = 0
-    for begin, end in _stepped(spans):
-        first = max(begin, written)
-        if end - first + 1 >= _WORTH_A_RANGE:
-            yield from _listed(spans[written:first])
-            start, following = int(spans[first, 0]), int(spans[first + 1, 0])
-            yield f"{start}-{int(spans[end, 0])} step {following - start}"
-            written = end + 1
-    yield from _listed(spans[written:])
-
-
-def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
-    """Yield first and last index of equally spaced single numbers; neighbouring runs may share a number."""
-    single = spans[:, 0] == spans[:, 1]
-    steps = np.where(single[1:] & single[:-1], spans[1:, 0] - spans[:-1, 0], 0)  # 0 next to several numbers
-    begins = np.append(0, np.flatnonzero(steps[1:] != steps[:-1]) + 1)
-    ends = np.append(begins[1:], len(steps))
-    for at in np.flatnonzero(ends - begins >= _WORTH_A_RANGE - 2).tolist():
-        if steps[begins[at]]:
-            yield int(begins[at]), int(ends[at])
-
-
-def _listed(spans: Spans) -> Iterator[str]:
-    for start in range(0, len(spans), _AT_ONCE):
-        some = spans[start : start + _AT_ONCE].tolist()
-        yield ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in some)
-
-
-@dataclass(slots=True)
-class Members:
-    """Members of a set: numbers, and names for members without a number.
-
-    The numbers come from arrays and from ranges (first, last, step). They become spans only when two sets have
-    different arrays or ranges: most sets of two versions of a deck have the same.
-    """
-
-    arrays: list[Ids] = field(default_factory=list)
-    ranges: list[tuple[int, int, int]] = field(default_factory=list)
-    words: set[str] = field(default_factory=set)
-    _spans: Spans | None = None
-
-    @property
-    def spans(self) -> Spans:
-        """Spans of the numbers."""
-        if self._spans is None:
-            self._spans = union([*map(spans_of, self.arrays), *(spans_of_run(*ends) for ends in self.ranges)])
-        return self._spans
-
-    def __str__(self) -> str:
-        return ", ".join(filter(None, [text_of(self.spans), *sorted(self.words)]))
-
-    def same(self, other: Members) -> bool:
-        """Return True if another set has the same members."""
-        alike = self.ranges == other.ranges and len(self.arrays) == len(other.arrays)
-        alike = alike and all(map(np.array_equal, self.arrays, other.arrays))  # without spans, which take longer
-        return self.words == other.words and (alike or np.array_equal(self.spans, other.spans))
 
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)

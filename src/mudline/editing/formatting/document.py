@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from itertools import chain
 from typing import cast
 
-from mudline.editing.formatting.rows import AlignedRows, RowKind, Single, TableRun, cut
+from mudline.editing.formatting.rows import AlignedRows, RowKind, cut
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.forms import form_of
@@ -17,7 +17,6 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.model import FieldSpec, Path, Record, Row, record_schema
-from mudline.language.keywords.parsed import Places
 from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind
@@ -183,81 +182,14 @@ class _DocumentLayout:
                 self.blanks.append(leaf.span)
             else:
                 self._end_blanks()
-        for span, lines in block_lines(self.text, raw, read):
+        block = _BlockLayout(self.text, read)
+        for span, lines in chain(chain.from_iterable(map(block.lines, raw.leaves)), block.flush()):
             self._put(span, lines)
 
 
 # ------------------------------------------------------------------------------------------------- the lines of a block
 
 _BLANKS = re.compile(r"[ \t]*")
-
-
-@dataclass(slots=True)
-class RowIndex:
-    """Facts about a block by offset in its text.
-
-    Attributes:
-        kinds: kind of the row, or of the values of a KEY=, that begins at the offset.
-        choices: known choice at the offset.
-        whole: unknown choice at the offset, which may contain commas.
-    """
-
-    text: str
-    kinds: dict[int, RowKind] = field(default_factory=dict)
-    choices: dict[int, str] = field(default_factory=dict)
-    whole: dict[int, str] = field(default_factory=dict)
-
-    def kind_at(self, start: int) -> RowKind | None:
-        """Return the kind of the row that begins at an offset or after the blanks there."""
-        return self.kinds.get(self._begin(start))
-
-    def put(self, start: int, kind: RowKind) -> None:
-        """Record the kind of a row."""
-        self.kinds[self._begin(start)] = kind
-
-    def _begin(self, start: int) -> int:
-        match = _BLANKS.match(self.text, start)
-        return match.end() if match else start
-
-
-def _record(record: Record, path: Path, places: Places, reading: RowIndex) -> None:
-    declared = record_schema(type(record))
-    plain = [slot for slot in declared.columns if not slot.row and not slot.many]
-    if plain and len(plain) == len(declared.columns) and (span := places.spans.get((*path, plain[0].json))):
-        reading.put(span.start, RowKind(plain[0], tuple(plain)))
-        plain = []
-    for slot in declared.slots:
-        inner = (*path, slot.json)
-        value = getattr(record, slot.name)
-        if slot.record:
-            for index, child in enumerate(value):
-                _record(child, (*inner, index), places, reading)
-        elif value is not None:
-            _value(slot, value, inner, places, reading)
-        if slot in plain and (span := places.spans.get(inner)):
-            reading.put(span.start, RowKind(slot, (slot,)))
-
-
-def _value(slot: FieldSpec, value: object, path: Path, places: Places, reading: RowIndex) -> None:
-    """Record one field that is not a record."""
-    span = places.spans.get(path)
-    if isinstance(value, Table) and slot.row:
-        kind = RowKind(slot, tuple(record_schema(slot.row).columns), table=True)
-        for _, run in places.runs.get(path, ()):
-            reading.put(run.start, kind)
-    elif isinstance(value, list):
-        if first := places.spans.get((*path, 0)):
-            reading.put(first.start, RowKind(slot, (slot,), many=True))
-    elif span and isinstance(value, Row):
-        columns = record_schema(type(value)).columns
-        reading.put(span.start, RowKind(slot, tuple(columns)))
-        for column in columns:
-            _value(column, getattr(value, column.name), (*path, column.json), places, reading)
-    elif span and slot.kind is not Kind.NAME and value in slot.choices:
-        if reading.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
-            reading.choices[span.start] = str(value)
-    elif span and slot.about.opaque is not None and isinstance(value, str):
-        reading.whole[span.start] = value
 
 
 Laid = tuple[Span, str]
@@ -269,23 +201,66 @@ def comment_line(text: str, span: Span) -> str:
     return text[slice(*span)].rstrip(" \t\r\n") + "\n"
 
 
-def block_lines(text: str, raw: RawBlock, read: ReadBlock) -> Iterator[Laid]:
-    """Yield the lines of a block except its head and its blank lines."""
-    block = _BlockLayout(text, read)
-    for leaf in raw.leaves:
-        yield from block.lines(leaf)
-    yield from block.flush()
-
-
 class _BlockLayout:
+    """Layout of the lines of a block except its head and its blank lines.
+
+    Attributes:
+        kinds: kind of the row, or of the values of a KEY=, by the offset of its first character.
+        choices: known choices by offset.
+        whole: unknown choices by offset, which may contain commas.
+    """
+
     def __init__(self, text: str, read: ReadBlock) -> None:
-        self.text = text
+        self.text, self.places = text, read.places
         self.declared = type(read.model)
         self.keys = all_keys(self.declared)
-        self.reading = RowIndex(read.places.text)
-        _record(read.model, (), read.places, self.reading)
-        self.kept = read.places.kept
+        self.kinds: dict[int, RowKind] = {}
+        self.choices: dict[int, str] = {}
+        self.whole: dict[int, str] = {}
         self.rows: AlignedRows | None = None
+        self._record(read.model, ())
+
+    def _record(self, record: Record, path: Path) -> None:
+        declared, spans = record_schema(type(record)), self.places.spans
+        plain = [slot for slot in declared.columns if not slot.row and not slot.many]
+        if plain and len(plain) == len(declared.columns) and (span := spans.get((*path, plain[0].json))):
+            self.kinds[self._begin(span.start)] = RowKind(plain[0], tuple(plain))
+            plain = []
+        for slot in declared.slots:
+            inner = (*path, slot.json)
+            value = getattr(record, slot.name)
+            if slot.record:
+                for index, child in enumerate(value):
+                    self._record(child, (*inner, index))
+            elif value is not None:
+                self._value(slot, value, inner)
+            if slot in plain and (span := spans.get(inner)):
+                self.kinds[self._begin(span.start)] = RowKind(slot, (slot,))
+
+    def _value(self, slot: FieldSpec, value: object, path: Path) -> None:
+        """Take one field that is not a record."""
+        span = self.places.spans.get(path)
+        if isinstance(value, Table) and slot.row:
+            kind = RowKind(slot, tuple(record_schema(slot.row).columns), table=True)
+            self.kinds |= {self._begin(run.start): kind for _, run in self.places.runs.get(path, ())}
+        elif isinstance(value, list):
+            if first := self.places.spans.get((*path, 0)):
+                self.kinds[self._begin(first.start)] = RowKind(slot, (slot,), many=True)
+        elif span and isinstance(value, Row):
+            columns = record_schema(type(value)).columns
+            self.kinds[self._begin(span.start)] = RowKind(slot, tuple(columns))
+            for column in columns:
+                self._value(column, getattr(value, column.name), (*path, column.json))
+        elif span and slot.kind is not Kind.NAME and value in slot.choices:
+            if self.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
+                self.choices[span.start] = str(value)
+        elif span and slot.about.opaque is not None and isinstance(value, str):
+            self.whole[span.start] = value
+
+    def _begin(self, start: int) -> int:
+        """Return the offset behind the blanks at an offset."""
+        match = _BLANKS.match(self.text, start)
+        return match.end() if match else start
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
         """Yield the lines that are complete at this leaf: rows are collected until their table ends."""
@@ -294,7 +269,7 @@ class _BlockLayout:
         elif leaf.kind in (LeafKind.RUN, LeafKind.TEXT):
             for line in line_spans(self.text, leaf.span):
                 yield from self._row(Span(line.start, min(line.end + 1, leaf.span.end)))
-        elif leaf.span.start in self.kept:
+        elif leaf.span.start in self.places.kept:
             yield from self.flush()
         elif leaf.kind is LeafKind.SETTING or (
             leaf.kind is LeafKind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
@@ -312,23 +287,23 @@ class _BlockLayout:
 
     def _row(self, span: Span) -> Iterator[Laid]:
         """Add a row, or a run of rows, to collected rows of the same kind; otherwise start a new table."""
-        kind = self.reading.kind_at(span.start)
+        kind = self.kinds.get(self._begin(span.start))
         if kind is None:  # not part of the model: left unchanged
             return
         if self.rows is None or self.rows.kind.slot is not kind.slot:
             yield from self.flush()
-            self.rows = AlignedRows(kind)
+            self.rows = AlignedRows(self.text, kind)
         if kind.table:
-            self.rows.members.append(TableRun(self.text, span))
+            self.rows.members.append((span, []))
             return
         fields, _ = split(self.text, span, slashes=self.declared.slashes)
-        texts = [self.reading.choices.get(value.span.start, value.text) for value in fields]
-        self.rows.members.append(Single(cut(split_blanks(texts)), span))
+        texts = [self.choices.get(value.span.start, value.text) for value in fields]
+        self.rows.members.append((span, cut(split_blanks(texts))))
 
     def _setting(self, span: Span) -> str:
         line = read_line(self.text, span, slashes=self.declared.slashes)
         first = line.groups[0]
-        if whole := self.reading.whole.get(first.fields[0].span.start):
+        if whole := self.whole.get(first.fields[0].span.start):
             return f" {first.key}={whole}".rstrip(" ") + "\n"
         texts = [text for group in line.groups for text in self._group(group)]
         return " " + ", ".join(texts).rstrip(" ") + "\n"
@@ -338,8 +313,8 @@ class _BlockLayout:
 
         A value that begins with a bracket keeps a blank before it: without the blank it would be an equation.
         """
-        texts = [self.reading.choices.get(value.span.start, value.text) for value in group.fields]
-        kind = self.reading.kinds.get(group.span.start)
+        texts = [self.choices.get(value.span.start, value.text) for value in group.fields]
+        kind = self.kinds.get(group.span.start)
         texts = cut(split_blanks(texts) if kind and len(kind.columns) > 1 else texts)
         first = group.fields[0].span.start
         blank = " " if texts[0].startswith("[") and self.text[first - 1] != "=" else ""

@@ -274,31 +274,6 @@ _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
 
 
-class TableRun(NamedTuple):
-    """Lines of a table, which may be very many."""
-
-    text: str
-    span: Span
-
-    def parts(self, kind: RowKind, plain: dict[int, NumberRows | None]) -> Iterator[WordRows | NumberRows]:
-        """Yield the rows in pieces of some thousand.
-
-        Plain rows are kept in `plain`, by their offset, when first read, and taken from there the second time. Other
-        rows take so much memory that they are read twice.
-        """
-        start, end = self.span
-        most = len(kind.columns)
-        while start < end:
-            stop = self.text.find("\n", min(start + PIECE, end), end) + 1 or end
-            if start in plain:
-                rows = plain.pop(start)
-            else:
-                rows = NumberRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
-                plain[start] = rows
-            yield rows or word_rows(self.text[start:stop], most)
-            start = stop
-
-
 def word_rows(text: str, most: int) -> WordRows:
     """Return the rows of whole lines, cut to `most` fields, with any content."""
     rows: list[list[str]] = []
@@ -311,31 +286,48 @@ def word_rows(text: str, most: int) -> WordRows:
     return WordRows(rows)
 
 
-class Single(NamedTuple):
-    """A row cut into its fields, and its line."""
-
-    fields: list[str]
-    span: Span
-
-    def parts(self, _kind: RowKind, _plain: dict[int, NumberRows | None]) -> Iterator[WordRows | NumberRows]:
-        """Yield the row."""
-        yield WordRows([self.fields])
-
-
 @dataclass(slots=True)
 class AlignedRows:
-    """Rows of one kind, separated only by comments and blank lines."""
+    """Rows of one kind, separated only by comments and blank lines.
 
+    Attributes:
+        text: text of the file.
+        kind: their kind.
+        members: lines, and the fields of a row; none for the lines of a table, which may be very many.
+    """
+
+    text: str
     kind: RowKind
-    members: list[TableRun | Single] = field(default_factory=list)
+    members: list[tuple[Span, list[str]]] = field(default_factory=list)
+    _plain: dict[int, NumberRows | None] = field(default_factory=dict)
 
     def laid_out(self) -> Iterator[tuple[Span, str]]:
         """Yield the lines of each member in aligned columns, each with a LF."""
         columns = Columns(self.kind)
-        plain: dict[int, NumberRows | None] = {}
         for member in self.members:
-            for part in member.parts(self.kind, plain):
+            for part in self._parts(*member):
                 part.measure(columns)
         shapes = columns.shapes()
         for member in self.members:
-            yield member.span, "".join(part.lines(shapes) for part in member.parts(self.kind, plain))
+            yield member[0], "".join(part.lines(shapes) for part in self._parts(*member))
+
+    def _parts(self, span: Span, fields: list[str]) -> Iterator[WordRows | NumberRows]:
+        """Yield a row, or the rows of a table in pieces of some thousand.
+
+        Plain rows are kept, by their offset, when first read, and taken from there the second time. Other rows take so
+        much memory that they are read twice.
+        """
+        if fields:
+            yield WordRows([fields])
+            return
+        start, end = span
+        most = len(self.kind.columns)
+        while start < end:
+            stop = self.text.find("\n", min(start + PIECE, end), end) + 1 or end
+            if start in self._plain:
+                rows = self._plain.pop(start)
+            else:
+                rows = NumberRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
+                self._plain[start] = rows
+            yield rows or word_rows(self.text[start:stop], most)
+            start = stop

@@ -9,6 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mudline.editing.comparison.comparing import compare
+from mudline.editing.comparison.decks import without_spelling
+from mudline.editing.comparison.model import Difference
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
 from mudline.editing.migration.rewriting import Rewriting, rewrite, unused_definitions
 from mudline.language.codes import MIG001
@@ -18,14 +21,12 @@ from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck, Opaque, comment_texts
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem
-from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.model.contact.model import ContactModel
 from mudline.model.curves import ForceCurve
 from mudline.model.scene.deck_values import data_lines
-from mudline.model.scene.laws import ResistanceValues
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.representatives import representatives, shows_elements
@@ -91,19 +92,23 @@ def _checked(deck: Deck, before: Scene, changed: Deck, rewritten: Rewriting) -> 
     faults = [problem.message for problem in after.errors()]
     lost = Counter(_comments(deck)) - Counter(_comments(changed))
     faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
-    if _others(deck) != _others(changed):
-        faults.append("a block of another keyword would change")
     expected = Counter(problem.code.code for problem in before.findings)
     new = Counter(problem.code.code for problem in after.findings)
-    if not np.array_equal(before.law, after.law):
-        faults.append("an element would have a law of another kind")
     for code in (new - expected) - Counter({"REF015": len(rewritten.files)}):
         faults.append(f"it would have a new finding {code}")
+    if not faults:  # the file of a profile is not written yet
+        found = [each for each in _differences(before, after) if each.group != "seabed" or not rewritten.files]
+        faults += [f"{each.where} would change" for each in found]
     if faults:
         where, _ = superseded_blocks(deck)[0]
         problems = [Problem(MIG001, f"the deck is left unchanged: {fault}", where=where) for fault in faults]
         raise DeckError(deck.diagnose(problems))
     return after
+
+
+def _differences(before: Scene, after: Scene) -> list[Difference]:
+    """Return the differences in meaning of the decks before and after a migration."""
+    return without_spelling(before, after, compare(before, after)).differences
 
 
 def _comments(deck: Deck) -> Iterator[str]:
@@ -113,23 +118,6 @@ def _comments(deck: Deck) -> Iterator[str]:
     for lines in opaque:
         data = set(data_lines(lines))
         yield from (line[1:] for line in lines if line not in data)
-
-
-def _others(deck: Deck) -> list[object]:
-    """Return all blocks that a migration does not rewrite, without comments.
-
-    Data lines of an opaque block are kept, and a keyword below it that becomes a comment is one of its lines.
-    """
-    return [
-        (
-            section.name,
-            section.lines,
-            [line for line in data_lines(block.lines) if line.strip()] if isinstance(block, Opaque) else block,
-        )
-        for section in deck.sections
-        for block in section.blocks
-        if section.name != "MODEL" or not (is_superseded(block.keyword) or supersedes(block.keyword))
-    ]
 
 
 # -------------------------------------------------------------------------------------------------------- verification
@@ -173,6 +161,10 @@ def verify(migration: Migration) -> Verification:
     """
     before, after = migration.before, migration.after
     differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
+    for each in _differences(before, after):
+        if each.group != "seabed":
+            what, _, value = each.where.partition("/")
+            differences.append(MigrationDifference(what, f"{value}: {each.before} before, {each.after} after"))
     kinds, positions, deviations = _compare(before, after, {})
     differences += deviations
     if shows_elements(before):
@@ -205,8 +197,7 @@ def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int
     inputs = _contact_input(before, chosen), _contact_input(after, chosen)
     depths = _depths(inputs)
     labels = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
-    differences = [*_values(before, after, chosen), *_forces(inputs, depths)]
-    return len(chosen), depths.size, [MigrationDifference(labels[index], text) for index, text in differences]
+    return len(chosen), depths.size, [MigrationDifference(labels[at], text) for at, text in _forces(inputs, depths)]
 
 
 def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
@@ -218,25 +209,6 @@ def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
     ]
     _, first = np.unique(np.column_stack(columns), axis=0, return_index=True)
     return np.sort(first)
-
-
-def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """Yield differences of the kind of law, and of friction, lateral resistance and suction; an omitted value is 0.
-
-    A rigid seabed and no law would both give no force in the sweep.
-    """
-    for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
-        element = int(chosen[index])
-        yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
-    for name in ResistanceValues._fields:
-        if name == "characteristic":  # checked earlier: effective lengths are the default, as in the new family
-            continue
-        old, new = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
-        if name in ("friction", "lateral", "suction"):
-            old, new = (np.where(np.isnan(values), 0.0, values) for values in (old, new))
-        same = _same_bits(old, new).reshape(len(chosen), -1).all(axis=1)
-        for index in np.flatnonzero(~same).tolist():
-            yield index, f"{name.replace('_', ' ')}: {old[index]} before, {new[index]} after"
 
 
 def _forces(inputs: Sequence[ContactInput], depths: Floats) -> Iterator[tuple[int, str]]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mudline.basics.files import recording_looks, version_of
 from mudline.basics.limits import LARGEST_NEIGHBOUR
@@ -151,15 +151,26 @@ _NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
 """New keywords whose laws would be combined with those of a migrated deck."""
 
 
+class _Visited(NamedTuple):
+    """A deck that was read.
+
+    Attributes:
+        states: states of its file and of the files on which the decks that it continues depend.
+        bases: decks that it continues with a model of its own.
+        seabed: True if it has seabed keywords of its own.
+    """
+
+    states: dict[str, tuple[int, ...]]
+    bases: list[Path]
+    seabed: bool
+
+
 class Continuations:
     """Decks that continue a deck, among those to be migrated and those in its folder."""
 
     def __init__(self, files: Iterable[Path] = ()) -> None:
         self._looked: set[Path] = set()
-        self._states: dict[Path, dict[str, tuple[int, ...]]] = {}
-        """States of each deck and of the files on which the decks that it continues depend."""
-        self._found: dict[Path, tuple[list[Path], bool]] = {}
-        """Decks continued by each deck, and True if that deck has seabed keywords of its own."""
+        self._visited: dict[Path, _Visited] = {}
         for file in files:
             self._visit(file)
 
@@ -168,36 +179,34 @@ class Continuations:
         if file.parent not in self._looked:
             self.look_in(file.parent)
         base = file.resolve()
-        return sorted(other.as_posix() for other, (bases, seabed) in self._found.items() if seabed and base in bases)
+        return sorted(each.as_posix() for each, other in self._visited.items() if other.seabed and base in other.bases)
 
     def extend(self, file: Path) -> bool:
         """Return True if a visited deck that continues the deck has a model of its own, with more elements or sets."""
         base = file.resolve()
-        return any(base in bases for bases, _ in self._found.values())
+        return any(base in other.bases for other in self._visited.values())
 
     def look_in(self, folder: Path) -> None:
         """Read new and changed decks of a folder, and forget decks that no longer exist."""
         self._looked.add(folder)
         there = {file for file in folder.iterdir() if file.suffix.lower() in SUFFIXES}
-        for gone in [file for file in self._states if file.parent == folder and file not in there]:
-            del self._states[gone]
-            self._found.pop(gone, None)
+        for gone in [file for file in self._visited if file.parent == folder and file not in there]:
+            del self._visited[gone]
         for file in sorted(there):
             self._visit(file)
 
     def _visit(self, file: Path) -> None:
-        states = self._states.get(file)
-        if states and all(version_of(path) == before for path, before in states.items()):
+        known = self._visited.get(file)
+        if known and all(version_of(path) == before for path, before in known.states.items()):
             return
-        states = {str(file): version_of(str(file))}
-        self._found.pop(file, None)
+        states, bases, seabed = {str(file): version_of(str(file))}, list[Path](), False
         with recording_looks() as looks, suppress(OSError, DeckError):  # an unreadable deck continues nothing
             if file.stat().st_size <= LARGEST_NEIGHBOUR and b"RESTART" in file.read_bytes().upper():
                 deck = load_path(file)
                 if keywords := deck.keywords():
                     seabed = bool(keywords & _NEWER) or any(map(is_superseded, keywords))
-                    self._found[file] = [base.resolve() for base in decks_before(deck)], seabed
-        self._states[file] = states | {path: version_of(path) for path in looks}
+                    bases = [base.resolve() for base in decks_before(deck)]
+        self._visited[file] = _Visited(states | {path: version_of(path) for path in looks}, bases, seabed)
 
 
 def continuations_beside(deck: Deck, among: Continuations | None = None) -> tuple[list[str], bool]:

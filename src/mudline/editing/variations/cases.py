@@ -1,21 +1,18 @@
-"""Parameters of a deck, and cases of `*VARIATION`: parameter values, and blocks that actions add or remove."""
+"""Parts of a deck that a variation changes: values of its parameters, and blocks that actions add or remove."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from mudline.basics.limits import LARGEST_FILE, MOST_DECKS
+from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort
-from mudline.editing.variations.names import name_key, undefined_parameter, unquoted
-from mudline.language.codes import EXP001
-from mudline.language.codes.references import REF013
+from mudline.editing.variations.names import undefined_parameter, unquoted
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import NoValueError, Parameters, folded, list_items
+from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
@@ -29,8 +26,8 @@ from mudline.language.syntax.tree import LeafKind, canonical_name, parse
 from mudline.model.scene.deck_values import find_file, not_found
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import NamedVariation, ValueRange, VariedBlock, VariedParameter
     from mudline.language.keywords.library.preprocessor import Parameters as Block_
+    from mudline.language.keywords.library.preprocessor import VariedBlock
 
 
 _PLANNING = "PREPROCESSOR"
@@ -153,31 +150,17 @@ class Addition:
 Action = Removal | Addition
 
 
-@dataclass(frozen=True, slots=True)
-class Cases:
-    """A variation: names of parameters, a row of their values for each case, and the actions in every case."""
-
-    name: str
-    where: Where
-    parameters: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    actions: Sequence[Action]
-
-
 class RefusedError(Exception):
     """Reason why an action cannot be carried out."""
 
 
-def action_of(deck: Deck, varied: VariedBlock, where: Where) -> Action | Problem:
-    """Return the effect of an ACTION= line on a deck that was read from text, or the problem that prevents it."""
-    try:
-        keyword = _keyword(varied)
-        section = _section(deck, varied, keyword)
-        if varied.action == "REMOVE":
-            return _removal(deck, keyword, section)
-        return _addition(deck, varied, keyword, section)
-    except RefusedError as reason:
-        return Problem(EXP001, str(reason), None, None, where)
+def action_of(deck: Deck, varied: VariedBlock) -> Action:
+    """Return the effect of an ACTION= line on a deck that was read from text; raises RefusedError."""
+    keyword = _keyword(varied)
+    section = _section(deck, varied, keyword)
+    if varied.action == "REMOVE":
+        return _removal(deck, keyword, section)
+    return _addition(deck, varied, keyword, section)
 
 
 def _keyword(varied: VariedBlock) -> str:
@@ -261,111 +244,3 @@ def _block_text(source: Source, keyword: str) -> str:
     if all(leaf.kind in (LeafKind.BLANK, LeafKind.COMMENT) for leaf in tree.preamble.leaves) and tree.preamble.blocks:
         return text
     return f"*{keyword}\n{text}"
-
-
-_NOISE = Decimal("1e-9")
-"""Share of a step by which a range may miss its last value: ends may come from equations."""
-
-
-class CaseReader:
-    """Reader of the variations of a deck that was read from text; faults are added to `problems`."""
-
-    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
-        self.deck = deck
-        self.targets = targets
-        self.problems: list[Problem] = []
-
-    def read(self) -> dict[str, Cases]:
-        """Return every variation by its name in the form in which names are compared."""
-        by_name: dict[str, Cases] = {}
-        for where, block in self.deck.blocks("VARIATION", "PREPROCESSOR"):
-            for index, variation in enumerate(block.variations):
-                place = where.inside("variations", index)
-                cases = self._cases(variation, place)
-                if name_key(cases.name) in by_name:
-                    message = f"variation {shown(cases.name)} is already defined: choose another name"
-                    self._report(message, place.inside("name"))
-                by_name[name_key(cases.name)] = cases
-        return by_name
-
-    def _report(self, message: str, where: Where) -> None:
-        self.problems.append(Problem(EXP001, message, None, None, where))
-
-    def _cases(self, variation: NamedVariation, where: Where) -> Cases:
-        name = unquoted(variation.name)
-        columns: dict[str, list[str]] = {}
-        for index, varied in enumerate(variation.parameters):
-            place = where.inside("parameters", index)
-            if problem := self.targets.undefined(unquoted(varied.parameter), place):
-                self.problems.append(problem)
-                continue
-            target = self.targets.target(unquoted(varied.parameter))
-            if target.name in columns:
-                self._report(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
-                continue
-            columns[target.name] = self._values(varied, target, place)
-        self._check_counts(name, columns, where)
-        rows = list(zip(*columns.values(), strict=False)) if columns else [()]
-        effects = [action_of(self.deck, one, where.inside("blocks", at)) for at, one in enumerate(variation.blocks)]
-        self.problems += [effect for effect in effects if isinstance(effect, Problem)]
-        actions = [effect for effect in effects if not isinstance(effect, Problem)]
-        return Cases(name, where, list(columns), rows, actions)
-
-    def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
-        """Report a problem unless all parameters of a variation, which change together, have equally many values."""
-        counts = {len(values) for values in columns.values() if values}
-        if len(counts) > 1:
-            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
-            message = (
-                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
-                "Put those that vary independently into separate variations"
-            )
-            self._report(message, where)
-
-    def _values(self, varied: VariedParameter, target: ParameterTarget, where: Where) -> list[str]:
-        """Return the values as fields of `*PARAMETERS`; an empty list if they are faulty."""
-        if varied.generate is not None:
-            return self._range(varied.generate, where.inside("generate"))
-        if not varied.values:
-            self._report(f"PARA={varied.parameter} has no value", where)
-        values: list[str] = []
-        for index, text in enumerate(varied.values or []):
-            place = where.inside("values", index)
-            field = target.field(text)
-            if field is None:
-                what = f"value {index + 1} of PARA={varied.parameter}, {shown(text)},"
-                self._report(f"{what} cannot be a value: correct it", place)
-                return []
-            if equation := Equation.match(field):  # it may have a value in some cases only
-                try:
-                    self.targets.parameters.evaluate(equation, place)
-                except NoValueError as reason:
-                    if reason.problem and reason.problem.code == REF013:
-                        self.problems.append(reason.problem)
-            values.append(field)
-        return values
-
-    def _range(self, given: ValueRange, where: Where) -> list[str]:
-        ends = (given.start, given.end, 1.0 if given.increment is None else given.increment)
-        numbers = [self.targets.parameters.number(end) for end in ends]
-        known = [Decimal(repr(number)) for number in numbers if number is not None]
-        if len(known) < len(numbers):
-            self._report("GEN= needs numbers, or equations that give numbers", where)
-            return []
-        start, end, step = known
-        steps = (end - start) / step + _NOISE if step else Decimal(-1)
-        if steps < 0:
-            self._report(f"GEN= gives no value: from {start} to {end} in steps of {step}", where)
-            return []
-        if steps >= MOST_DECKS:
-            self._report(f"GEN= gives more than {MOST_DECKS} values: correct the increment", where)
-            return []
-        return [_spelled(start + step * index) for index in range(int(steps) + 1)]
-
-
-def _spelled(number: Decimal) -> str:
-    """Return a number in digits, a whole number without a point; the shortest form if very large or small."""
-    if not number:
-        return "0"
-    plain = number.normalize()
-    return format(plain, "f") if -15 < plain.adjusted() < 16 else repr(float(plain)).upper()

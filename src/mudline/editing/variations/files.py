@@ -8,15 +8,13 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
-from pathlib import Path, PurePath
-from typing import NamedTuple, cast
+from pathlib import Path
+from typing import cast
 
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
-from mudline.editing.variations.cases import Action, ParameterTargets, Removal, Values
-from mudline.editing.variations.names import filled
-from mudline.language.deck.forms import SUFFIXES, form_of
+from mudline.editing.variations.cases import Action, ParameterTargets, Removal
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
@@ -25,12 +23,11 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import all_keys
-from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.fields import first_key, read_line
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
 from mudline.model.scene.deck_values import file_name, find_file
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
@@ -40,58 +37,6 @@ PART_BYTES = 240
 """Longest name of a folder or a file, in bytes; the systems in use allow 255."""
 PATH_BYTES = 1000
 """Longest path within the output folder, in bytes."""
-
-
-_ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
-"""Suffixes of decks; a file name without one gets the suffix of the source."""
-
-
-class Template(NamedTuple):
-    """Names that a combination gives its files, without quotes; None for a name that it does not give."""
-
-    directory: str | None
-    subdirectory: str | None
-    filename: str | None
-
-
-class Namer:
-    """Generator of file names for the decks from one source."""
-
-    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
-        own = PurePath(deck.file).name
-        self.source = PurePath("deck" if path_fault(own) else own)
-        self.suffix = self.source.suffix or ".keyx"
-        self.targets = targets
-
-    def path(self, template: Template, values: Values, counter: str) -> tuple[str, str]:
-        """Return the path of a deck with `/` in the output folder, and the reason why it may not be used, or "".
-
-        `counter` distinguishes decks whose combination gives no name at all.
-
-        A deck without a name of its own has that of the source, in a folder of its own or followed by the counter.
-        """
-        missing: list[str] = []
-
-        def value_of(name: str) -> str:
-            value = self.targets.in_a_name(name, values)
-            if value is None:
-                missing.append(name)
-            return value or ""
-
-        folders = [filled(text, value_of) for text in (template.directory, template.subdirectory) if text is not None]
-        if template.filename is not None:
-            name = filled(template.filename, value_of)
-        else:
-            name = self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"
-        file = name if name.lower().endswith(_ENDINGS) else name + self.suffix
-        path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
-        if missing:
-            return path, f"needs the value of {shown(missing[0])}, which has none"
-        if "/" in name:
-            return path, "has a / in FILENAME=: folders belong in SUBDIRECTORY="
-        if "" in folders:
-            return path, "has a folder without a name"
-        return path, path_fault(name) or path_fault(path)
 
 
 def path_fault(path: str) -> str:
@@ -138,8 +83,8 @@ class Taken:
         place = same_place(path)
         parts = place.split("/")
         folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
-        holders = chain((self._files.get(name) for name in (place, *folders)), [self._folders.get(place)])
-        holder = next((number_there for number_there in holders if number_there is not None), None)
+        taken = [self._files[name] for name in (place, *folders) if name in self._files]
+        holder = taken[0] if taken else self._folders.get(place)
         if holder is None:
             self._files[place] = number
             for folder in folders:
@@ -202,26 +147,29 @@ class PlannedDeck:
     __repr__ = short_repr
 
 
-class CaseRewriter:
-    """Generator of the decks of a source that was read from text."""
+@dataclass(frozen=True, slots=True)
+class ExpansionPlan:
+    """Decks of an expansion, in the order of `*COMBINATIONS`.
 
-    def __init__(self, deck: Deck, targets: ParameterTargets) -> None:
-        self.deck = deck
-        self.targets = targets
-        origin = cast("TextOrigin", deck.origin)
-        self.source = origin.source
-        self.tree = origin.tree
-        self._left_out = frozenset(
-            (index, number)
-            for index, section in enumerate(self.tree.sections)
-            if section.name == "PREPROCESSOR"
-            for number, block in enumerate(section.blocks)
-            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
-        )
+    Attributes:
+        source: name of the file of the source.
+        deck: the source as it was read from text.
+        targets: its parameters.
+        decks: the planned decks.
+        notes: remarks for a reader.
+    """
+
+    source: str
+    deck: Deck
+    targets: ParameterTargets
+    decks: Sequence[PlannedDeck]
+    notes: Sequence[str] = ()
+
+    __repr__ = short_repr
 
     def content(self, planned: PlannedDeck) -> bytes:
         """Return a new deck, in the form given by its path's suffix."""
-        content = edited_bytes(self.source, self.edits(planned))
+        content = edited_bytes(cast("TextOrigin", self.deck.origin).source, self.edits(planned))
         form = form_of(planned.path)
         if form == "keyword":
             return content
@@ -231,63 +179,44 @@ class CaseRewriter:
     def edits(self, planned: PlannedDeck) -> list[TextEdit]:
         """Return the edits of the source's text that give a planned deck."""
         edits: list[TextEdit] = []
-        for name, text in planned.values.items():
+        for name, value in planned.values.items():
             target = self.targets.target(name)
-            if text != target.text:
-                edits.append(TextEdit(target.span, text))
-        gone = set(self._left_out)
+            if value != target.text:
+                edits.append(TextEdit(target.span, value))
+        origin = cast("TextOrigin", self.deck.origin)
+        text, sections = origin.source.unified, origin.tree.sections
+        gone = {
+            (index, number)
+            for index, section in enumerate(sections)
+            if section.name == "PREPROCESSOR"
+            for number, block in enumerate(section.blocks)
+            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
+        }
         for action in planned.actions:
             if isinstance(action, Removal):
                 gone |= action.blocks
-            else:
-                edits.append(self._insertion(action.section, action.text))
-        for section, number in sorted(gone):  # comments and blank lines after a block belong to the next one
-            block = self.tree.sections[section].blocks[number]
-            edits.append(TextEdit(Span(block.head.span.start, self._end(section, block)), ""))
+                continue
+            raw = sections[action.section]  # lines are added after the last line of a section that is not a comment
+            head = cast("Leaf", raw.head)
+            last = _end(text, raw, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
+            lacks_end = not text.endswith("\n", 0, last)
+            edits.append(TextEdit(Span(last, last), f"\n{action.text}" if lacks_end else action.text))
+        for index, number in sorted(gone):  # comments and blank lines after a block belong to the next one
+            block = sections[index].blocks[number]
+            edits.append(TextEdit(Span(block.head.span.start, _end(text, sections[index], block)), ""))
         return edits
 
-    def _insertion(self, section: int, text: str) -> TextEdit:
-        """Return the insertion of lines after the last line of a section that is not a comment."""
-        raw = self.tree.sections[section]
-        head = cast("Leaf", raw.head)
-        at = self._end(section, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
-        lacks_end = not self.source.unified.endswith("\n", 0, at)
-        return TextEdit(Span(at, at), f"\n{text}" if lacks_end else text)
 
-    def _end(self, section: int, block: RawBlock) -> int:
-        declared = catalogue.block_class(self.tree.sections[section].name, block.name)
+def _end(text: str, section: RawSection, block: RawBlock) -> int:
+    """Return the end of the last line of a block that is not a comment."""
+    declared = catalogue.block_class(section.name, block.name)
 
-        def is_data(leaf: Leaf) -> bool:
-            if leaf.kind is LeafKind.UNDECIDED:
-                return declared is None or first_key(self.source.unified, leaf.span) in all_keys(declared)
-            return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
+    def is_data(leaf: Leaf) -> bool:
+        if leaf.kind is LeafKind.UNDECIDED:
+            return declared is None or first_key(text, leaf.span) in all_keys(declared)
+        return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
 
-        return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
-
-
-@dataclass(frozen=True, slots=True)
-class ExpansionPlan:
-    """Decks of an expansion, in the order of `*COMBINATIONS`.
-
-    Attributes:
-        source: name of the file of the source.
-        decks: the planned decks.
-        rewriter: generator of their texts.
-        notes: remarks for a reader.
-        companions: files next to the source that the new decks name too.
-    """
-
-    source: str
-    decks: Sequence[PlannedDeck]
-    rewriter: CaseRewriter
-    notes: Sequence[str] = ()
-    companions: Sequence[str] = ()
-
-    __repr__ = short_repr
-
-    def content(self, planned: PlannedDeck) -> bytes:
-        """Return the content of a planned deck."""
-        return self.rewriter.content(planned)
+    return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
 
 
 # -------------------------------------------------------------------------------------------- manifest and conflicts
@@ -322,10 +251,10 @@ def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]
 
 def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
     """Return the files named by the new decks that at least one of them would not find."""
-    parents = {(folder / deck.path).parent for deck in planned.decks} if planned.companions else set()
+    parents = {(folder / deck.path).parent for deck in planned.decks}
     return [
         name
-        for name in planned.companions
+        for name in companions(planned.deck)
         if not all(os.path.exists(parent / name) for parent in parents)  # noqa: PTH110 - Path raises where it may not look
     ]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from itertools import product
 from math import prod
 from pathlib import PurePath
@@ -11,41 +12,59 @@ from typing import TYPE_CHECKING
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
-from mudline.editing.variations.cases import CaseReader, Cases, ParameterTargets, Values
+from mudline.editing.variations.cases import Action, ParameterTarget, ParameterTargets, RefusedError, Values, action_of
 from mudline.editing.variations.files import (
     MANIFEST,
-    CaseRewriter,
     ExpansionPlan,
-    Namer,
     PlannedDeck,
     Taken,
-    Template,
-    companions,
+    path_fault,
 )
-from mudline.editing.variations.names import name_key, placeholders, undefined_variation, unquoted
+from mudline.editing.variations.names import filled, name_key, placeholders, undefined_variation, unquoted
 from mudline.language.codes import EXP001
+from mudline.language.codes.references import REF013
+from mudline.language.deck.forms import SUFFIXES
 from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import NoValueError
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Equation
 from mudline.language.syntax.source import Source
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import Combination
+    from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
 
 
+_ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
+"""Suffixes of decks; a file name without one gets the suffix of the source."""
+_NOISE = Decimal("1e-9")
+"""Share of a step by which a range may miss its last value: ends may come from equations."""
 MOST_LOOKED_AT = 1000
 """Number of decks whose names are checked if none is to be written."""
 
 
 @dataclass(frozen=True, slots=True)
+class Cases:
+    """A variation: names of parameters, a row of their values for each case, and the actions in every case."""
+
+    name: str
+    parameters: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    actions: Sequence[Action]
+
+
+@dataclass(frozen=True, slots=True)
 class _CaseGroup:
-    """A combination with its variations: a deck for each combination of their cases."""
+    """A combination with its variations: a deck for each combination of their cases.
+
+    `names` are those that it gives its decks: folder, folder below it, file; None for a name that it does not give.
+    """
 
     where: Where
     combination: Combination
-    template: Template
+    names: Sequence[str | None]
     cases: Sequence[Cases]
 
     @property
@@ -79,15 +98,12 @@ class _Planner:
         self.deck = deck
         self.text = as_text(deck).require()
         self.targets = ParameterTargets(self.text)
-        self.namer = Namer(deck, self.targets)
-        self.rewriter = CaseRewriter(self.text, self.targets)
         self.problems: list[Problem] = []
         self.effort = Effort()
 
     def plan(self, most_named: int = MOST_DECKS) -> ExpansionPlan:
-        reader = CaseReader(self.text, self.targets)
-        variations = reader.read()
-        self.problems += self.targets.parameters.problems + reader.problems
+        variations = self._variations()
+        self.problems = [*self.targets.parameters.problems, *self.problems]
         groups = [group for group in self._groups(variations) if self._is_valid(group)]
         self._raise_any()
         total = sum(group.count for group in groups)
@@ -98,10 +114,11 @@ class _Planner:
         self._raise_any()
         decks = self._named(groups, total) if total <= most_named else []
         self._raise_any()
-        self._readable(decks)
-        self._raise_any()
         notes = ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"] if self._excel() else []
-        return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, notes, companions(self.text))
+        planned = ExpansionPlan(PurePath(self.deck.file).name, self.text, self.targets, decks, notes)
+        self._readable(planned)
+        self._raise_any()
+        return planned
 
     def _report(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
@@ -114,15 +131,104 @@ class _Planner:
         there = "EXCEL VARIATIONS" in self.deck.keywords("PREPROCESSOR")
         return " (*EXCEL VARIATIONS is not expanded)" if there else ""
 
+    # --------------------------------------------------------------------------------------------------- variations
+
+    def _variations(self) -> dict[str, Cases]:
+        """Return every variation by its name in the form in which names are compared."""
+        by_name: dict[str, Cases] = {}
+        for where, block in self.text.blocks("VARIATION", "PREPROCESSOR"):
+            for index, variation in enumerate(block.variations):
+                place = where.inside("variations", index)
+                cases = self._cases(variation, place)
+                if name_key(cases.name) in by_name:
+                    message = f"variation {shown(cases.name)} is already defined: choose another name"
+                    self._report(message, place.inside("name"))
+                by_name[name_key(cases.name)] = cases
+        return by_name
+
+    def _cases(self, variation: NamedVariation, where: Where) -> Cases:
+        name = unquoted(variation.name)
+        columns: dict[str, list[str]] = {}
+        for index, varied in enumerate(variation.parameters):
+            place = where.inside("parameters", index)
+            if problem := self.targets.undefined(unquoted(varied.parameter), place):
+                self.problems.append(problem)
+                continue
+            target = self.targets.target(unquoted(varied.parameter))
+            if target.name in columns:
+                self._report(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
+                continue
+            columns[target.name] = self._values(varied, target, place)
+        self._check_counts(name, columns, where)
+        rows = list(zip(*columns.values(), strict=False)) if columns else [()]
+        actions = list[Action]()
+        for at, varied_block in enumerate(variation.blocks):
+            try:
+                actions.append(action_of(self.text, varied_block))
+            except RefusedError as reason:
+                self._report(str(reason), where.inside("blocks", at))
+        return Cases(name, list(columns), rows, actions)
+
+    def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
+        """Report a problem unless all parameters of a variation, which change together, have equally many values."""
+        counts = {len(values) for values in columns.values() if values}
+        if len(counts) > 1:
+            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
+            message = (
+                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
+                "Put those that vary independently into separate variations"
+            )
+            self._report(message, where)
+
+    def _values(self, varied: VariedParameter, target: ParameterTarget, where: Where) -> list[str]:
+        """Return the values as fields of `*PARAMETERS`; an empty list if they are faulty."""
+        if varied.generate is not None:
+            return self._range(varied.generate, where.inside("generate"))
+        if not varied.values:
+            self._report(f"PARA={varied.parameter} has no value", where)
+        values: list[str] = []
+        for index, text in enumerate(varied.values or []):
+            place = where.inside("values", index)
+            field = target.field(text)
+            if field is None:
+                what = f"value {index + 1} of PARA={varied.parameter}, {shown(text)},"
+                self._report(f"{what} cannot be a value: correct it", place)
+                return []
+            if equation := Equation.match(field):  # it may have a value in some cases only
+                try:
+                    self.targets.parameters.evaluate(equation, place)
+                except NoValueError as reason:
+                    if reason.problem and reason.problem.code == REF013:
+                        self.problems.append(reason.problem)
+            values.append(field)
+        return values
+
+    def _range(self, given: ValueRange, where: Where) -> list[str]:
+        ends = (given.start, given.end, 1.0 if given.increment is None else given.increment)
+        numbers = [self.targets.parameters.number(end) for end in ends]
+        known = [Decimal(repr(number)) for number in numbers if number is not None]
+        if len(known) < len(numbers):
+            self._report("GEN= needs numbers, or equations that give numbers", where)
+            return []
+        start, end, step = known
+        steps = (end - start) / step + _NOISE if step else Decimal(-1)
+        if steps < 0:
+            self._report(f"GEN= gives no value: from {start} to {end} in steps of {step}", where)
+            return []
+        if steps >= MOST_DECKS:
+            self._report(f"GEN= gives more than {MOST_DECKS} values: correct the increment", where)
+            return []
+        return [_spelled(start + step * index) for index in range(int(steps) + 1)]
+
     # ------------------------------------------------------------------------------------------------- combinations
 
     def _groups(self, variations: dict[str, Cases]) -> Iterator[_CaseGroup]:
         for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
             for index, combination in enumerate(block.combinations):
                 place = where.inside("combinations", index)
-                names = (block.directory, combination.subdirectory, combination.filename)
-                template = Template(*(name if name is None else unquoted(name) for name in names))
-                yield _CaseGroup(place, combination, template, self._called(combination, place, variations))
+                given = (block.directory, combination.subdirectory, combination.filename)
+                names = [name if name is None else unquoted(name) for name in given]
+                yield _CaseGroup(place, combination, names, self._called(combination, place, variations))
 
     def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
         """Return the variations that a combination calls, each once; if it names none, all of the deck."""
@@ -154,7 +260,7 @@ class _Planner:
                     )
                     self._report(message, group.where)
                 owners[name] = cases.name
-        for name in (name for text in group.template if text is not None for name in placeholders(text)):
+        for name in (name for text in group.names if text is not None for name in placeholders(text)):
             if problem := self.targets.undefined(name, group.where):
                 self.problems.append(problem)
         return len(self.problems) == before
@@ -170,7 +276,7 @@ class _Planner:
         for group in groups:
             for values in _products(group.cases):
                 number = len(decks)
-                path, fault = self.namer.path(group.template, values, f"{number + 1:0{len(str(total))}d}")
+                path, fault = self._path(group.names, values, f"{number + 1:0{len(str(total))}d}")
                 names = [cases.name for cases in group.cases]
                 actions = [action for cases in group.cases for action in cases.actions]
                 deck = PlannedDeck(path, unquoted(group.combination.description), names, values, actions)
@@ -184,15 +290,44 @@ class _Planner:
                     return decks
         return decks
 
-    def _readable(self, decks: Sequence[PlannedDeck]) -> None:
+    def _path(self, names: Sequence[str | None], values: Values, counter: str) -> tuple[str, str]:
+        """Return the path of a deck with `/` in the output folder, and the reason why it may not be used, or "".
+
+        A deck without a name of its own has that of the source, in a folder of its own or followed by the counter.
+        """
+        own = PurePath(self.deck.file).name
+        source, missing = PurePath("deck" if path_fault(own) else own), list[str]()
+
+        def value_of(name: str) -> str:
+            value = self.targets.in_a_name(name, values)
+            if value is None:
+                missing.append(name)
+            return value or ""
+
+        directory, subdirectory, filename = (None if text is None else filled(text, value_of) for text in names)
+        name = filename
+        if name is None:
+            name = source.name if subdirectory is not None else f"{source.stem} {counter}"
+        file = name if name.lower().endswith(_ENDINGS) else name + (source.suffix or ".keyx")
+        folders = [folder for folder in (directory, subdirectory) if folder is not None]
+        path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
+        if missing:
+            return path, f"needs the value of {shown(missing[0])}, which has none"
+        if "/" in name:
+            return path, "has a / in FILENAME=: folders belong in SUBDIRECTORY="
+        if "" in folders:
+            return path, "has a folder without a name"
+        return path, path_fault(name) or path_fault(path)
+
+    def _readable(self, planned: ExpansionPlan) -> None:
         """Read a deck for each set of actions: the lines that a file adds may be faulty."""
         tried: set[tuple[int, ...]] = set()
-        for deck in decks:
+        for deck in planned.decks:
             key = tuple(id(action) for action in deck.actions)
             if key in tried:
                 continue
             tried.add(key)
-            content = self.rewriter.content(PlannedDeck("", "", (), deck.values, deck.actions))
+            content = planned.content(replace(deck, path=""))
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
             for fault in read.diagnose(faults[:SHOWN_ROWS]):
@@ -217,3 +352,11 @@ def _clash(deck: PlannedDeck, holder: PlannedDeck | None) -> str:
         return "is that of the manifest"
     same = "" if deck.path == holder.path else f" (as {shown(holder.path)})"
     return f"is that of the deck with {listed(holder.values)}{same}: name what differs with %parameter%"
+
+
+def _spelled(number: Decimal) -> str:
+    """Return a number in digits, a whole number without a point; the shortest form if very large or small."""
+    if not number:
+        return "0"
+    plain = number.normalize()
+    return format(plain, "f") if -15 < plain.adjusted() < 16 else repr(float(plain)).upper()

@@ -120,7 +120,10 @@ class ExportLine:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineModel:
-    """Lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is the water depth at X = 0."""
+    """Lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is the water depth at X = 0.
+
+    `soil` is that of most of the pipe around touchdown, for targets with one seabed.
+    """
 
     scene: Scene
     report: ExportReport
@@ -130,7 +133,7 @@ class LineModel:
     gravity: float
     sections: list[PipeSection]
     soils: list[ExportSoil]
-    soil_lengths: Floats
+    soil: ExportSoil
     at_touchdown: bool
     ends: list[End]
     lines: list[ExportLine]
@@ -173,10 +176,11 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     places = positions_used[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
     ends, lines = _lines(scene, report, units, of_element, soil_of)
     result = scene.contact().evaluate(positions_used)
-    carried = np.array([each.stiffness > 0.0 for each in soils])[soil_of]
-    near = _around_touchdown(result, (result.depth.reshape(-1) > 0.0) & carried)
-    weights = np.select([near, result.depth.reshape(-1) > 0.0], [1e12, 1e6], 1.0)
-    lengths = np.bincount(soil_of, scene.length * weights, len(soils)).astype(np.float64)
+    carrying, below = np.array([each.stiffness > 0.0 for each in soils]), result.depth.reshape(-1) > 0.0
+    near = _around_touchdown(result, below & carrying[soil_of])
+    weights = np.select([near, below], [1e12, 1e6], 1.0)
+    lengths = np.bincount(soil_of, scene.length * weights, len(soils))
+    soil = soils[int(np.argmax(np.where(carrying, lengths, -1.0)))]
     seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
     density = around.density * units.mass / units.length**3
     si = (depth * units.length, density, around.gravity * units.length)
@@ -190,7 +194,7 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
         ("ELEMENT SETS", "sections of the lines"),
     ):
         report.claim(keyword, target)
-    return LineModel(scene, report, places, *si, sections, soils, lengths, bool(near.any()), ends, lines, seabed, units)
+    return LineModel(scene, report, places, *si, sections, soils, soil, bool(near.any()), ends, lines, seabed, units)
 
 
 def _around_touchdown(result: ContactResult, carried: Mask) -> Mask:

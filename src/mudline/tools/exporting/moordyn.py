@@ -17,9 +17,7 @@ from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.line_model import LineModel, LineStretch, PipeSection, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames
 from mudline.tools.exporting.soil import (
-    ExportSoil,
     distance,
-    governing,
     report_friction,
     report_governing,
     report_resistance,
@@ -58,7 +56,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     taken = {at: names.take(model.sections[at].name, model.sections[at].where) for at in dict.fromkeys(first)}
     types = [taken[at] for at in first]
     points, lines = _joined(model, types)
-    soil = governing(model.soils, model.soil_lengths)
+    soil = model.soil
     width = {part.soil: model.sections[part.section].buoyancy for line in model.lines for part in line.stretches}
     own, heaviest = width[model.soils.index(soil)], max(each.mass for each in model.sections)
     stiffness, friction = soil.stiffness / own, soil.axial
@@ -77,7 +75,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
         ("100.0", "TmaxIC"),
         ("1e-5", "threshIC"),
     ]
-    _report(model, types, soil, stiffness, width)
+    _report(model, types, stiffness, width)
     text = [
         *model.report.comments(TITLE),
         "--- LINE TYPES ---",
@@ -192,8 +190,8 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 # --------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, types: list[str], soil: ExportSoil, stiffness: float, width: dict[int, float]) -> None:
-    report = model.report
+def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float]) -> None:
+    report, soil = model.report, model.soil
     report_sections(model, types, torsion=False)
     report_ends(report, model.ends, "Fixed", "Coupled")
     report_governing(report, model.soils, soil, at_touchdown=model.at_touchdown)

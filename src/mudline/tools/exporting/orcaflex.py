@@ -18,9 +18,7 @@ from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.line_model import LineModel, LineStretch, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames, one_line, short_name
 from mudline.tools.exporting.soil import (
-    ExportSoil,
     distance,
-    governing,
     kilo,
     report_friction,
     report_governing,
@@ -68,13 +66,12 @@ def write(model: LineModel, name: str) -> dict[str, str]:
         if end.joins:
             message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
             raise model.scene.refusal(message, model.scene.nodes.where(end.node))
-    soil = governing(model.soils, model.soil_lengths)
     keys = dict.fromkeys(_key(model, piece) for parts in pieces(model) for piece in parts)
     taken = TargetNames(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
     names = {key: taken.take(model.sections[key[0]].name, model.sections[key[0]].where) for key in keys}
-    environment = _environment(model, soil)
+    environment = _environment(model)
     lines = [_line(model, at, names) for at in range(len(model.lines))]
-    _report(model, names, soil)
+    _report(model, names)
     text = ["%YAML 1.1", *(f"# {line}" for line in model.report.comments(TITLE)), "---"]
     text += ["General:", "  UnitsSystem: SI", "Environment:", *_rows(environment, "  ")]
     types = [_line_type(model, key, each) for key, each in names.items()]
@@ -169,8 +166,8 @@ def _end(model: LineModel, index: int, piece: LineStretch) -> list[object]:
 # ----------------------------------------------------------------------------------------------------- environment
 
 
-def _environment(model: LineModel, soil: ExportSoil) -> Items:
-    shape = model.scene.seabed
+def _environment(model: LineModel) -> Items:
+    shape, soil = model.scene.seabed, model.soil
     half = 0.5 * soil.diameter
     law = soil.says() if soil.where is None else f"{soil.says()}, line {model.scene.line_of(soil.where)}"
     items: Items = {
@@ -232,13 +229,13 @@ def _profile(model: LineModel, half: float) -> Items:
 # ---------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
-    report = model.report
+def _report(model: LineModel, names: dict[Key, str]) -> None:
+    report, soil = model.report, model.soil
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
     report_sections(model, listed, torsion=True)
     report_ends(report, model.ends, "Fixed", "Fixed", clamps=True)
     if soil.kind is LawKind.SOIL:
-        _report_soil(model, soil)
+        _report_soil(model)
     per_area = soil.stiffness / soil.diameter
     others = [each for each in model.soils if soil.kind is not LawKind.SOIL or each.kind is not LawKind.SOIL]
     report_governing(report, others, soil, at_touchdown=model.at_touchdown)
@@ -260,7 +257,8 @@ def _report(model: LineModel, names: dict[Key, str], soil: ExportSoil) -> None:
     report.finish()
 
 
-def _report_soil(model: LineModel, soil: ExportSoil) -> None:
+def _report_soil(model: LineModel) -> None:
+    soil = model.soil
     numbers = dict(soil.parameters)
     changed = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"

@@ -82,7 +82,6 @@ class ExportReport:
     scene: ResolvedDeck
     entries: list[ExportEntry] = field(default_factory=list)
     _claimed: set[tuple[int, int]] = field(default_factory=set)
-    _seen: set[ExportEntry] = field(default_factory=set)
 
     def add(self, where: Where | None, status: Outcome, target: str, effect: str = "", setting: str = "") -> None:
         """Add the result for the block at a place, or for a `setting` in it; nothing without a place."""
@@ -94,10 +93,7 @@ class ExportReport:
         base = deck.base_of(where)
         line = self.scene.line_of(where)
         name = f"*{one_line(keyword)}{f' {setting}' if setting else ''}"
-        entry = ExportEntry(name, base[0].file if base else deck.file, line, status, target, effect)
-        if entry not in self._seen:
-            self._seen.add(entry)
-            self.entries.append(entry)
+        self.entries.append(ExportEntry(name, base[0].file if base else deck.file, line, status, target, effect))
 
     def claim(self, keyword: str, target: str, section: str = "MODEL") -> None:
         """Report all blocks of a keyword as carried."""
@@ -115,7 +111,8 @@ class ExportReport:
                     subject = "post-processing"
                 effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
                 self.add(where, Outcome.LEFT_OUT, "none", effect)
-        self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
+        each_once = dict.fromkeys(self.entries)
+        self.entries = sorted(each_once, key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
 
     @property
     def lost(self) -> list[ExportEntry]:

@@ -209,12 +209,6 @@ def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tu
     return force / high, slope
 
 
-def governing(soils: list[ExportSoil], length: Floats) -> ExportSoil:
-    """Return the seabed of most of the pipe around touchdown, by `length` (k,), for targets with one seabed."""
-    carrying = np.array([each.stiffness > 0.0 for each in soils])
-    return soils[int(np.argmax(np.where(carrying, length, -1.0)))]
-
-
 def report_governing(report: ExportReport, soils: list[ExportSoil], main: ExportSoil, *, at_touchdown: bool) -> None:
     """Report the stiffness in a target with one seabed, and the range over the line if stiffnesses differ."""
     carrying = [each.stiffness for each in soils if each.stiffness > 0.0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
@@ -282,12 +283,8 @@ def _judged(study: Study) -> tuple[str, str, float | None]:
 
 def _advised(rows: Sequence[StepRow]) -> float | None:
     """Return the largest step whose errors, and those of all shorter steps, are within 1 %."""
-    largest = None
-    for row in reversed(rows):
-        if row.worst > ADVISED:
-            break
-        largest = row.step
-    return largest
+    fine = list(takewhile(lambda row: row.worst <= ADVISED, reversed(rows)))
+    return fine[-1].step if fine else None
 
 
 def about(share: float) -> str:

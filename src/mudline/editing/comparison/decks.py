@@ -1,7 +1,8 @@
-"""Decks with superseded and with newer seabed keywords: differences of spelling, and of meaning."""
+"""Two decks, or the decks of two folders, compared: differences of meaning, and of spelling in superseded keywords."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
@@ -22,9 +23,11 @@ from mudline.editing.comparison.comparing import (
     shown_points,
 )
 from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, plain
+from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
-from mudline.language.diagnostics import Diagnostic
+from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck
+from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
@@ -96,6 +99,43 @@ def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: 
     before, after = resolve(first), resolve(second)
     differences = compare(before, after, tolerance)
     return Comparison(differences, []) if strict else without_spelling(before, after, differences, tolerance)
+
+
+def compare_folders(
+    before: str, after: str, tolerance: float, *, strict: bool, units: str | None = None, gitignore: bool = True
+) -> Iterator[ComparedDeck]:
+    """Yield each relative path of a deck below one of two folders, in sorted order, with the result of its comparison.
+
+    Files that cannot be read and decks with errors are included with the status "failed".
+    """
+    searches = [Search(folder, gitignore) for folder in (before, after)]
+    old, new = (
+        {name: Path(path) for name, path in search.files(lambda path: is_in_any_form(path) and may_be_deck(path))}
+        for search in searches
+    )
+    for error in (error for search in searches for error in search.unreadable):
+        name = str(error.filename).replace(os.sep, "/")
+        yield ComparedDeck(name, DeckStatus.FAILED, unread=error)
+    for name in sorted({*old, *new}):
+        if name not in old or name not in new:
+            yield ComparedDeck(name, DeckStatus.REMOVED if name in old else DeckStatus.ADDED)
+            continue
+        names = old[name].as_posix(), new[name].as_posix()
+        try:
+            first, second = (
+                load_bytes(path.read_bytes(), path.as_posix(), units=units, folder=path.parent)
+                for path in (old[name], new[name])
+            )
+            compared = compare_decks(first, second, tolerance, strict=strict)
+        except DeckError as error:
+            yield ComparedDeck(name, DeckStatus.FAILED, *names, errors=error.diagnostics)
+        except OSError as error:
+            yield ComparedDeck(name, DeckStatus.FAILED, *names, unread=error)
+        else:
+            yield ComparedDeck(name, DeckStatus.CHANGED if compared.differences else DeckStatus.EQUAL, *names, compared)
+
+
+# -------------------------------------------------------------------------------------------------- superseded keywords
 
 
 def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], tolerance: float = 0.0) -> Comparison:

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.editing.comparison import model
+from mudline.editing.comparison import sets
 from mudline.editing.comparison.comparing import compare
-from mudline.editing.comparison.model import Spans, spans_of, spans_of_run, text_of, union
+from mudline.editing.comparison.sets import Spans, spans_of, spans_of_run, text_of, union
 from mudline.language.deck.loading import load_bytes
 from mudline.model.scene.model import resolve
 
@@ -66,7 +66,7 @@ def test_a_text_names_all_numbers_whatever_its_pieces(runs: list[tuple[int, int,
     text = text_of(spans_of(np.array(numbers, dtype=np.int64)))
     assert read_back(text) == numbers
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(model, "_AT_ONCE", piece)
+        patch.setattr(sets, "_AT_ONCE", piece)
         assert text_of(spans_of(np.array(numbers, dtype=np.int64))) == text
 
 
