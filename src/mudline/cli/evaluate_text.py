@@ -26,7 +26,6 @@ from mudline.model.results.series import SeriesSummary
 from mudline.model.results.summary_tables import law_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
-    StepTotal,
     acted_on,
     carried,
     line_steps,
@@ -69,7 +68,7 @@ class Screen:
         self.most = view.most
         self.every = every or view.verbose
         self.first: ResultPart | None = None
-        self.steps: list[StepTotal] = []
+        self.steps: list[dict[str, Any]] = []
         self.lines: list[LineSummary] = []
         self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
 
@@ -271,7 +270,7 @@ def _print_steps(printer: Printer, screen: Screen) -> None:
         number(f"last\n{which}", "last"),
         *(of_gap if of_nodes else [number("largest\ndepth", "deepest", names.length)]),
         number("total\nreaction", "reaction", names.force),
-        number("suction\nor hold", "sucked", optional=True),
+        *([] if of_nodes else [number("suction\nor hold", "sucked", optional=True)]),
         number("nodes\nslipping", "slipping", optional=True),
     ]
     left = evaluation.steps - len(rows)
@@ -408,4 +407,4 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
         number("rms\ndifference", lambda row: shown(row["rms"], 4)),
     ]
     title = f"Compared with {comparison.reference.file}"
-    view.printer().table(DisplayTable(title, columns, comparison.summary()["columns"]))
+    view.printer().table(DisplayTable(title, columns, comparison.differences))
