@@ -266,7 +266,7 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
     tables = {table: [*facts[table], *_extremes(summary, table, times)] for table in facts}
     for (table, name), counts in summary.counts.items():
         if table in facts:
-            tables[table].append(_column(name, counts))
+            tables[table].append(ResultColumn(name, counts))
     tables["totals"] = _totals(summary, times)
     more = {
         "steps": evaluation.steps,
@@ -284,10 +284,10 @@ def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Itera
         quantity = of_table[_OF_LINES.get(figure, figure) if table == "summary" else figure]
         for side, best in (("least", extremes.least), ("largest", extremes.largest)):
             name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
-            yield _column(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
-            yield _column(f"{name}_step", steps, blank=_NO_STEP)
+            yield ResultColumn(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
+            yield ResultColumn(f"{name}_step", steps, blank=_NO_STEP)
             if times is not None:
-                yield _column(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
+                yield ResultColumn(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
@@ -298,16 +298,12 @@ def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
     steps = np.array([peak.step for peak in largest], np.int64)
     elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
     columns = [
-        ResultColumn("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
-        _column("largest", np.array([peak.value for peak in largest])),
-        _column("step", steps, blank=_NO_STEP),
-        _column("element", elements, blank=NO_ELEMENT),
+        ResultColumn("figure", np.arange(len(STEPS)), (*STEPS, None)),
+        ResultColumn("largest", np.array([peak.value for peak in largest])),
+        ResultColumn("step", steps, blank=_NO_STEP),
+        ResultColumn("element", elements, blank=NO_ELEMENT),
     ]
     if times is not None:
         unit = time_unit(summary.evaluation.scene.units)
-        columns.insert(3, _column("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
+        columns.insert(3, ResultColumn("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
     return columns
-
-
-def _column(name: str, values: Values, *, blank: int | None = None, unit: str = "") -> ResultColumn:
-    return ResultColumn(name, values, over_steps=False, blank=blank, unit=unit)
