@@ -221,15 +221,15 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
 
     The first cells are the numbers. A joined row has the largest of its values; the last value is True if some differ.
     """
-    numbers, rest = [int(row[0]) for row in rows], [row[1:] for row in rows]
-    tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rest, strict=True)]
+    tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
+    numbers = [int(row[0]) for row in rows]
     starts: list[int] = []
-    for at, row in enumerate(rest):
+    for at, row in enumerate(rows):
         follows = at > 0 and numbers[at] == numbers[at - 1] + 1
-        if not follows or not all(map(_alike, row, rest[starts[-1]], tolerances)):
+        if not follows or not all(map(_alike, row[1:], rows[starts[-1]][1:], tolerances[1:])):
             starts.append(at)
-    for start, end in pairwise([*starts, len(rest)]):
-        columns = list(zip(*rest[start:end], strict=True))
+    for start, end in pairwise([*starts, len(rows)]):
+        _, *columns = zip(*rows[start:end], strict=True)
         yield (
             (_span(numbers[start], numbers[end - 1]), *map(_of_run, columns)),
             min(near[start:end]),
