@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import UnitNames, shown, time_unit, unit_names
+from mudline.basics.quantities import LINES, STEPS, UnitNames, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import ContactResult, Plan
@@ -26,7 +26,6 @@ from mudline.model.results.series import SeriesSummary
 from mudline.model.results.summary_tables import law_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
-    StepTotal,
     acted_on,
     carried,
     line_steps,
@@ -69,7 +68,7 @@ class Screen:
         self.most = view.most
         self.every = every or view.verbose
         self.first: ResultPart | None = None
-        self.steps: list[StepTotal] = []
+        self.steps: list[dict[str, Any]] = []
         self.lines: list[LineSummary] = []
         self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
 
@@ -222,15 +221,15 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
 
     The first cells are the numbers. A joined row has the largest of its values; the last value is True if some differ.
     """
-    numbers, rest = [int(row[0]) for row in rows], [row[1:] for row in rows]
-    tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rest, strict=True)]
+    tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
+    numbers = [int(row[0]) for row in rows]
     starts: list[int] = []
-    for at, row in enumerate(rest):
+    for at, row in enumerate(rows):
         follows = at > 0 and numbers[at] == numbers[at - 1] + 1
-        if not follows or not all(map(_alike, row, rest[starts[-1]], tolerances)):
+        if not follows or not all(map(_alike, row[1:], rows[starts[-1]][1:], tolerances[1:])):
             starts.append(at)
-    for start, end in pairwise([*starts, len(rest)]):
-        columns = list(zip(*rest[start:end], strict=True))
+    for start, end in pairwise([*starts, len(rows)]):
+        _, *columns = zip(*rows[start:end], strict=True)
         yield (
             (_span(numbers[start], numbers[end - 1]), *map(_of_run, columns)),
             min(near[start:end]),
@@ -271,7 +270,7 @@ def _print_steps(printer: Printer, screen: Screen) -> None:
         number(f"last\n{which}", "last"),
         *(of_gap if of_nodes else [number("largest\ndepth", "deepest", names.length)]),
         number("total\nreaction", "reaction", names.force),
-        number("suction\nor hold", "sucked", optional=True),
+        *([] if of_nodes else [number("suction\nor hold", "sucked", optional=True)]),
         number("nodes\nslipping", "slipping", optional=True),
     ]
     left = evaluation.steps - len(rows)
@@ -286,17 +285,16 @@ def _time(evaluation: Evaluation, value: str | int) -> DisplayColumn:
 def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
     """Print the extremes over all steps, including those not listed."""
     evaluation, times, peaks = series.evaluation, series.evaluation.time, series.totals()
-    names = unit_names(evaluation.scene.units)
     figures = {
-        "reaction": ("total reaction", names.force),
-        "force": ("force of an element", names.line_force),
-        "pull": ("suction force of an element", names.line_force),
-        "touching": ("elements in contact", ""),
-        "deepest": ("depth", names.length),
+        "reaction": "total reaction",
+        "force": "force of an element",
+        "pull": "suction force of an element",
+        "touching": "elements in contact",
+        "deepest": "depth",
     }
     rows = [
-        (what, peak.value, unit, float(times[peak.step]), series.number(peak))
-        for key, (what, unit) in figures.items()
+        (what, peak.value, STEPS[key].unit_name(evaluation.scene.units), float(times[peak.step]), series.number(peak))
+        for key, what in figures.items()
         if times is not None and (peak := peaks.get(key)) and not (key in {"force", "pull"} and peak.value == 0.0)
     ]
     columns = (text("largest", 0), number("value", 1), text("unit", 2), _time(evaluation, 3), number("element", 4))
@@ -352,24 +350,25 @@ def _touchdown(row: LineSummary) -> str:
 
 def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
     """Print the ranges of touchdown, length in contact, forces and reaction of each line."""
-    evaluation, times = series.evaluation, series.evaluation.time
-    names, lines = unit_names(evaluation.scene.units), evaluation.lines.tolist()
+    evaluation, times, lines = series.evaluation, series.evaluation.time, series.evaluation.lines.tolist()
     figures = {
-        "first": ("touchdown point", names.length),
-        "last": ("last touchdown point", names.length),
-        "contact_length": ("length in contact", names.length),
-        "force": ("largest force", names.line_force),
-        "uplift": ("uplift, negative", names.line_force),
-        "reaction": ("total reaction", names.force),
+        "first_touchdown": "touchdown point",
+        "last_touchdown": "last touchdown point",
+        "contact_length": "length in contact",
+        "largest_force": "largest force",
+        "largest_uplift": "uplift, negative",
+        "reaction": "total reaction",
     }
     rows = []
     for at, line in enumerate(lines):
         extents = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
-        several = "last" in extents and extents["last"] != extents.get("first")
+        first, last = extents.get("first_touchdown"), extents.get("last_touchdown")
+        if last == first:
+            extents.pop("last_touchdown", None)
         for name, extent in extents.items():
-            what, unit = figures[name]
-            if name != "last" or several:
-                rows.append((line + 1, f"first {what}" if name == "first" and several else what, unit, *extent))
+            what, unit = figures[name], LINES[name].unit_name(evaluation.scene.units)
+            both = name == "first_touchdown" and "last_touchdown" in extents
+            rows.append((line + 1, f"first {what}" if both else what, unit, *extent))
     columns = [
         *([number("line", 0)] if len(lines) > 1 else []),
         text("figure", 1),
@@ -408,4 +407,4 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
         number("rms\ndifference", lambda row: shown(row["rms"], 4)),
     ]
     title = f"Compared with {comparison.reference.file}"
-    view.printer().table(DisplayTable(title, columns, comparison.summary()["columns"]))
+    view.printer().table(DisplayTable(title, columns, comparison.differences))

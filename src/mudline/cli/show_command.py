@@ -25,15 +25,8 @@ from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
 from mudline.model.results.forms.text import write_text
-from mudline.model.results.summary_tables import (
-    Rows,
-    diameter_table,
-    elements_of,
-    set_table,
-    sheet_data,
-    sheet_tables,
-    static_table,
-)
+from mudline.model.results.sheet_tables import sheet_data, sheet_tables
+from mudline.model.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

@@ -58,8 +58,10 @@ def command(
     if output is not None and suffix_of(output) != "json":
         raise click.UsageError(f"-o {output}: unknown file format: give a name ending in .json")
     result = study(deck.load(), only=only, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
-    if plot.path is not None:
-        _plot(result, plot, view)
+    if plot.path is not None and not result.drawable:
+        notify("--plot: there is nothing to draw, as no step of this deck was measured")
+    else:
+        plot.write(lambda _: result.figure(), view)
     if output:
         emit_json(result.json(), output)
         view.note(f"study -> {Path(output).as_posix()}")
@@ -70,13 +72,6 @@ def command(
     elif not (output and view.quiet):
         _print(result, view.printer())
     return DONE
-
-
-def _plot(result: Study, plot: Plot, view: View) -> None:
-    if not result.drawable:
-        notify("--plot: there is nothing to draw, as no step of this deck was measured")
-        return
-    plot.write(lambda _: result.figure(), view)
 
 
 def _csv(whole: dict[str, Any]) -> Iterator[str]:

@@ -12,7 +12,6 @@ from mudline.model.contact import numpy_driver
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Tension, evaluate_scene
 from mudline.model.results.forms import text
-from mudline.model.results.totals import StepTotal
 from tests.helpers.builders.decks import CLEAN
 from tests.helpers.builders.scenes import scene_of
 from tests.model.results.written import arrays_of, json_of, pieces, steps_of
@@ -49,10 +48,19 @@ def test_totals_of_steps() -> None:
     evaluation = series(300)
     found = steps_of(evaluation)
     assert len(found) == 300
-    assert found[0] == StepTotal(0.0, 1, 1, 1, 0.1, 15000.0)
-    assert found[-1][1:4] == (2, 1, 2)
+    assert found[0] == {
+        "time": 0.0,
+        "reaction": 15000.0,
+        "touching": 1,
+        "first": 1,
+        "last": 1,
+        "slipping": None,
+        "deepest": 0.1,
+        "sucked": None,
+    }
+    assert (found[-1]["touching"], found[-1]["first"], found[-1]["last"]) == (2, 1, 2)
     summed = arrays_of(evaluation)["reaction"][..., 0].sum(axis=1)
-    assert np.allclose([each.reaction for each in found], summed, rtol=1e-12)
+    assert np.allclose([each["reaction"] for each in found], summed, rtol=1e-12)
 
 
 def test_positions_that_are_not_finite() -> None:

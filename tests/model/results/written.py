@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import FORMS, ResultOutput, Sink, contents_of, table_path, tables_of
 from mudline.model.results.forms.text import text_writer
-from mudline.model.results.totals import StepTotal, step_totals
+from mudline.model.results.totals import step_totals
 
 Json: TypeAlias = Any
 
@@ -59,6 +59,6 @@ def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
         return dict(archive)
 
 
-def steps_of(evaluation: Evaluation) -> list[StepTotal]:
+def steps_of(evaluation: Evaluation) -> list[dict[str, Any]]:
     """The figures of all steps."""
     return [row for part in evaluation.parts() for row in step_totals(evaluation, part)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -101,35 +101,19 @@ def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Ind
     return steps
 
 
-@dataclass(slots=True)
-class ColumnDifference:
-    """Differences in a column: our value less the other, and this over the larger magnitude of the two.
-
-    `largest` has the value and the place of the largest "difference" and "relative"; nothing if nothing was compared.
-    """
-
-    column: str
-    compared: int = 0
-    largest: dict[str, dict[str, Any]] = field(default_factory=dict)
-    squares: float = 0.0
-
-    def row(self) -> dict[str, Any]:
-        """Return the differences as JSON, with the root of their mean square."""
-        return {
-            "column": self.column,
-            "compared": self.compared,
-            "largest_difference": self.largest.get("difference"),
-            "largest_relative": self.largest.get("relative"),
-            "rms": float(np.sqrt(self.squares / self.compared)) if self.compared else None,
-        }
-
-
 class ResultComparison:
-    """Comparison of the steps of an evaluation with a file, a few steps at a time."""
+    """Comparison of the steps of an evaluation with a file, a few steps at a time.
+
+    Attributes:
+        differences: a row of JSON for each column: the number of values compared, the largest difference (ours less
+            the other) and the largest relative to the larger magnitude of the two, with their places; None without any.
+    """
 
     def __init__(self, evaluation: Evaluation, reference: Reference) -> None:
         self._evaluation, self.reference = evaluation, reference
-        self.differences = [ColumnDifference(name) for name in reference.values]
+        nothing = {"compared": 0, "largest_difference": None, "largest_relative": None, "rms": None}
+        self.differences: list[dict[str, Any]] = [{"column": name, **nothing} for name in reference.values]
+        self._squares = dict.fromkeys(reference.values, 0.0)
         met = np.zeros(len(evaluation.scene.element_ids), dtype=bool)
         met[reference.element] = True
         self.missing = evaluation.scene.element_ids[evaluation.elements[~met[evaluation.elements]]]
@@ -153,9 +137,9 @@ class ResultComparison:
     def take(self, part: ResultPart) -> None:
         """Compare some steps."""
         rows, step, element = self._rows(part)
-        for column, (name, theirs) in zip(self.differences, self.reference.values.items(), strict=True):
-            ours = getattr(part.result, name)[step, element]
-            self._compare(column, ours, theirs[rows], part.start + step, element)
+        for row in self.differences:
+            ours, theirs = getattr(part.result, row["column"])[step, element], self.reference.values[row["column"]]
+            self._compare(row, ours, theirs[rows], part.start + step, element)
 
     def _rows(self, part: ResultPart) -> tuple[slice, Indices, Indices]:
         """Return the rows of the file for some steps, and their steps and elements."""
@@ -164,31 +148,32 @@ class ResultComparison:
         rows = slice(first, last)
         return rows, reference.step[rows] - part.start, reference.element[rows]
 
-    def _compare(self, column: ColumnDifference, ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
+    def _compare(self, row: dict[str, Any], ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
         both = np.flatnonzero(~np.isnan(ours) & ~np.isnan(theirs))
         if not both.size:
             return
-        ours, theirs = ours[both], theirs[both]
+        ours, theirs, squares = ours[both], theirs[both], self._squares
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             difference = np.nan_to_num(ours - theirs)  # an overflow becomes the largest number
             size = np.maximum(np.abs(ours), np.abs(theirs))
             relative = np.where(size > 0.0, difference / size, 0.0)
-            column.squares = float(np.nan_to_num(column.squares + (difference * difference).sum()))
-        column.compared += int(both.size)
+            squares[row["column"]] = float(np.nan_to_num(squares[row["column"]] + (difference * difference).sum()))
+        row["compared"] += int(both.size)
+        row["rms"] = float(np.sqrt(squares[row["column"]] / row["compared"]))
         for name, values in (("difference", difference), ("relative", relative)):
-            largest = int(np.argmax(np.abs(values)))  # the first of several equal ones
-            if name not in column.largest or abs(values[largest]) > abs(column.largest[name][name]):
+            before, largest = row[f"largest_{name}"], int(np.argmax(np.abs(values)))  # the first of several equal ones
+            if before is None or abs(values[largest]) > abs(before[name]):
                 times, at = self._evaluation.time, both[largest]
                 number = int(self._evaluation.scene.element_ids[element[at]])
                 time = None if times is None else float(times[step[at]])
-                column.largest[name] = {name: float(values[largest]) + 0.0, "element": number, "time": time}
+                row[f"largest_{name}"] = {name: float(values[largest]) + 0.0, "element": number, "time": time}
 
     def summary(self) -> dict[str, Any]:
         """Return files, differences, and the elements and times missing on either side."""
         reference = self.reference
         return {
             "file": reference.file,
-            "columns": [column.row() for column in self.differences],
+            "columns": self.differences,
             "elements_not_in_deck": reference.unknown.tolist(),
             "elements_not_in_file": self.missing.tolist(),
             "times_not_evaluated": reference.lost_times.tolist(),

@@ -55,14 +55,13 @@ class Evaluation:
     lengths_from_positions: int = 0
     source: PositionSource = "file"
     """Source of the positions; the deck's own coordinates are rarely a solved shape."""
+    notes: tuple[str, ...] = ()
+    """Sentences about a resting shape."""
 
     def __repr__(self) -> str:
         elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")
         size = f"{self.scene.units}, {counted(self.steps, 'step')}, {elements}, {nodes}"
         return outline(f"Evaluation of {cut(self.scene.deck.file, 80)!r}", size)
-
-    notes: tuple[str, ...] = ()
-    """Sentences about a resting shape."""
 
     @property
     def steps(self) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -37,12 +37,8 @@ if TYPE_CHECKING:
 _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
 
 
-class UnknownKeyword(NamedTuple):
-    """An unknown keyword that looks like a seabed keyword: its first place, and the keyword suggested, or ""."""
-
-    where: Where
-    keyword: str
-    near: str
+UnknownKeyword = tuple[Where, str, str]
+"""An unknown keyword that looks like a seabed keyword: its first place, its name, and the keyword suggested, or ""."""
 
 
 def unknown_keywords(scene: ResolvedDeck) -> list[UnknownKeyword]:
@@ -58,7 +54,7 @@ def unknown_keywords(scene: ResolvedDeck) -> list[UnknownKeyword]:
         near = suggest_keyword(keyword, "MODEL", effort)
         of_seabed = bool(near) and (supersedes(near) or is_superseded(near) or is_extension(near))
         if of_seabed or (not near and keyword.split()[:1] == ["SEABED"]):
-            unknown.append(UnknownKeyword(where, keyword, near))
+            unknown.append((where, keyword, near))
     return unknown
 
 

@@ -63,13 +63,20 @@ def _of_nodes(evaluation: Evaluation, part: ResultPart) -> Figures:
     }
 
 
-LINE_FIGURES = ("first", "last", "contact_length", "force", "uplift", "reaction")
-"""Figures of `LineSeries` that are followed."""
+_OF_LINES = {
+    "first_touchdown": "first",
+    "last_touchdown": "last",
+    "contact_length": "contact_length",
+    "largest_force": "force",
+    "largest_uplift": "uplift",
+    "reaction": "reaction",
+}
+"""Quantities of `LINES` that are followed, and the figures of `LineSeries`."""
 
 
 def _of_lines(evaluation: Evaluation, part: ResultPart) -> Figures:
     lines = evaluation.touchdown.series(part)
-    values = {name: StepValues(_side_by_side(lines, name, part)) for name in LINE_FIGURES}
+    values = {name: StepValues(_side_by_side(lines, figure, part)) for name, figure in _OF_LINES.items()}
     return values | {
         "contact_steps": StepValues(values["contact_length"].values > 0.0),
         "touchdown_steps": StepValues(_side_by_side(lines, "points", part) > 0),
@@ -249,14 +256,6 @@ SERIES_FORMAT = "mudline-series/1"
 SERIES = ("elements", "nodes", "summary", "totals")
 """Tables with the figures of `series_tables`."""
 
-_OF_LINES = {
-    "first": "first_touchdown",
-    "last": "last_touchdown",
-    "force": "largest_force",
-    "uplift": "largest_uplift",
-}
-"""Quantities of `LINES` whose names differ from the figures of a line."""
-
 
 def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> ResultTables:
     """Return the tables of a summary, with the additional keys of JSON."""
@@ -266,7 +265,7 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
     tables = {table: [*facts[table], *_extremes(summary, table, times)] for table in facts}
     for (table, name), counts in summary.counts.items():
         if table in facts:
-            tables[table].append(_column(name, counts))
+            tables[table].append(ResultColumn(name, counts))
     tables["totals"] = _totals(summary, times)
     more = {
         "steps": evaluation.steps,
@@ -281,13 +280,13 @@ def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Itera
     """Yield the least and the largest value of each figure, with step and time."""
     units, of_table = summary.evaluation.scene.units, {"elements": ELEMENTS, "nodes": NODES, "summary": LINES}[table]
     for figure, extremes in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
-        quantity = of_table[_OF_LINES.get(figure, figure) if table == "summary" else figure]
+        quantity = of_table[figure]
         for side, best in (("least", extremes.least), ("largest", extremes.largest)):
             name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
-            yield _column(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
-            yield _column(f"{name}_step", steps, blank=_NO_STEP)
+            yield ResultColumn(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
+            yield ResultColumn(f"{name}_step", steps, blank=_NO_STEP)
             if times is not None:
-                yield _column(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
+                yield ResultColumn(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
@@ -298,16 +297,12 @@ def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
     steps = np.array([peak.step for peak in largest], np.int64)
     elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
     columns = [
-        ResultColumn("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
-        _column("largest", np.array([peak.value for peak in largest])),
-        _column("step", steps, blank=_NO_STEP),
-        _column("element", elements, blank=NO_ELEMENT),
+        ResultColumn("figure", np.arange(len(STEPS)), (*STEPS, None)),
+        ResultColumn("largest", np.array([peak.value for peak in largest])),
+        ResultColumn("step", steps, blank=_NO_STEP),
+        ResultColumn("element", elements, blank=NO_ELEMENT),
     ]
     if times is not None:
         unit = time_unit(summary.evaluation.scene.units)
-        columns.insert(3, _column("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
+        columns.insert(3, ResultColumn("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
     return columns
-
-
-def _column(name: str, values: Values, *, blank: int | None = None, unit: str = "") -> ResultColumn:
-    return ResultColumn(name, values, over_steps=False, blank=blank, unit=unit)

@@ -13,7 +13,7 @@ from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart, total_normal_force
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.scene.numbering import Floats, Ids, Indices, Mask
+from mudline.model.scene.numbering import Floats, Indices, Mask
 
 NOT_KNOWN = "not known"
 """Text for the reaction of a rigid seabed, and for one that overflows."""
@@ -32,31 +32,6 @@ def touchdown_words(places: Sequence[float], contact: float | None, length: floa
     if not contact:
         return "none"
     return "all on the seabed" if length is not None and contact > (1.0 - _SLACK) * length else ""
-
-
-class StepTotal(NamedTuple):
-    """All evaluated elements or nodes at one step.
-
-    Attributes:
-        touching: number of elements in contact, or of nodes that the seabed acts on.
-        first, last: numbers of the first and the last of these, in the order of the deck.
-        deepest: largest depth of an element; None for nodes, and without a seabed.
-        sucked: number of elements in the states suction and hold; None without suction, and for nodes.
-        slipping: number of nodes that slip in a direction; None without friction.
-        gap: smallest distance of a node from the seabed; None without a seabed, and for elements.
-        largest: largest normal force on a node; None for elements.
-    """
-
-    time: float
-    touching: int
-    first: int | None
-    last: int | None
-    deepest: float | None
-    reaction: float
-    sucked: int | None = None
-    slipping: int | None = None
-    gap: float | None = None
-    largest: float | None = None
 
 
 def carried(result: ContactResult) -> Mask:
@@ -101,8 +76,18 @@ def reaction(evaluation: Evaluation, result: ContactResult) -> float:
         return float(total_normal_force(result, evaluation.nodes))
 
 
-def step_totals(evaluation: Evaluation, part: ResultPart, *, of_nodes: bool = False) -> Iterator[StepTotal]:
-    """Yield the figures of all evaluated elements, or nodes, at each step of a part with times."""
+def step_totals(evaluation: Evaluation, part: ResultPart, *, of_nodes: bool = False) -> Iterator[dict[str, Any]]:
+    """Yield the figures of all evaluated elements, or nodes, at each step of a part with times.
+
+    Keys of a row; a value that does not exist is None:
+
+    * `time`, and `reaction`, the total normal force;
+    * `touching`: number of elements in contact, or of nodes that the seabed acts on;
+    * `first`, `last`: numbers of the first and the last of these, in the order of the deck;
+    * `slipping`: number of nodes that slip in a direction;
+    * of elements `deepest`, the largest depth, and `sucked`, the number in the states suction and hold;
+    * of nodes `gap`, the smallest distance from the seabed, and `largest`, the largest normal force.
+    """
     elements, nodes, scene = evaluation.elements, evaluation.nodes, evaluation.scene
     for step, time in enumerate([] if part.result.times is None else part.result.times.tolist()):
         result = part.result.step(step)
@@ -112,21 +97,24 @@ def step_totals(evaluation: Evaluation, part: ResultPart, *, of_nodes: bool = Fa
         if of_nodes:
             acts = scene.node_ids[acted_on(evaluation, result)]
             deepest = _deepest(-result.gap[nodes])
-            gap, largest = None if deepest is None else 0.0 - deepest, _deepest(result.normal_force[nodes])
-            yield StepTotal(time, len(acts), *_ends(acts), None, total, None, slipping, gap, largest)
+            own = {
+                "gap": None if deepest is None else 0.0 - deepest,
+                "largest": _deepest(result.normal_force[nodes]),
+            }
         else:
             acts = scene.element_ids[elements[carried(result)[elements]]]
-            sucked = None if result.state is None else int(np.isin(result.state, HELD).sum())
-            yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
+            own = {
+                "deepest": _deepest(result.depth[elements]),
+                "sucked": None if result.state is None else int(np.isin(result.state, HELD).sum()),
+            }
+        first, last = (int(acts[0]), int(acts[-1])) if acts.size else (None, None)
+        counts = {"touching": len(acts), "first": first, "last": last, "slipping": slipping}
+        yield {"time": time, "reaction": total, **counts, **own}
 
 
 def line_steps(evaluation: Evaluation, part: ResultPart) -> Iterator[LineSummary]:
     """Yield every line at each step of a part."""
     yield from evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
-
-
-def _ends(numbers: Ids) -> tuple[int | None, int | None]:
-    return (int(numbers[0]), int(numbers[-1])) if numbers.size else (None, None)
 
 
 def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:

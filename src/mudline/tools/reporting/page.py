@@ -6,7 +6,7 @@ from base64 import b64encode
 from collections.abc import Callable, Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import jinja2
 from jinja2.sandbox import SandboxedEnvironment
@@ -169,12 +169,8 @@ def _logo(path: Path | None) -> str:
 # ------------------------------------------------------------------------------------------------------------- findings
 
 
-class Shown(NamedTuple):
-    """A finding on the page: its number, content, and lines of the deck with their numbers."""
-
-    number: int
-    found: dict[str, Any]
-    lines: Sequence[tuple[int, str]]
+Shown = dict[str, Any]
+"""A finding on the page: its `number`, what was `found`, and `lines` of the deck with their numbers."""
 
 
 def _groups(
@@ -183,16 +179,20 @@ def _groups(
     """Return the first findings by section of the deck, of the severities that `wanted` accepts."""
     findings = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
     rows = [
-        Shown(number, finding | {"message": cut(finding["message"], LONGEST)}, _lines(report, finding["line"]))
+        {
+            "number": number,
+            "found": finding | {"message": cut(finding["message"], LONGEST)},
+            "lines": _lines(report, finding["line"]),
+        }
         for number, finding in enumerate(findings, 1)
         if wanted(finding["severity"])
     ]
-    return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row.found["section"]))]
+    return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row["found"]["section"]))]
 
 
 def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> PageTable | None:
     """Return many findings as a table of the rules behind them, errors first; None for few findings."""
-    findings = [shown.found for _, group in groups for shown in group]
+    findings = [shown["found"] for _, group in groups for shown in group]
     if len(findings) <= _FEW_FINDINGS:
         return None
     codes = sorted({(SEVERITIES.index(finding["severity"]), finding["code"]) for finding in findings})

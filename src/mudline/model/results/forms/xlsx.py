@@ -14,7 +14,7 @@ from xlsxwriter.worksheet import Worksheet
 from mudline.basics.quantities import finite
 from mudline.basics.short_repr import cut
 from mudline.model.contact.columns import ResultColumn
-from mudline.model.results.forms import Columns, FileContent, FormError, More, ResultOutput, Writer
+from mudline.model.results.forms import Columns, FormError, More, ResultOutput
 from mudline.model.results.forms.text import blocks
 
 SHEET_ROWS = 1_048_576
@@ -31,28 +31,6 @@ _CREATED = datetime(2000, 1, 1, tzinfo=UTC)
 """Fixed date of workbooks: the same results give the same bytes."""
 
 
-def writer(output: ResultOutput) -> Writer:
-    """Return the writer of a workbook. Raises FormError if a sheet cannot hold all rows of a table."""
-    contents = output.contents
-    for table, rows in contents.rows.items():
-        if contents.steps * rows > SHEET_ROWS - _HEADINGS:
-            most = f"a sheet of a workbook holds {SHEET_ROWS - _HEADINGS}; write .parquet instead"
-            raise FormError(f"{contents.steps * rows} rows of {table}: {most}")
-    folder = TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True)
-    temporary = output.open.enter_context(folder)
-    plain = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
-    book = xlsxwriter.Workbook(output.streams[0], {"constant_memory": True, "tmpdir": temporary, **plain})
-    output.open.callback(_discard, book)
-    return WorkbookWriter(book, contents)
-
-
-def _discard(book: Any) -> None:  # noqa: ANN401 - xlsxwriter has no types
-    """Close the temporary files; after an error the workbook must not write itself when it is deleted."""
-    for sheet in book.worksheets():
-        sheet.row_data_fh.close()
-    book.fileclosed = True
-
-
 class WorkbookWriter:
     """Writer of one sheet per table: names, units, then the rows; `time` in front if there are times.
 
@@ -60,15 +38,31 @@ class WorkbookWriter:
     cell. The rows are in temporary files in the folder of the workbook until the end.
     """
 
-    def __init__(self, book: Any, contents: FileContent) -> None:  # noqa: ANN401 - as above
-        self._book, self._contents = book, contents
-        book.use_zip64()
-        book.set_properties({"created": _CREATED})
-        book.set_custom_property("mudline.format", contents.format)
-        book.set_custom_property("mudline.units", contents.units)
-        self._bold, self._italic = book.add_format({"bold": True}), book.add_format({"italic": True})
-        self._sheets = {name: book.add_worksheet(name, worksheet_class=_ExactSheet) for name in contents.rows}
+    def __init__(self, output: ResultOutput) -> None:
+        """Raise FormError if a sheet cannot hold all rows of a table."""
+        contents = output.contents
+        for table, rows in contents.rows.items():
+            if contents.steps * rows > SHEET_ROWS - _HEADINGS:
+                most = f"a sheet of a workbook holds {SHEET_ROWS - _HEADINGS}; write .parquet instead"
+                raise FormError(f"{contents.steps * rows} rows of {table}: {most}")
+        folder = TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True)
+        memory = {"constant_memory": True, "tmpdir": output.open.enter_context(folder)}
+        plain = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+        self._book, self._contents = xlsxwriter.Workbook(output.streams[0], memory | plain), contents
+        output.open.callback(self._discard)
+        self._book.use_zip64()
+        self._book.set_properties({"created": _CREATED})
+        self._book.set_custom_property("mudline.format", contents.format)
+        self._book.set_custom_property("mudline.units", contents.units)
+        self._bold, self._italic = (self._book.add_format({style: True}) for style in ("bold", "italic"))
+        self._sheets = {name: self._book.add_worksheet(name, worksheet_class=_ExactSheet) for name in contents.rows}
         self._rows = dict.fromkeys(contents.rows, _HEADINGS)
+
+    def _discard(self) -> None:
+        """Close the temporary files; after an error the workbook must not write itself when it is deleted."""
+        for sheet in self._book.worksheets():
+            sheet.row_data_fh.close()
+        self._book.fileclosed = True
 
     def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps. Raises OSError."""
@@ -106,6 +100,9 @@ class _ExactSheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
     def _xml_number_element(self, number: float, attributes: Sequence[tuple[str, object]] = ()) -> None:
         about = "".join(f' {key}="{value}"' for key, value in attributes)
         self.fh.write(f"<c{about}><v>{number!r}</v></c>")
+
+
+writer = WorkbookWriter
 
 
 def _cells(column: ResultColumn, first: int, last: int, block: slice) -> Sequence[object]:
