@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import folded, name_key
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
@@ -19,7 +19,6 @@ from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.geometric_sets import GeometricSet, GeometricSets
-    from mudline.language.keywords.library.mesh import ElementSets, SetGenerate, SetList
     from mudline.language.keywords.library.tapered_joints import TaperedJoint, TaperedJoints
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
@@ -97,7 +96,7 @@ def read_sections(
             name = known_name(joint.set_name)
             holder = None if name is None else sets.find(name)
             elsewhere |= name is not None and holder is None and bool(context.possible_definition("ELEMENT SETS"))
-            ordered = np.zeros(0, np.intp) if holder is None else _in_order(context, holder, elements)
+            ordered = np.zeros(0, np.intp) if holder is None else holder.in_order
             parts = _parts(joint, length[ordered]) if len(ordered) else [_part(joint, 0.5)]
             sections += [_section(part, where.inside("sets", index)) for part in parts]
             holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
@@ -120,23 +119,6 @@ def _section(entry: GeometricSet, where: Where) -> Section:
     diameter = float(value) if isinstance(value, int | float) else math.nan
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
     return Section(known_name(entry.set_name) or "", diameter if diameter > 0 else math.nan, source, where, bad, entry)
-
-
-def _in_order(context: Context, holder: NamedSet, elements: Numbered) -> Indices:
-    """Return the elements of a set in the order of its lines; in that of the file if the set has subsets."""
-    parts: list[Indices] = []
-    blocks = (cast("ElementSets", block) for _, block in context.blocks("ELEMENT SETS"))
-    named = (entry for block in blocks for entry in block.sets if known_name(entry.name))
-    own = (entry for entry in named if name_key(entry.name) == name_key(holder.name))
-    for member in (member for entry in own for member in entry.members):
-        if member.rule == "set_list":
-            numbers = [each for each in cast("SetList", member).elements if isinstance(each, int)]
-            parts.append(elements.indices(np.array(numbers, dtype=np.int64)))
-        elif member.rule == "set_generate":
-            span = context.generator(cast("SetGenerate", member).generate)
-            parts += [] if span is None else [elements.between(*span)]
-    listed = np.concatenate(parts) if parts else holder.elements
-    return listed if np.array_equal(np.sort(listed), holder.elements) else holder.elements
 
 
 def _parts(joint: TaperedJoint, length: Floats) -> list[GeometricSet]:

@@ -44,6 +44,7 @@ class NamedSet:
     where: place of its definition.
     open: the set has, or may have, elements that the deck does not show.
     faulty: some of its lines could not be read, which is reported.
+    listed: indices of its elements as its lines give them, -1 for those not defined, without those of subsets.
     """
 
     name: str
@@ -51,8 +52,14 @@ class NamedSet:
     where: Where | None
     open: bool = False
     faulty: bool = False
+    listed: Indices = field(default_factory=lambda: _NOTHING)
 
     __repr__ = short_repr
+
+    @property
+    def in_order(self) -> Indices:
+        """Indices of its elements in the order of its lines; in that of the file if the set has subsets."""
+        return self.listed if np.array_equal(np.sort(self.listed), self.elements) else self.elements
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -70,6 +77,11 @@ class Sets:
         """Predefined set ALL."""
         return self.named[ALL]
 
+    @property
+    def names(self) -> dict[str, str]:
+        """Names as first written, by their folded form."""
+        return {key: set_.name for key, set_ in self.named.items()}
+
     def find(self, name: str) -> NamedSet | None:
         """Return the set that a SET= names; None if there is no such set, which `check` reports."""
         return self.named.get(name_key(name))
@@ -77,7 +89,7 @@ class Sets:
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place if no set has it."""
         if self.find(name) is None:
-            hint = self.context.hint(name, {key: set_.name for key, set_ in self.named.items()})
+            hint = self.context.hint(name, self.names)
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
@@ -178,7 +190,7 @@ class _SetReader:
         """Store the union of all members of all definitions of a name."""
         definitions = self.definitions[key]
         first, place = definitions[0]
-        parts: list[Indices] = []
+        listed, parts = list[Indices](), list[Indices]()
         faulty = any(is_partly_unknown(part) for entry, _ in definitions for part in (entry.members, *entry.members))
         unsure = faulty
         members = 0
@@ -188,21 +200,24 @@ class _SetReader:
                 if member.rule == "set_subset":
                     name = known_name(cast("SetSubset", member).subset)
                     set_ = None if name is None else self.sets.named.get(name_key(name))
-                    elements, whole = (_NOTHING, False) if set_ is None else (set_.elements, not set_.open)
+                    whole = set_ is not None and not set_.open
+                    parts.append(_NOTHING if set_ is None else set_.elements)
                 elif member.rule == "set_list":
-                    elements, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    indices, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    listed.append(indices)
                 else:
                     range_ = cast("SetGenerate", member).generate
-                    elements, whole = self._range(range_, where.inside("members", index))
-                parts.append(elements)
+                    indices, whole = self._range(range_, where.inside("members", index))
+                    listed.append(indices)
                 unsure |= not whole
-        union = parts[0] if len(parts) == 1 else _distinct(np.concatenate([_NOTHING, *parts]))
-        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty)
+        own = np.concatenate([_NOTHING, *listed])
+        union = parts[0] if len(parts) == 1 and not len(own) else _distinct(np.concatenate([own[own >= 0], *parts]))
+        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty, own)
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
-        """Return indices of the elements of a list in ascending order, and True if these are all."""
+        """Return indices of the elements of a list, -1 for those not defined, and True if these are all."""
         numbered = [(element, at) for at, element in enumerate(member.elements) if isinstance(element, int)]
         indices = self.elements.indices(np.array([number for number, _ in numbered], dtype=np.int64))
         missing = [numbered[at] for at in np.flatnonzero(indices < 0).tolist()]
@@ -214,11 +229,10 @@ class _SetReader:
             message = f"element {number} is not defined: define it in *ELEMENT"
             self.context.report_missing(REF005, message, where.inside("elements", at), "ELEMENT", number)
         for at, element in enumerate(member.elements):
-            place = where.inside("elements", at)
-            if isinstance(element, str) and not self.context.is_guessed_label(place):
-                self.context.report_label(REF005, element, place, "ELEMENT")
-        found = indices[indices >= 0]
-        return _distinct(found), len(found) == len(member.elements) and not is_partly_unknown(member.elements)
+            if isinstance(element, str) and not self.context.is_guessed_label(where.inside("elements", at)):
+                self.context.report_label(REF005, element, where.inside("elements", at), "ELEMENT")
+        whole = np.count_nonzero(indices >= 0) == len(member.elements) and not is_partly_unknown(member.elements)
+        return indices, whole
 
     def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Return the elements of a range, without building it: a typing error may make it very long."""

@@ -137,9 +137,9 @@ class _Looking:
                     message = f"{shown(field.text)} is not a number: write {number}"
                     self._warn(SYN002, message, where.inside(*field.span))
             value = group.fields[0]
-            place = where.inside(*value.span)
             if not known or not value.text or value.text.startswith("=["):
                 continue
+            place = where.inside(*value.span)
             if group.key == Names.SET.name:
                 self._set(place, keyword, value.text)
             elif group.key == Names.VESSEL.name:
@@ -211,13 +211,9 @@ class _Looking:
         of_results = self.context.written.sections[where.section].name in _OF_RESULTS
         own = self._sets_of_results if of_results else {}
         if self.sets.find(name) is None and name_key(name) not in own:
-            hint = self.context.hint(name, self._set_names) or self.context.hint(name, own)
+            hint = self.context.hint(name, self.sets.names) or self.context.hint(name, own)
             message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
             self._warn(REF001, message, where, lacks=name)
-
-    @cached_property
-    def _set_names(self) -> dict[str, str]:
-        return {key: found.name for key, found in self.sets.named.items()}
 
     @cached_property
     def _sets_of_results(self) -> dict[str, str]:
