@@ -311,12 +311,9 @@ def _line(sheet: WorkbookSheet, head: _Head, cells: Mapping[int, Cell], row: int
     for column in head.form.values:
         place = head.places.get(column, 0)
         cell = cells.get(place)
-        if cell is None:
-            if column.spec.required:
-                raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
-            fields.append("")
-            continue
-        fields.append(_field(sheet, column, cell))
+        if cell is None and column.spec.required:
+            raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
+        fields.append("" if cell is None else _field(sheet, column, cell))
     while fields and not fields[-1]:
         fields.pop()
     return ", ".join(fields)

@@ -13,7 +13,6 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import set_slots
 from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
@@ -24,7 +23,7 @@ from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
-    from mudline.language.keywords.model import Block, Record
+    from mudline.language.keywords.model import Record
 
 
 DIRECTIONS = ("longitudinal", "transverse")
@@ -307,15 +306,11 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
     keywords = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
     extensions = {}
     for keyword in catalogue.in_order(keywords):
-        extension = Extension([], [], [], np.zeros(0, dtype=np.intp))
-        for where, block in context.blocks(keyword):
-            for listed, named in set_slots(type(cast("Block", block))):
-                for index, entry in enumerate(getattr(block, listed.name)):
-                    name = known_name(getattr(entry, named.name))
-                    if name is None:
-                        context.unread.add(keyword)
-                    extension.entries.append(entry)
-                    extension.places.append(where.inside(listed.json, index))
-                    extension.sets.append(None if name is None else sets.find(name))
-        extensions[keyword] = extension._replace(of_element=later_wins(extension.sets, count))
+        found = list(sets.entries(context.blocks(keyword)))
+        if any(name is None for _, _, name, _ in found):
+            context.unread.add(keyword)
+        holders = [holder for _, _, _, holder in found]
+        extensions[keyword] = Extension(
+            [entry for _, entry, _, _ in found], [where for where, *_ in found], holders, later_wins(holders, count)
+        )
     return extensions

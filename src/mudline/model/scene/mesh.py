@@ -33,14 +33,6 @@ class _NodeLine(NamedTuple):
     batch: DefinitionBatch
     ends: tuple[int, int]
 
-    def place(self, first: Floats, last: Floats) -> None:
-        """Place the nodes at even distances, exactly if the spacing is a whole number."""
-        count = len(self.batch.ids)
-        for block in blocks_of(count):
-            steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
-            with np.errstate(over="ignore", invalid="ignore"):
-                self.batch.values[block] = first + (last - first) * steps / (count + 1)
-
 
 def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
     """Return the nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
@@ -115,11 +107,18 @@ def _most(objects: str) -> str:
 
 
 def _between(gathered: Definitions, line: _NodeLine) -> bool:
-    """Place the nodes of a line if its ends are defined by now; return True if they are."""
+    """Place the nodes of a line if its ends are defined by now; return True if they are.
+
+    They have even distances, exactly if the spacing is a whole number.
+    """
     first, last = (gathered.find(number) for number in line.ends)
     if first is None or last is None:
         return False
-    line.place(first, last)
+    count = len(line.batch.ids)
+    for block in blocks_of(count):
+        steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
+        with np.errstate(over="ignore", invalid="ignore"):
+            line.batch.values[block] = first + (last - first) * steps / (count + 1)
     return True
 
 

@@ -18,8 +18,8 @@ from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, picke
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.geometric_sets import GeometricSet, GeometricSets
-    from mudline.language.keywords.library.tapered_joints import TaperedJoint, TaperedJoints
+    from mudline.language.keywords.library.geometric_sets import GeometricSet
+    from mudline.language.keywords.library.tapered_joints import TaperedJoint
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
 
@@ -83,23 +83,18 @@ def read_sections(
     """
     sections: list[Section] = []
     holders: list[NamedSet | None] = []
-    elsewhere = False
-    for where, block in context.blocks("GEOMETRIC SETS"):
-        for index, entry in enumerate(cast("GeometricSets", block).sets):
-            place = where.inside("sets", index)
-            name = known_name(entry.set_name)
-            holders.append(None if name is None else sets.find(name))
-            elsewhere |= name is not None and holders[-1] is None and bool(context.possible_definition("ELEMENT SETS"))
-            sections.append(_section(entry, place))
-    for where, block in context.blocks("TAPER"):
-        for index, joint in enumerate(cast("TaperedJoints", block).sets):
-            name = known_name(joint.set_name)
-            holder = None if name is None else sets.find(name)
-            elsewhere |= name is not None and holder is None and bool(context.possible_definition("ELEMENT SETS"))
-            ordered = np.zeros(0, np.intp) if holder is None else holder.in_order
-            parts = _parts(joint, length[ordered]) if len(ordered) else [_part(joint, 0.5)]
-            sections += [_section(part, where.inside("sets", index)) for part in parts]
-            holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
+    undefined = False
+    for where, entry, name, holder in sets.entries(context.blocks("GEOMETRIC SETS")):
+        undefined |= name is not None and holder is None
+        sections.append(_section(entry, where))
+        holders.append(holder)
+    for where, joint, name, holder in sets.entries(context.blocks("TAPER")):
+        undefined |= name is not None and holder is None
+        ordered = np.zeros(0, np.intp) if holder is None else holder.in_order
+        parts = _parts(joint, length[ordered]) if len(ordered) else [_part(joint, 0.5)]
+        sections += [_section(part, where) for part in parts]
+        holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
+    elsewhere = undefined and bool(context.possible_definition("ELEMENT SETS"))
     of_element = later_wins(holders, len(elements))
     diameter = picked((section.diameter for section in sections), of_element)
     lost = not context.unread.isdisjoint(("GEOMETRIC SETS", "TAPER"))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.keywords.contents import set_slots
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
 from mudline.model.scene.context import Context
@@ -27,12 +28,14 @@ if TYPE_CHECKING:
         SetList,
         SetSubset,
     )
+    from mudline.language.keywords.model import Block
     from mudline.model.scene.csv_file import ExternalElements
 
 ALL = "all"
 LONGEST_NAME = 256
 """Number of characters that the language allows in the name of a set."""
 _NOTHING = np.zeros(0, dtype=np.intp)
+_Entry = tuple[Where, Any, str | None, "NamedSet | None"]
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -85,6 +88,14 @@ class Sets:
     def find(self, name: str) -> NamedSet | None:
         """Return the set that a SET= names; None if there is no such set, which `check` reports."""
         return self.named.get(name_key(name))
+
+    def entries(self, blocks: Iterable[tuple[Where, Block]]) -> Iterator[_Entry]:
+        """Yield each record below a SET= of some blocks: place, record, name of the set or None if unreadable, set."""
+        for where, block in blocks:
+            for listed, named in set_slots(type(block)):
+                for index, entry in enumerate(getattr(block, listed.name)):
+                    name = known_name(getattr(entry, named.name))
+                    yield where.inside(listed.json, index), entry, name, None if name is None else self.find(name)
 
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place if no set has it."""
