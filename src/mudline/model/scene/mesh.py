@@ -181,11 +181,12 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
     """Report labels of nodes that are not defined."""
-    for (row, column), word in table.words.items():
-        if not isinstance(word, Label) or not (0 < column < 3 or context.external_definers):
-            continue
+    out_of_sight = bool(context.external_definers)
+    labels = [(row, column, word) for (row, column), word in table.words.items() if isinstance(word, Label)]
+    ends = [(row, column, word) for row, column, word in labels if 0 < column < 3]
+    for row, column, word in labels if out_of_sight else ends[: MOST_REPORTED + 1]:
         place = where.inside("elements", row, column)
-        if not context.external_definers and context.is_guessed_label(place):
+        if not out_of_sight and context.is_guessed_label(place):
             context.cannot_place(place)
         else:
             context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)
