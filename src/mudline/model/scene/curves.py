@@ -140,7 +140,7 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
     blocks = None if given.of_seabed else Blocks.NEVER
     clashing, _ = clashes_and_repeats(given.points)
-    keep = np.setdiff1d(np.arange(len(given.points), dtype=np.intp), clashing, assume_unique=True)
+    keep = np.delete(np.arange(len(given.points), dtype=np.intp), clashing)
     for index in clashing[: MOST_REPORTED + 1].tolist():
         (over, ordinate), (at, value) = given.axes, given.points[index].tolist()
         message = f"a second {ordinate} at {over} {at!r} ({value!r}): the slope there would be infinite; remove one"

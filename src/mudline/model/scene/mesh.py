@@ -49,9 +49,9 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
                 for row in _add_rows(gathered, table.column(0), _coordinates(table), place, "nodes"):
                     context.misread("NODE", place.inside("nodes", row, 0))
             elif line := _node_line(context, gathered, entry.generate, place):
-                gathered.add(line.batch)
                 if not _between(gathered, line):
                     waiting.append(line)
+                gathered.add(line.batch)
     placeless = {line.batch.where for line in waiting if not _late(context, gathered, line)}
     if external is not None:
         known = gathered.resolve(3)
@@ -286,6 +286,8 @@ def distances(points: Floats, others: Floats) -> Floats:
 
 def _report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
     """Report definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
+    if not repeats.size:
+        return
     batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)
     for index, rows in zip(batches.tolist(), np.split(repeats, begins[1:]), strict=False):
         batch = numbered.batches[index]

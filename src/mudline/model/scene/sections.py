@@ -14,7 +14,7 @@ from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
-from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
@@ -96,11 +96,12 @@ def read_sections(
         holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
     elsewhere = undefined and bool(context.possible_definition("ELEMENT SETS"))
     of_element = later_wins(holders, len(elements))
-    diameter = picked((section.diameter for section in sections), of_element)
+    diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
     lost = not context.unread.isdisjoint(("GEOMETRIC SETS", "TAPER"))
     unread = (None in holders and not elsewhere) or lost
-    faulty = np.array([*(section.faulty for section in sections), unread])[of_element]
+    faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
     if external is not None:
+        diameter, faulty = diameter.copy(), faulty.copy()
         at = elements.indices(external.ids)
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]

@@ -47,7 +47,7 @@ class NamedSet:
     where: place of its definition.
     open: the set has, or may have, elements that the deck does not show.
     faulty: some of its lines could not be read, which is reported.
-    listed: indices of its elements as its lines give them, -1 for those not defined, without those of subsets.
+    listed: indices of its elements as its lines give them, without those of subsets.
     """
 
     name: str
@@ -221,14 +221,13 @@ class _SetReader:
                     indices, whole = self._range(range_, where.inside("members", index))
                     listed.append(indices)
                 unsure |= not whole
-        own = np.concatenate([_NOTHING, *listed])
-        union = parts[0] if len(parts) == 1 and not len(own) else _distinct(np.concatenate([own[own >= 0], *parts]))
-        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty, own)
+        union = _distinct(_joined([*listed, *parts]))
+        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty, _joined(listed))
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
-        """Return indices of the elements of a list, -1 for those not defined, and True if these are all."""
+        """Return indices of the elements of a list, and True if these are all."""
         numbered = [(element, at) for at, element in enumerate(member.elements) if isinstance(element, int)]
         indices = self.elements.indices(np.array([number for number, _ in numbered], dtype=np.int64))
         missing = [numbered[at] for at in np.flatnonzero(indices < 0).tolist()]
@@ -242,8 +241,8 @@ class _SetReader:
         for at, element in enumerate(member.elements):
             if isinstance(element, str) and not self.context.is_guessed_label(where.inside("elements", at)):
                 self.context.report_label(REF005, element, where.inside("elements", at), "ELEMENT")
-        whole = np.count_nonzero(indices >= 0) == len(member.elements) and not is_partly_unknown(member.elements)
-        return indices, whole
+        found = indices[indices >= 0]
+        return found, len(found) == len(member.elements) and not is_partly_unknown(member.elements)
 
     def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Return the elements of a range, without building it: a typing error may make it very long."""
@@ -273,19 +272,29 @@ class _SetReader:
         return elements, not lacking
 
 
+def _joined(parts: list[Indices]) -> Indices:
+    return parts[0] if len(parts) == 1 else np.concatenate([_NOTHING, *parts])
+
+
 def _distinct(indices: Indices) -> Indices:
     """Return the same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
+    if not np.count_nonzero(indices[1:] <= indices[:-1]):
+        return indices
     ordered = np.sort(indices)
-    return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])] if len(ordered) else ordered
+    return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
-    """Return for each of `count` elements the index of the last holder that has it, or -1.
+    """Return for each of `count` elements the index of the last holder that has it, or -1; not to be written to.
 
     A set that holds several objects counts only with the last of them, so repeated sets take no extra time.
     """
     last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
+    order = sorted(last.values())
+    whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
+    if not order or order[-1:] == whole[-1:]:
+        return np.broadcast_to(np.intp(order[-1] if order else -1), (count,))
     winner = np.full(count, -1, dtype=np.intp)
-    for index in sorted(last.values()):
+    for index in order:
         winner[cast("NamedSet", holders[index]).elements] = index
     return winner
