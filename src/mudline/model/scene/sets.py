@@ -281,7 +281,8 @@ def _distinct(indices: Indices) -> Indices:
     if not np.count_nonzero(indices[1:] <= indices[:-1]):
         return indices
     ordered = np.sort(indices)
-    return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
+    distinct: Indices = ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
+    return distinct
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
