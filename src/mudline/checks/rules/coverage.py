@@ -26,7 +26,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.references import KEYWORD
 from mudline.model.scene.sets import ALL, NamedSet
-from mudline.model.scene.unread_lines import is_of_vessels, unread_lines
+from mudline.model.scene.unread_lines import is_of_vessels
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
@@ -181,7 +181,7 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     follows = any(is_of_vessels(context.deck, where) for where, _ in context.written(KEYWORD, "LOAD CASE"))
     held = scene.held if follows else []
-    for where, keyword, line in unread_lines(scene.context) if held else ():
+    for where, keyword, line in scene.context.unread_lines if held else ():
         if keyword != KEYWORD or not is_of_vessels(context.deck, where):
             continue
         first, *others = read_line(line, Span(0, len(line))).groups[0].fields

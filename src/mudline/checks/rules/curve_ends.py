@@ -20,7 +20,7 @@ from mudline.model.curves import ForceCurve
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Mask
+from mudline.model.scene.numbering import Floats, Mask, looked_up
 from mudline.model.scene.seabed import SeabedKind
 
 CRV007 = Code("CRV007", "force-at-zero", Severity.WARNING)
@@ -255,7 +255,7 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
     if not candidates:
         return
     curve_of_law = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
-    of_element = curve_of_law[laws.of_element]
+    of_element = looked_up(curve_of_law, laws.of_element)
     smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
     with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
         np.minimum.at(smallest, of_element, scene.diameter)

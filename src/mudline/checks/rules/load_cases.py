@@ -20,7 +20,6 @@ from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.unread_lines import unread_lines
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import AnalysisType, StepLimits, TimeSpan
@@ -353,7 +352,7 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
 
 def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
     """Yield the texts at the start of unread postprocessing lines that begin without a setting."""
-    for where, _, line in unread_lines(context.scene.context):
+    for where, _, line in context.scene.context.unread_lines:
         if context.deck.sections[where.section].name.endswith(_REQUESTS):
             first = read_line(line, Span(0, len(line))).groups[0]
             if not first.key and first.fields[0].text[:1].isalpha():

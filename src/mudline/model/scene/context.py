@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -18,12 +18,14 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, suggest_keyword
-from mudline.language.keywords.model import ListRow
+from mudline.language.keywords.contents import is_read, kept_places
+from mudline.language.keywords.model import ListRow, Path
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import hint, shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.tree import canonical_name, mark_of
 from mudline.model.scene.deck_values import (
+    COMMENT,
     definition_by,
     external_definers,
     is_read_definer,
@@ -36,7 +38,6 @@ from mudline.model.scene.deck_values import (
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import Surface
 
-T = TypeVar("T")
 MOST_NAMED = 3
 """Number of names listed in a message, each of which may be the one that was meant."""
 
@@ -94,7 +95,6 @@ class Context:
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
     _effort: Effort = field(default_factory=Effort)
-    _made: dict[Callable[[Context], Any], Any] = field(default_factory=dict)
     _sound: range = range(0)
     """Sections of which every line could be used: all own sections, in a deck without problems."""
 
@@ -105,13 +105,6 @@ class Context:
         for where, _, block in self.deck.every_block():
             if where.section not in self._sound and self.deck.lost(where):
                 self.unread.add(block.keyword)
-
-    def once(self, make: Callable[[Context], T]) -> T:
-        """Return the result of a function of this deck, computed once for all callers."""
-        if make not in self._made:
-            self._made[make] = make(self)
-        found: T = self._made[make]
-        return found
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return the same as `Deck.blocks` for the evaluated deck, computed once for all callers."""
@@ -137,6 +130,24 @@ class Context:
     def names_of(self, kinds: Collection[Names]) -> list[NamesOfKind]:
         """Return the names of some kinds."""
         return [names for kind, names in self.names.items() if kind in kinds]
+
+    @cached_property
+    def unread_lines(self) -> list[tuple[Where, str, str]]:
+        """Lines of the deck itself that are not read, without comments: place, keyword and text."""
+        deck, unread = self.written, list[tuple[Where, str, str]]()
+        for at, _, block in deck.alone.every_block():
+            lines: Iterable[tuple[Path, str]]
+            if type(block) is Opaque:
+                lines = ((("lines", n), line) for n, line in enumerate(block.lines))
+            elif is_read(block):
+                continue
+            elif isinstance(deck.origin, TextOrigin):
+                kept = deck.origin.kept_lines(at.section, at.block)
+                lines = ((("unread", n), line) for n, line in enumerate(kept))
+            else:
+                lines = kept_places(block)
+            unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
+        return unread
 
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:

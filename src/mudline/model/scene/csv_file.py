@@ -251,11 +251,9 @@ def read_external(path: Path) -> ExternalElements:
     if not table.lines:
         raise data_error(table.file, "no row below the header", 2)
     ids, first, second = map(table.whole, ("element", "node1", "node2"))
-    seen: set[int] = set()
-    for number, line in zip(ids.tolist(), table.lines, strict=True):
-        if number in seen:
-            raise data_error(table.file, f"element {number} is given twice", line)
-        seen.add(number)
+    _, firsts = np.unique(ids, return_index=True)
+    for row in np.setdiff1d(np.arange(len(ids)), firsts)[:1].tolist():
+        raise data_error(table.file, f"element {ids[row]} is given twice", table.lines[row])
     diameter = _positive("diameter", table)
     length = _positive("length", table) if "length" in table.columns else np.full(len(ids), np.nan)
     members: dict[str, list[int]] = {}

@@ -140,7 +140,9 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
     blocks = None if given.of_seabed else Blocks.NEVER
     clashing, _ = clashes_and_repeats(given.points)
-    keep = np.setdiff1d(np.arange(len(given.points), dtype=np.intp), clashing, assume_unique=True)
+    keep = np.arange(len(given.points), dtype=np.intp)
+    if clashing.size:
+        keep = np.delete(keep, clashing)
     for index in clashing[: MOST_REPORTED + 1].tolist():
         (over, ordinate), (at, value) = given.axes, given.points[index].tolist()
         message = f"a second {ordinate} at {over} {at!r} ({value!r}): the slope there would be infinite; remove one"
@@ -231,8 +233,9 @@ def _written(slot: FieldSpec, value: object) -> str:
 def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple[Where, Where]) -> SceneCurve:
     about = cast("Rows", slot.about)
     columns = record_schema(cast("type[Row]", about.row)).columns
-    over, ordinate = (columns[axis] for axis in about.axes)
-    both = np.column_stack([table.column(axis) for axis in about.axes])
+    axes = about.axes
+    over, ordinate = (columns[axis] for axis in axes)
+    both = np.column_stack([table.column(axis) for axis in axes])
     rows = np.flatnonzero(~np.isnan(both).any(axis=1))
     points = both[rows]
     first, last = points[:, 0].min(initial=inf), points[:, 0].max(initial=-inf)

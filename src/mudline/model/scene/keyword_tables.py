@@ -156,7 +156,7 @@ def read_tables(sheets: Sequence[WorkbookSheet], file: str, units: str | None = 
         if head is None:
             left_out.append(sheet.title)
             continue
-        systems |= dict.fromkeys(_systems(sheet, head), sheet.title)
+        systems |= dict.fromkeys(head.systems, sheet.title)
         _add(entries_by_form.setdefault(head.form, []), _entries(sheet, head), head.form)
     if not entries_by_form:
         raise data_error(file, "no table of a keyword: expected the headings of its page in the first row")
@@ -171,11 +171,11 @@ def read_tables(sheets: Sequence[WorkbookSheet], file: str, units: str | None = 
 
 @dataclass(frozen=True)
 class _Head:
-    """Columns of a sheet by the headings in its first row."""
+    """Columns of a sheet by the headings in its first row, and the unit systems of the units in these."""
 
     form: TableForm
     places: Mapping[TableColumn, int]
-    units: Mapping[TableColumn, str]
+    systems: Sequence[str]
 
 
 def _head(sheet: WorkbookSheet) -> _Head | None:
@@ -224,31 +224,30 @@ def _refuse(sheet: WorkbookSheet, cells: Mapping[str, tuple[Cell, str]], forms: 
 
 def _placed(sheet: WorkbookSheet, form: TableForm, cells: Mapping[str, tuple[Cell, str]]) -> _Head:
     places: dict[TableColumn, int] = {}
-    units: dict[TableColumn, str] = {}
+    systems: list[str] = []
     for word, (cell, unit) in cells.items():
         column = next((known_column for known_column in form.columns if word in known_column.headings), None)
         if column is None or column in places:
             known = ", ".join(known_column.label for known_column in form.columns)
             what = f"*{form.keyword} has no column {cut(str(cell.value), 40)!r}: it has {known}; leave others out"
             raise sheet.fault(cell.row, cell.column, what)
-        places[column], units[column] = cell.column, unit
-    return _Head(form, places, units)
+        places[column] = cell.column
+        systems += _systems(sheet, cell, column.spec.about.unit, unit)
+    return _Head(form, places, systems)
 
 
-def _systems(sheet: WorkbookSheet, head: _Head) -> Iterator[str]:
-    """Yield the unit systems of the units in the headings. Raises DeckError for a unit of no system."""
+def _systems(sheet: WorkbookSheet, cell: Cell, dimension: str, unit: str) -> list[str]:
+    """Return the unit system of a unit in a heading, if it shows one. Raises DeckError for a unit of no system."""
+    if not unit or dimension in {"", "-", "deg"}:
+        return []
     units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
-    for column, unit in head.units.items():
-        dimension = column.spec.about.unit
-        names = {system: "".join(own.get(letter, letter) for letter in dimension) for system, own in units.items()}
-        written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
-        if not unit or dimension in {"", "-", "deg"}:
-            continue
-        fitting = [system for system, name in names.items() if name == written]
-        if not fitting:
-            what = f"expected the unit {' or '.join(dict.fromkeys(names.values()))}, found {cut(unit, 40)!r}"
-            raise sheet.fault(sheet.rows[0][0].row, head.places[column], what)
-        yield from fitting if len(fitting) == 1 else ()
+    names = {system: "".join(own.get(letter, letter) for letter in dimension) for system, own in units.items()}
+    written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
+    fitting = [system for system, name in names.items() if name == written]
+    if not fitting:
+        what = f"expected the unit {' or '.join(dict.fromkeys(names.values()))}, found {cut(unit, 40)!r}"
+        raise sheet.fault(cell.row, cell.column, what)
+    return fitting if len(fitting) == 1 else []
 
 
 # ------------------------------------------------------------------------------------------------------- rows
@@ -311,12 +310,9 @@ def _line(sheet: WorkbookSheet, head: _Head, cells: Mapping[int, Cell], row: int
     for column in head.form.values:
         place = head.places.get(column, 0)
         cell = cells.get(place)
-        if cell is None:
-            if column.spec.required:
-                raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
-            fields.append("")
-            continue
-        fields.append(_field(sheet, column, cell))
+        if cell is None and column.spec.required:
+            raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
+        fields.append("" if cell is None else _field(sheet, column, cell))
     while fields and not fields[-1]:
         fields.pop()
     return ", ".join(fields)

@@ -13,18 +13,17 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import set_slots
 from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve, set_name
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.numbering import Floats, Indices, Mask, marked, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
-    from mudline.language.keywords.model import Block, Record
+    from mudline.language.keywords.model import Record
 
 
 DIRECTIONS = ("longitudinal", "transverse")
@@ -100,12 +99,22 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
     wins = later_wins([set_law.set_ for set_law in new], count)
-    laws.covered = np.where(wins >= 0, wins + len(legacy), NOTHING)
-    given = later_wins([set_law.set_ for set_law in legacy], count)
-    gives = marked((set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), laws.covered)
-    kinds = np.array([*(set_law.kind for set_law in laws.set_laws), LawKind.NONE])
-    keeps = (kinds[given] == LawKind.CURVE) & (kinds[laws.covered] == LawKind.LINEAR)
-    laws.of_element = np.where(gives & ~keeps, laws.covered, given)
+    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
+        laws.of_element = laws.covered = wins
+        return laws
+    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
+    laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
+    gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
+    replaced = looked_up(gives, laws.covered)
+    if any(set_law.kind is LawKind.CURVE for set_law in legacy):
+        kinds = np.array([*(set_law.kind for set_law in laws.set_laws), LawKind.NONE])
+        curves = looked_up(kinds == LawKind.CURVE, laws.of_element)
+        replaced = replaced & ~(curves & looked_up(kinds == LawKind.LINEAR, laws.covered))
+    count_replaced = np.count_nonzero(replaced)
+    if count_replaced == count:
+        laws.of_element = laws.covered
+    elif count_replaced:
+        laws.of_element = np.where(replaced, laws.covered, laws.of_element)
     return laws
 
 
@@ -238,12 +247,14 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
         entry = block.sets[position]
         values.append(_resistance(entry, entry.friction, entry.suction))
         places.append(Where(where.section, where.block, ("sets", position)))
-    return SeabedResistance(values, places, position_of[laws.covered])
+    return SeabedResistance(values, places, looked_up(position_of, laws.covered))
 
 
 def present(covered: Indices) -> list[int]:
     """Return the indices that occur, without -1, in ascending order."""
-    return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
+    one_for_all = len(covered) and covered.strides == (0,)
+    indices = covered[:1] if one_for_all else covered
+    return np.bincount(indices[indices >= 0]).nonzero()[0].tolist()
 
 
 def _resistance(entry: object, friction: object, suction: object, prefix: str = "") -> ResistanceValues:
@@ -312,15 +323,11 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
     keywords = {block.keyword for _, block in context.deck.blocks_with("extension") if block.facts.later_wins}
     extensions = {}
     for keyword in catalogue.in_order(keywords):
-        extension = Extension([], [], [], np.zeros(0, dtype=np.intp))
-        for where, block in context.blocks(keyword):
-            for listed, named in set_slots(type(cast("Block", block))):
-                for index, entry in enumerate(getattr(block, listed.name)):
-                    name = known_name(getattr(entry, named.name))
-                    if name is None:
-                        context.unread.add(keyword)
-                    extension.entries.append(entry)
-                    extension.places.append(where.inside(listed.json, index))
-                    extension.sets.append(None if name is None else sets.find(name))
-        extensions[keyword] = extension._replace(of_element=later_wins(extension.sets, count))
+        found = list(sets.entries(context.blocks(keyword)))
+        if any(name is None for _, _, name, _ in found):
+            context.unread.add(keyword)
+        holders = [holder for _, _, _, holder in found]
+        extensions[keyword] = Extension(
+            [entry for _, entry, _, _ in found], [where for where, *_ in found], holders, later_wins(holders, count)
+        )
     return extensions

@@ -33,14 +33,6 @@ class _NodeLine(NamedTuple):
     batch: DefinitionBatch
     ends: tuple[int, int]
 
-    def place(self, first: Floats, last: Floats) -> None:
-        """Place the nodes at even distances, exactly if the spacing is a whole number."""
-        count = len(self.batch.ids)
-        for block in blocks_of(count):
-            steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
-            with np.errstate(over="ignore", invalid="ignore"):
-                self.batch.values[block] = first + (last - first) * steps / (count + 1)
-
 
 def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
     """Return the nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
@@ -57,9 +49,9 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
                 for row in _add_rows(gathered, table.column(0), _coordinates(table), place, "nodes"):
                     context.misread("NODE", place.inside("nodes", row, 0))
             elif line := _node_line(context, gathered, entry.generate, place):
-                gathered.add(line.batch)
                 if not _between(gathered, line):
                     waiting.append(line)
+                gathered.add(line.batch)
     placeless = {line.batch.where for line in waiting if not _late(context, gathered, line)}
     if external is not None:
         known = gathered.resolve(3)
@@ -115,11 +107,18 @@ def _most(objects: str) -> str:
 
 
 def _between(gathered: Definitions, line: _NodeLine) -> bool:
-    """Place the nodes of a line if its ends are defined by now; return True if they are."""
+    """Place the nodes of a line if its ends are defined by now; return True if they are.
+
+    They have even distances, exactly if the spacing is a whole number.
+    """
     first, last = (gathered.find(number) for number in line.ends)
     if first is None or last is None:
         return False
-    line.place(first, last)
+    count = len(line.batch.ids)
+    for block in blocks_of(count):
+        steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
+        with np.errstate(over="ignore", invalid="ignore"):
+            line.batch.values[block] = first + (last - first) * steps / (count + 1)
     return True
 
 
@@ -182,11 +181,12 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
     """Report labels of nodes that are not defined."""
-    for (row, column), word in table.words.items():
-        if not isinstance(word, Label) or not (0 < column < 3 or context.external_definers):
-            continue
+    out_of_sight = bool(context.external_definers)
+    labels = [(row, column, word) for (row, column), word in table.words.items() if isinstance(word, Label)]
+    ends = [(row, column, word) for row, column, word in labels if 0 < column < 3]
+    for row, column, word in labels if out_of_sight else ends[: MOST_REPORTED + 1]:
         place = where.inside("elements", row, column)
-        if not context.external_definers and context.is_guessed_label(place):
+        if not out_of_sight and context.is_guessed_label(place):
             context.cannot_place(place)
         else:
             context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)
@@ -286,6 +286,8 @@ def distances(points: Floats, others: Floats) -> Floats:
 
 def _report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
     """Report definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
+    if not repeats.size:
+        return
     batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)
     for index, rows in zip(batches.tolist(), np.split(repeats, begins[1:]), strict=False):
         batch = numbered.batches[index]

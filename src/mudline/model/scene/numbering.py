@@ -5,7 +5,8 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from itertools import pairwise
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,19 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
+_FEW_RUNS = 8
 _AT_ONCE = 1 << 17
-_NO_VALUES = np.zeros((0, 0))
+
+_Kind = TypeVar("_Kind", bound=np.generic)
+_Run = tuple[Indices, Ids]
+"""Indices, and their numbers in ascending order."""
+
+
+def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
+    """Return `table[indices]`, which must not be written to; one index for all, as from `later_wins`, stays compact."""
+    if len(indices) and indices.strides == (0,):
+        return np.broadcast_to(table[indices[0]], indices.shape)
+    return table[indices]
 
 
 def blocks_of(count: int) -> Iterator[slice]:
@@ -89,17 +101,29 @@ class Definitions:
 
         `width` is the number of values of a definition.
         """
-        ids = np.concatenate([np.zeros(0, dtype=np.int64), *(batch.ids for batch in self.batches)])
-        values = np.concatenate([np.zeros((0, width)), *(batch.values for batch in self.batches)])
-        order = np.argsort(ids, kind="stable")
-        ends = np.ones(len(ids) + 1, dtype=np.bool_)
-        ends[1:-1] = np.diff(ids[order]) > 0
-        firsts, lasts = order[ends[:-1]], order[ends[1:]]
-        appearing = np.argsort(firsts)
-        firsts, lasts = firsts[appearing], lasts[appearing]
+        if len(self.batches) == 1:
+            ids, values = self.batches[0].ids, self.batches[0].values
+        else:
+            ids = np.concatenate([batch.ids for batch in self.batches] or [np.zeros(0, dtype=np.int64)])
+            values = np.concatenate([batch.values for batch in self.batches] or [np.zeros((0, width))])
         starts = np.array(self._starts, dtype=np.intp)
-        batches = [batch._replace(values=_NO_VALUES) for batch in self.batches]  # they keep no memory of their own
-        return Numbered(ids[firsts], values[lasts], firsts, lasts, np.sort(order[~ends[:-1]]), starts, batches)
+        ascending = _is_ascending(ids)
+        if ascending or _all_different(ids):
+            rows = np.arange(len(ids), dtype=np.intp)
+            if len(self.batches) > 1:  # they keep no memory of their own
+                bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
+                self.batches = [batch._replace(ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
+            runs = [(rows, ids)] if ascending and len(ids) else None
+            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, runs)
+        order = np.argsort(ids, kind="stable")
+        new = np.append(True, np.diff(ids[order]) > 0)
+        begins = np.flatnonzero(new)
+        firsts = order[begins]
+        lasts = order[np.append(begins[1:], len(ids)) - 1]
+        appearing = np.argsort(firsts)
+        repeats = np.sort(order[~new])
+        firsts, lasts = firsts[appearing], lasts[appearing]
+        return Numbered(ids[firsts], values[lasts], firsts, lasts, repeats, starts, self.batches)
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -122,14 +146,9 @@ class Numbered:
     repeats: Indices
     starts: Indices
     batches: list[DefinitionBatch]
-    _order: Indices = field(init=False)
-    _ordered: Ids = field(init=False)
+    _runs: list[_Run] | None = None
 
     __repr__ = short_repr
-
-    def __post_init__(self) -> None:
-        self._order = np.argsort(self.ids)
-        self._ordered = self.ids[self._order]
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -149,15 +168,42 @@ class Numbered:
 
     def indices(self, ids: Ids) -> Indices:
         """Return indices of numbers, -1 for those not defined."""
-        if not len(self.ids):
-            return np.full(ids.shape, -1, dtype=np.intp)
-        at = np.minimum(self._ordered.searchsorted(ids), len(self.ids) - 1)
-        return np.where(self._ordered[at] == ids, self._order[at], -1)
+        indices = np.full(ids.shape, -1, dtype=np.intp)
+        for order, ordered in self._ascending():
+            at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)
+            np.copyto(indices, order[at], where=ordered[at] == ids)
+        return indices
 
     def between(self, start: int, end: int, step: int) -> Indices:
         """Return indices of the numbers start, start + step, ... up to end, in ascending order."""
-        within = slice(self._ordered.searchsorted(start), self._ordered.searchsorted(end, side="right"))
-        return np.sort(self._order[within][(self._ordered[within] - start) % step == 0])
+        parts = []
+        for order, ordered in self._ascending():
+            within = slice(ordered.searchsorted(start), ordered.searchsorted(end, side="right"))
+            parts.append(order[within] if step == 1 else order[within][(ordered[within] - start) % step == 0])
+        indices = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
+        return indices if _is_ascending(indices) else np.sort(indices)
+
+    def _ascending(self) -> list[_Run]:
+        """Return the numbers in ascending order: as they are if they form few runs, which takes no memory."""
+        if self._runs is None:
+            begins = np.flatnonzero(self.ids[1:] <= self.ids[:-1]) + 1
+            if len(begins) < _FEW_RUNS:
+                rows = np.arange(len(self.ids), dtype=np.intp)
+                bounds = pairwise([0, *begins.tolist(), len(self.ids)])
+                self._runs = [(rows[a:b], self.ids[a:b]) for a, b in bounds if b > a]
+            else:
+                order = np.argsort(self.ids, kind="stable")
+                self._runs = [(order, self.ids[order])]
+        return self._runs
+
+
+def _is_ascending(numbers: Ids | Indices) -> bool:
+    return not np.count_nonzero(numbers[1:] <= numbers[:-1])
+
+
+def _all_different(ids: Ids) -> bool:
+    ordered = np.sort(ids)
+    return bool((ordered[1:] != ordered[:-1]).all())
 
 
 def picked(values: Iterable[float], index: Indices) -> Floats:

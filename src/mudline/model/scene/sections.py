@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import folded, name_key
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
-from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.geometric_sets import GeometricSet, GeometricSets
-    from mudline.language.keywords.library.mesh import ElementSets, SetGenerate, SetList
-    from mudline.language.keywords.library.tapered_joints import TaperedJoint, TaperedJoints
+    from mudline.language.keywords.library.geometric_sets import GeometricSet
+    from mudline.language.keywords.library.tapered_joints import TaperedJoint
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
 
@@ -84,29 +83,25 @@ def read_sections(
     """
     sections: list[Section] = []
     holders: list[NamedSet | None] = []
-    elsewhere = False
-    for where, block in context.blocks("GEOMETRIC SETS"):
-        for index, entry in enumerate(cast("GeometricSets", block).sets):
-            place = where.inside("sets", index)
-            name = known_name(entry.set_name)
-            holders.append(None if name is None else sets.find(name))
-            elsewhere |= name is not None and holders[-1] is None and bool(context.possible_definition("ELEMENT SETS"))
-            sections.append(_section(entry, place))
-    for where, block in context.blocks("TAPER"):
-        for index, joint in enumerate(cast("TaperedJoints", block).sets):
-            name = known_name(joint.set_name)
-            holder = None if name is None else sets.find(name)
-            elsewhere |= name is not None and holder is None and bool(context.possible_definition("ELEMENT SETS"))
-            ordered = np.zeros(0, np.intp) if holder is None else _in_order(context, holder, elements)
-            parts = _parts(joint, length[ordered]) if len(ordered) else [_part(joint, 0.5)]
-            sections += [_section(part, where.inside("sets", index)) for part in parts]
-            holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
+    undefined = False
+    for where, entry, name, holder in sets.entries(context.blocks("GEOMETRIC SETS")):
+        undefined |= name is not None and holder is None
+        sections.append(_section(entry, where))
+        holders.append(holder)
+    for where, joint, name, holder in sets.entries(context.blocks("TAPER")):
+        undefined |= name is not None and holder is None
+        ordered = np.zeros(0, np.intp) if holder is None else holder.in_order
+        parts = _parts(joint, length[ordered]) if len(ordered) else [_part(joint, 0.5)]
+        sections += [_section(part, where) for part in parts]
+        holders += [NamedSet(joint.set_name, ordered[at : at + 1], None) for at in range(len(ordered))] or [holder]
+    elsewhere = undefined and bool(context.possible_definition("ELEMENT SETS"))
     of_element = later_wins(holders, len(elements))
-    diameter = picked((section.diameter for section in sections), of_element)
+    diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
     lost = not context.unread.isdisjoint(("GEOMETRIC SETS", "TAPER"))
     unread = (None in holders and not elsewhere) or lost
-    faulty = np.array([*(section.faulty for section in sections), unread])[of_element]
+    faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
     if external is not None:
+        diameter, faulty = diameter.copy(), faulty.copy()
         at = elements.indices(external.ids)
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]
@@ -120,23 +115,6 @@ def _section(entry: GeometricSet, where: Where) -> Section:
     diameter = float(value) if isinstance(value, int | float) else math.nan
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
     return Section(known_name(entry.set_name) or "", diameter if diameter > 0 else math.nan, source, where, bad, entry)
-
-
-def _in_order(context: Context, holder: NamedSet, elements: Numbered) -> Indices:
-    """Return the elements of a set in the order of its lines; in that of the file if the set has subsets."""
-    parts: list[Indices] = []
-    blocks = (cast("ElementSets", block) for _, block in context.blocks("ELEMENT SETS"))
-    named = (entry for block in blocks for entry in block.sets if known_name(entry.name))
-    own = (entry for entry in named if name_key(entry.name) == name_key(holder.name))
-    for member in (member for entry in own for member in entry.members):
-        if member.rule == "set_list":
-            numbers = [each for each in cast("SetList", member).elements if isinstance(each, int)]
-            parts.append(elements.indices(np.array(numbers, dtype=np.int64)))
-        elif member.rule == "set_generate":
-            span = context.generator(cast("SetGenerate", member).generate)
-            parts += [] if span is None else [elements.between(*span)]
-    listed = np.concatenate(parts) if parts else holder.elements
-    return listed if np.array_equal(np.sort(listed), holder.elements) else holder.elements
 
 
 def _parts(joint: TaperedJoint, length: Floats) -> list[GeometricSet]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.keywords.contents import set_slots
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
 from mudline.model.scene.context import Context
@@ -27,12 +28,14 @@ if TYPE_CHECKING:
         SetList,
         SetSubset,
     )
+    from mudline.language.keywords.model import Block
     from mudline.model.scene.csv_file import ExternalElements
 
 ALL = "all"
 LONGEST_NAME = 256
 """Number of characters that the language allows in the name of a set."""
 _NOTHING = np.zeros(0, dtype=np.intp)
+_Entry = tuple[Where, Any, str | None, "NamedSet | None"]
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -44,6 +47,7 @@ class NamedSet:
     where: place of its definition.
     open: the set has, or may have, elements that the deck does not show.
     faulty: some of its lines could not be read, which is reported.
+    listed: indices of its elements as its lines give them, without those of subsets.
     """
 
     name: str
@@ -51,8 +55,14 @@ class NamedSet:
     where: Where | None
     open: bool = False
     faulty: bool = False
+    listed: Indices = field(default_factory=lambda: _NOTHING)
 
     __repr__ = short_repr
+
+    @property
+    def in_order(self) -> Indices:
+        """Indices of its elements in the order of its lines; in that of the file if the set has subsets."""
+        return self.listed if np.array_equal(np.sort(self.listed), self.elements) else self.elements
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -70,14 +80,27 @@ class Sets:
         """Predefined set ALL."""
         return self.named[ALL]
 
+    @property
+    def names(self) -> dict[str, str]:
+        """Names as first written, by their folded form."""
+        return {key: set_.name for key, set_ in self.named.items()}
+
     def find(self, name: str) -> NamedSet | None:
         """Return the set that a SET= names; None if there is no such set, which `check` reports."""
         return self.named.get(name_key(name))
 
+    def entries(self, blocks: Iterable[tuple[Where, Block]]) -> Iterator[_Entry]:
+        """Yield each record below a SET= of some blocks: place, record, name of the set or None if unreadable, set."""
+        for where, block in blocks:
+            for listed, named in set_slots(type(block)):
+                for index, entry in enumerate(getattr(block, listed.name)):
+                    name = known_name(getattr(entry, named.name))
+                    yield where.inside(listed.json, index), entry, name, None if name is None else self.find(name)
+
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place if no set has it."""
         if self.find(name) is None:
-            hint = self.context.hint(name, {key: set_.name for key, set_ in self.named.items()})
+            hint = self.context.hint(name, self.names)
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
@@ -178,7 +201,7 @@ class _SetReader:
         """Store the union of all members of all definitions of a name."""
         definitions = self.definitions[key]
         first, place = definitions[0]
-        parts: list[Indices] = []
+        listed, parts = list[Indices](), list[Indices]()
         faulty = any(is_partly_unknown(part) for entry, _ in definitions for part in (entry.members, *entry.members))
         unsure = faulty
         members = 0
@@ -188,21 +211,23 @@ class _SetReader:
                 if member.rule == "set_subset":
                     name = known_name(cast("SetSubset", member).subset)
                     set_ = None if name is None else self.sets.named.get(name_key(name))
-                    elements, whole = (_NOTHING, False) if set_ is None else (set_.elements, not set_.open)
+                    whole = set_ is not None and not set_.open
+                    parts.append(_NOTHING if set_ is None else set_.elements)
                 elif member.rule == "set_list":
-                    elements, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    indices, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    listed.append(indices)
                 else:
                     range_ = cast("SetGenerate", member).generate
-                    elements, whole = self._range(range_, where.inside("members", index))
-                parts.append(elements)
+                    indices, whole = self._range(range_, where.inside("members", index))
+                    listed.append(indices)
                 unsure |= not whole
-        union = parts[0] if len(parts) == 1 else _distinct(np.concatenate([_NOTHING, *parts]))
-        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty)
+        union = _distinct(_joined([*listed, *parts]))
+        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty, _joined(listed))
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
-        """Return indices of the elements of a list in ascending order, and True if these are all."""
+        """Return indices of the elements of a list, and True if these are all."""
         numbered = [(element, at) for at, element in enumerate(member.elements) if isinstance(element, int)]
         indices = self.elements.indices(np.array([number for number, _ in numbered], dtype=np.int64))
         missing = [numbered[at] for at in np.flatnonzero(indices < 0).tolist()]
@@ -214,11 +239,10 @@ class _SetReader:
             message = f"element {number} is not defined: define it in *ELEMENT"
             self.context.report_missing(REF005, message, where.inside("elements", at), "ELEMENT", number)
         for at, element in enumerate(member.elements):
-            place = where.inside("elements", at)
-            if isinstance(element, str) and not self.context.is_guessed_label(place):
-                self.context.report_label(REF005, element, place, "ELEMENT")
+            if isinstance(element, str) and not self.context.is_guessed_label(where.inside("elements", at)):
+                self.context.report_label(REF005, element, where.inside("elements", at), "ELEMENT")
         found = indices[indices >= 0]
-        return _distinct(found), len(found) == len(member.elements) and not is_partly_unknown(member.elements)
+        return found, len(found) == len(member.elements) and not is_partly_unknown(member.elements)
 
     def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Return the elements of a range, without building it: a typing error may make it very long."""
@@ -248,19 +272,30 @@ class _SetReader:
         return elements, not lacking
 
 
+def _joined(parts: list[Indices]) -> Indices:
+    return parts[0] if len(parts) == 1 else np.concatenate([_NOTHING, *parts])
+
+
 def _distinct(indices: Indices) -> Indices:
     """Return the same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
+    if not np.count_nonzero(indices[1:] <= indices[:-1]):
+        return indices
     ordered = np.sort(indices)
-    return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])] if len(ordered) else ordered
+    distinct: Indices = ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
+    return distinct
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
-    """Return for each of `count` elements the index of the last holder that has it, or -1.
+    """Return for each of `count` elements the index of the last holder that has it, or -1; not to be written to.
 
     A set that holds several objects counts only with the last of them, so repeated sets take no extra time.
     """
     last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
+    order = sorted(last.values())
+    whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
+    if not order or order[-1:] == whole[-1:]:
+        return np.broadcast_to(np.intp(order[-1] if order else -1), (count,))
     winner = np.full(count, -1, dtype=np.intp)
-    for index in sorted(last.values()):
+    for index in order:
         winner[cast("NamedSet", holders[index]).elements] = index
     return winner

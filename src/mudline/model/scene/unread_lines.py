@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from dataclasses import replace
 from functools import cached_property
 
@@ -12,20 +12,18 @@ import numpy as np
 from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF006, REF015
-from mudline.language.deck.model import Deck, Opaque, raw_lines
+from mudline.language.deck.model import Deck, raw_lines
 from mudline.language.deck.parameters import NoValueError, Parameters, name_key
-from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import is_read, kept_places
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.model import Path, record_schema
+from mudline.language.keywords.model import record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
 from mudline.language.syntax.fields import FieldGroup, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import COMMENT, data_lines, file_name, find_file, not_found
+from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
 from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.references import (
     CURVES,
@@ -47,22 +45,19 @@ _FREE = ("NAME", Names.FILE.name)
 _THINGS = ("GEN", *(kind.name for kind in (Names.SET, Names.ELEMENT, Names.NODE, Names.VESSEL)))
 """Settings that begin a line about an object which has a curve."""
 
-Line = tuple[Where, str]
-
 
 def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> None:
     """Check every line of a deck itself that is not read, except titles and other text for people.
 
     `nodes` are those of the deck, None if other nodes are used.
     """
-    looking: _Looking | None = None
-    for where, keyword, line in unread_lines(context):
+    looking = _Looking(context, sets)
+    for where, keyword, line in context.unread_lines:
         holds = keyword == KEYWORD and is_of_vessels(context.written, where)
         if len(line) > _LONGEST or not (holds or _WORTH.search(line)):
             continue
         kept = catalogue.opaque_keyword(context.written.sections[where.section].name, keyword)
         if not (kept and kept.free_text):
-            looking = looking or _Looking(context, sets)
             looking.look(where, keyword, line)
             if holds:
                 looking.condition(where, keyword, line, nodes)
@@ -72,28 +67,6 @@ def is_of_vessels(deck: Deck, where: Where) -> bool:
     """Return True if the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
     block = deck.sections[where.section].blocks[where.block]
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
-
-
-def unread_lines(context: Context) -> list[tuple[Where, str, str]]:
-    """Return the lines of a deck itself that are not read, without comments: their place, keyword and text."""
-    return context.once(_every_unread_line)
-
-
-def _every_unread_line(context: Context) -> list[tuple[Where, str, str]]:
-    deck, unread = context.written, list[tuple[Where, str, str]]()
-    for at, _, block in deck.alone.every_block():
-        lines: Iterable[tuple[Path, str]]
-        if type(block) is Opaque:
-            lines = ((("lines", n), line) for n, line in enumerate(block.lines))
-        elif is_read(block):
-            continue
-        elif isinstance(deck.origin, TextOrigin):
-            kept = deck.origin.kept_lines(at.section, at.block)
-            lines = ((("unread", n), line) for n, line in enumerate(kept))
-        else:
-            lines = kept_places(block)
-        unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
-    return unread
 
 
 def _uses_any_curve(line: str) -> bool:
@@ -137,9 +110,9 @@ class _Looking:
                     message = f"{shown(field.text)} is not a number: write {number}"
                     self._warn(SYN002, message, where.inside(*field.span))
             value = group.fields[0]
-            place = where.inside(*value.span)
             if not known or not value.text or value.text.startswith("=["):
                 continue
+            place = where.inside(*value.span)
             if group.key == Names.SET.name:
                 self._set(place, keyword, value.text)
             elif group.key == Names.VESSEL.name:
@@ -211,13 +184,9 @@ class _Looking:
         of_results = self.context.written.sections[where.section].name in _OF_RESULTS
         own = self._sets_of_results if of_results else {}
         if self.sets.find(name) is None and name_key(name) not in own:
-            hint = self.context.hint(name, self._set_names) or self.context.hint(name, own)
+            hint = self.context.hint(name, self.sets.names) or self.context.hint(name, own)
             message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
             self._warn(REF001, message, where, lacks=name)
-
-    @cached_property
-    def _set_names(self) -> dict[str, str]:
-        return {key: found.name for key, found in self.sets.named.items()}
 
     @cached_property
     def _sets_of_results(self) -> dict[str, str]:

@@ -16,7 +16,6 @@ from mudline.model.scene.sections import stiffnesses
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
-    from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
     from mudline.language.keywords.library.loads import InternalFluid
     from mudline.model.scene.resolved import ResolvedDeck
 
@@ -224,17 +223,14 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floa
     added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
     from_deck, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
     along = np.zeros((count, 2))
-    for _, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
-        hydrodynamic = cast("HydrodynamicSets", block)
-        for entry in hydrodynamic.sets:
-            name, row = known_name(entry.set_name), entry.constant
-            holder = None if name is None else scene.set_table.find(name)
-            if holder is None or row is None:
+    for where, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
+        for _, entry, _, holder in scene.set_table.entries([(where, block)]):
+            if holder is None or (row := entry.constant) is None:
                 continue
             rows = holder.elements
             inertia = number(row, "normal_inertia", _INERTIA)
             added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
             drag[rows] = number(row, "normal_drag", _DRAG)
             along[rows] = [number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass")]
-            from_deck[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
+            from_deck[rows], with_buoyancy[rows] = True, block.diameter == "BUOYANCY"
     return added, drag, from_deck, with_buoyancy, along
