@@ -241,7 +241,9 @@ def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:
     if not law.tables:
         return [NormalRows(law, assigned.rows, assigned.columns)]
     index = assigned.columns[-1].astype(np.intp)
-    return [NormalRows(law, assigned.rows[index == each], (), each) for each in np.unique(index).tolist()]
+    return [
+        NormalRows(law, assigned.rows[index == each], (), each) for each in np.flatnonzero(np.bincount(index)).tolist()
+    ]
 
 
 def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray | None]:

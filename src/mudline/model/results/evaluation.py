@@ -21,7 +21,7 @@ from mudline.model.contact.touchdown import LineResults, Touchdown
 from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.numbering import Floats, Indices, Mask, distinct
 from mudline.model.scene.weights import contents_case, left_out
 
 Tension = Literal["keep", "cut"]
@@ -103,7 +103,7 @@ class Evaluation:
     @cached_property
     def lines(self) -> Indices:
         """Indices of the lines with an evaluated element."""
-        return np.unique(self.model.input.lines.of_element[self.elements])
+        return distinct(self.model.input.lines.of_element[self.elements])
 
     @cached_property
     def touchdown(self) -> Touchdown:

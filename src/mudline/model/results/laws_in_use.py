@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from mudline.basics.short_repr import counted, cut
 from mudline.basics.spelling import Effort
 from mudline.language.codes.contact import REF003, SBD006, SBD017, SBD025
@@ -26,7 +24,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact import LawKind
 from mudline.model.scene.given_positions import Doubt
-from mudline.model.scene.numbering import Indices
+from mudline.model.scene.numbering import Indices, distinct
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
@@ -64,7 +62,7 @@ def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeywor
     `some` is True if other elements of the line are not in `free`, and may carry a pipe inside of them.
     """
     covered = scene.laws.covered[free]
-    for block in np.unique(covered[covered >= 0]).tolist():
+    for block in distinct(covered[covered >= 0]).tolist():
         elements = free[covered == block]
         message = (
             f"{_touching(scene, elements)} stiffness: this block gives none, and overrides earlier ones as a whole; "
@@ -115,7 +113,7 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
     variation may choose, is left out.
     """
     laws = scene.laws
-    used = set(np.unique(laws.of_element[scene.law == LawKind.CURVE]).tolist())
+    used = set(distinct(laws.of_element[scene.law == LawKind.CURVE]).tolist())
     by_curve: dict[int, list[SetLaw]] = {}
     followed: set[int] = set()
     for index, grant in enumerate(laws.set_laws):
@@ -165,7 +163,7 @@ def _reason(scene: ResolvedDeck, grant: SetLaw) -> str:
         return f"{name} has no element"
     if scene.nodal[elements].all():
         return f"*SEABED CONTACT gives the nodes of {name} a stiffness of their own"
-    winners = np.unique(scene.laws.of_element[elements]).tolist()
+    winners = distinct(scene.laws.of_element[elements]).tolist()
     lines = sorted({scene.line_of(scene.laws.set_laws[index].where) for index in winners})
     if len(winners) > 1:
         return f"lines {', '.join(map(str, lines))} override it for all elements of {name}"

@@ -27,7 +27,7 @@ from mudline.model.results.evaluation import Evaluation, PositionSource, evaluat
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.given_positions import Doubt, position_doubts
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Floats, Indices, distinct
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import (
@@ -162,7 +162,7 @@ class ContactWatch:
         self._weight = operating_weight(scene) if given.weight is None else given.weight
         self._elements = evaluation.elements
         self._rows = self._elements if len(self._elements) < len(scene.element_ids) else slice(None)
-        self._nodes = np.unique(scene.element_nodes[self._elements])
+        self._nodes = distinct(scene.element_nodes[self._elements])
         self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
         self._lightest, self._case = self._least_weight()
         self._touched = np.zeros(len(scene.element_ids), dtype=np.bool_)
@@ -175,7 +175,7 @@ class ContactWatch:
         self.balance = _Balance(0.0, 0.0, 0.0, np.zeros(0, np.intp), 0)
         self._survey = survey_of(scene.seabed)
         lawful = self._elements[scene.law[self._elements] != LawKind.NONE]
-        self._lawful = np.unique(scene.element_nodes[lawful])
+        self._lawful = distinct(scene.element_nodes[lawful])
         self._thickest = float(np.fmax.reduce(scene.diameter[lawful], initial=0.0))
         self._left, self._left_at = np.zeros(len(scene.nodes), dtype=np.bool_), -1
         self._doubts: list[Doubt] = []
@@ -234,7 +234,7 @@ class ContactWatch:
                 before.reaction + reaction,
                 before.weight + weight,
                 before.empty + empty,
-                np.union1d(before.elements, here),
+                distinct(np.concatenate([before.elements, here])),
                 before.steps + len(held),
             )
 

@@ -216,7 +216,7 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
         ellipse = extension.says(block, "criterion", "ELLIPSE")
         angle = extension.values(block, "directions")
     coefficients, stiffness, mobilisation = springs
-    coefficients[np.unique(ends[lateral]), 1] = 0.0
+    coefficients[ends[lateral], 1] = 0.0
     rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
     with np.errstate(all="ignore"):
         rising = coefficients[rows] / mobilisation[rows]

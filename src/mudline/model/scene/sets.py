@@ -17,7 +17,7 @@ from mudline.language.keywords.contents import set_slots
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
 from mudline.model.scene.context import Context
-from mudline.model.scene.numbering import Indices, Numbered
+from mudline.model.scene.numbering import Indices, Numbered, distinct
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import (
@@ -221,7 +221,7 @@ class _SetReader:
                     indices, whole = self._range(range_, where.inside("members", index))
                     listed.append(indices)
                 unsure |= not whole
-        union = _distinct(_joined([*listed, *parts]))
+        union = distinct(_joined([*listed, *parts]))
         self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty, _joined(listed))
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
@@ -259,7 +259,7 @@ class _SetReader:
         count = (end - start) // step + 1
         lacking = count - len(elements)
         if lacking and not self.context.possible_definition("ELEMENT"):
-            numbers_there = _distinct(self.elements.ids[elements])
+            numbers_there = distinct(self.elements.ids[elements])
             gaps = np.flatnonzero(numbers_there != start + step * np.arange(len(numbers_there)))
             first = start + step * int(gaps[0] if len(gaps) else len(numbers_there))
             if lacking == 1:
@@ -274,15 +274,6 @@ class _SetReader:
 
 def _joined(parts: list[Indices]) -> Indices:
     return parts[0] if len(parts) == 1 else np.concatenate([_NOTHING, *parts])
-
-
-def _distinct(indices: Indices) -> Indices:
-    """Return the same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
-    if not np.count_nonzero(indices[1:] <= indices[:-1]):
-        return indices
-    ordered = np.sort(indices)
-    distinct: Indices = ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
-    return distinct
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
