@@ -83,9 +83,6 @@ def _elements(pair: Pair) -> Iterator[Difference]:
 
 def _common(first: Numbered, second: Numbered) -> tuple[Indices, Indices]:
     """Return the indices in each table of the numbers that both have."""
-    if np.array_equal(first.ids, second.ids):
-        same = np.arange(len(first.ids), dtype=np.intp)
-        return same, same
     at = second.indices(first.ids)
     here = np.flatnonzero(at >= 0)
     return here, at[here]

@@ -51,6 +51,10 @@ def formatted(data: bytes, name: str) -> bytes:
         raise FormatError(_CUT_OFF)
     if any(problem.code is SYN015 for problem in deck.problems):
         raise FormatError(_COMMAS)
+    mark = source.text.find(END_MARK, len(source.text.rstrip(f"{END_MARK} \t\r\n")))
+    if mark >= 0:  # end-of-file marks of old systems stay at the end
+        laid_out = Source.from_bytes(formatted(source.to_bytes(source.text[:mark]), name), name)
+        return source.to_bytes(laid_out.text + END_MARK * source.text.count(END_MARK, mark))
     edits = _DocumentLayout(cast("TextOrigin", deck.origin)).edits()
     if not edits:
         return data
@@ -101,9 +105,6 @@ class _DocumentLayout:
         ends = line_ends(self.source.text)
         self.end = next(iter(ends), "\n")
         self.mixed = len(ends) > 1
-        self.ended = len(self.text)  # end of the text without trailing blanks and marks
-        while self.ended and self.source.text[self.ended - 1] in f"{END_MARK} \t\r\n":
-            self.ended -= 1
         self.collected: list[TextEdit] = []
         self.blanks: list[Span] = []
 
@@ -123,17 +124,11 @@ class _DocumentLayout:
                 else:
                     self._block(block, read)
         for span in self.blanks:
-            self._put(span, self._marks(span))
+            self._put(span, "")
         return self.collected
 
-    def _marks(self, span: Span) -> str:
-        """Return the end-of-file marks of old systems among blanks, which formatting leaves unchanged."""
-        return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
-
     def _put(self, span: Span, lines: str) -> None:
-        """Replace the lines of a span by lines that end with LF; end-of-file marks stay after the last line."""
-        if span.end > self.ended and not lines.endswith(END_MARK):
-            lines += self._marks(Span(max(span.start, self.ended), span.end))
+        """Replace the lines of a span by lines that end with LF."""
         new = lines if self.end == "\n" else lines.replace("\n", self.end)
         if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
             self.collected.append(TextEdit(span, new))
@@ -159,9 +154,6 @@ class _DocumentLayout:
             self._end_blanks()
             if self.mixed or leaf.span.end == len(self.text):
                 lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
-                if not lines.strip(" \t\n") and (marks := self._marks(leaf.span)):
-                    self._put(leaf.span, marks)
-                    continue
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
