@@ -55,11 +55,10 @@ def formatted(data: bytes, name: str) -> bytes:
     if mark >= 0:  # end-of-file marks of old systems stay at the end
         laid_out = Source.from_bytes(formatted(source.to_bytes(source.text[:mark]), name), name)
         return source.to_bytes(laid_out.text + END_MARK * source.text.count(END_MARK, mark))
-    edits = _DocumentLayout(cast("TextOrigin", deck.origin)).edits()
-    if not edits:
+    text = apply_edits(source.text, _DocumentLayout(cast("TextOrigin", deck.origin)).edits())
+    if (text := _with_one_line_end(text, source.text)) == source.text:
         return data
-    after = source.to_bytes(apply_edits(source.text, edits))
-    del edits  # as much memory as the text
+    after = source.to_bytes(text)
     return _checked(deck, after, read_source(Source.from_bytes(after, name)))
 
 
@@ -81,30 +80,25 @@ def _checked(deck: Deck, after: bytes, again: Deck) -> bytes:
 
 # -------------------------------------------------------------------------------------------------- the lines of a file
 
-_LINE_ENDS = ("\n", "\r\n", "\r")
+_CR = re.compile("\r\n?")
 
 
-def line_ends(text: str) -> dict[str, int]:
-    """Count each kind of line end in a text, the most frequent first."""
-    cr = text.count("\r")
-    crlf = text.count("\r\n") if cr else 0
-    counts = dict(zip(_LINE_ENDS, (text.count("\n") - crlf, crlf, cr - crlf), strict=True))
-    return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
+def _with_one_line_end(text: str, given: str) -> str:
+    """Return a text with the line end that is most frequent in a given text."""
+    if "\r" not in given:
+        return text
+    crlf = given.count("\r\n")
+    counts = {"\n": given.count("\n") - crlf, "\r\n": crlf, "\r": given.count("\r") - crlf}
+    return _CR.sub("\n", text).replace("\n", max(counts, key=lambda end: counts[end]))
 
 
 class _DocumentLayout:
-    """Edits that give a text, read without an error, the canonical layout.
-
-    The texts of the edits have the most frequent line end of the file.
-    """
+    """Edits that give a text, read without an error, the canonical layout, with LF in new lines."""
 
     def __init__(self, origin: TextOrigin) -> None:
         self.origin = origin
         self.source = origin.source
         self.text = self.source.unified
-        ends = line_ends(self.source.text)
-        self.end = next(iter(ends), "\n")
-        self.mixed = len(ends) > 1
         self.collected: list[TextEdit] = []
         self.blanks: list[Span] = []
 
@@ -129,9 +123,8 @@ class _DocumentLayout:
 
     def _put(self, span: Span, lines: str) -> None:
         """Replace the lines of a span by lines that end with LF."""
-        new = lines if self.end == "\n" else lines.replace("\n", self.end)
-        if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
-            self.collected.append(TextEdit(span, new))
+        if self.text[slice(*span)].replace("\r\n", "\n") != lines:
+            self.collected.append(TextEdit(span, lines))
 
     def _end_blanks(self) -> None:
         """Keep one of the blank lines before a line that is not blank."""
@@ -149,12 +142,11 @@ class _DocumentLayout:
         self._put(leaf.span, f"{controls}{canonical if known else written}\n")
 
     def _kept(self, leaves: list[Leaf]) -> None:
-        """Leave lines unchanged, except for their line ends."""
+        """Leave lines unchanged; the last line of the file gets a line end."""
         for leaf in leaves:
             self._end_blanks()
-            if self.mixed or leaf.span.end == len(self.text):
-                lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
-                self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
+            if leaf.span.end == len(self.text):
+                self._put(leaf.span, self.text[slice(*leaf.span)].removesuffix("\n") + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
         """Lay out lines that belong to no keyword."""
