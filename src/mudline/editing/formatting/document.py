@@ -56,10 +56,9 @@ def formatted(data: bytes, name: str) -> bytes:
         laid_out = Source.from_bytes(formatted(source.to_bytes(source.text[:mark]), name), name)
         return source.to_bytes(laid_out.text + END_MARK * source.text.count(END_MARK, mark))
     text = apply_edits(source.text, _DocumentLayout(cast("TextOrigin", deck.origin)).edits())
-    if (text := _with_one_line_end(text, source.text)) == source.text:
-        return data
-    after = source.to_bytes(text)
-    return _checked(deck, after, read_source(Source.from_bytes(after, name)))
+    after = source.to_bytes(_with_one_line_end(text, source.text))
+    del text  # as much memory as the file
+    return data if after == data else _checked(deck, after, read_source(Source.from_bytes(after, name)))
 
 
 def _document(data: bytes, name: str, form: str) -> bytes:
