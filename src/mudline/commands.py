@@ -252,11 +252,7 @@ def diff(
         OSError: one of two files cannot be read, or the folders have no deck in common.
         ValueError: one argument is a folder, the other is not.
     """
-    from mudline.editing.comparison.decks import (  # noqa: PLC0415 - as above
-        Comparison,
-        compare_decks,
-        compare_folders,
-    )
+    from mudline.editing.comparison import decks as compared  # noqa: PLC0415 - as above
 
     expect_number(tolerance, "tolerance", or_zero=True)
     expect(strict, "strict", bool, "True or False")
@@ -273,13 +269,13 @@ def diff(
         raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
     if folders:
         words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
-        decks = list(compare_folders(folders[0], folders[1], tolerance, **words))
+        decks = list(compared.compare_folders(folders[0], folders[1], tolerance, **words))
         if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
         differences = [each for deck in decks for each in deck.comparison.differences]
-        return Comparison(differences, [each for deck in decks for each in deck.comparison.spelling], decks)
+        return compared.Comparison(differences, [each for deck in decks for each in deck.comparison.spelling], decks)
     first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
-    return compare_decks(first, second, tolerance, strict=strict)
+    return compared.compare_decks(first, second, tolerance, strict=strict)
 
 
 def diff_matrix(

@@ -9,13 +9,7 @@ from itertools import chain, islice
 from typing import Any, NamedTuple, TypeVar
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.editing.variations.names import (
-    may_vary,
-    misspelt_keywords,
-    misspelt_sections,
-    undefined_parameters,
-    undefined_variations,
-)
+from mudline.editing.variations.names import may_vary, misspelt_actions, undefined_parameters, undefined_variations
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
@@ -114,7 +108,7 @@ def of_variations(deck: Deck) -> Iterator[Problem]:
     """Yield undefined names in variations: they are faults of the varied decks, and not of this deck."""
     if not may_vary(deck):
         return
-    for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
+    for find in (undefined_parameters, undefined_variations, misspelt_actions):
         for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)
 

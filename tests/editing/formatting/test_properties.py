@@ -123,6 +123,8 @@ def test_mutated_decks(data: bytes) -> None:
         b"\nCabc\x1a",
         b"\vCabc\x1a",
         b"$MODEL\x1a\x1a \n \x1a",
+        b" raw\x1a\n  \n",
+        b"$MODEL\n*NEW\n raw\n\n\x1a",
     ],
 )
 def test_an_end_of_file_mark(data: bytes) -> None:

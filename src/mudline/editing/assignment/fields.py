@@ -49,11 +49,6 @@ class DeclaredField(NamedTuple):
             return Label.match(operand.text) is not None
         return self.slot.kind in (Kind.NAME, Kind.TITLE, Kind.REAL_OR_NAME)
 
-    @property
-    def dotted(self) -> str:
-        """The names as in a path, without the list of records at the beginning."""
-        return ".".join(self.names[1:] if len(self.names) > 1 else self.names)
-
 
 @dataclass(frozen=True, slots=True)
 class FieldTarget:
@@ -154,7 +149,8 @@ def _unknown_keyword(keyword: str) -> str:
 
 
 def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
-    names = dict.fromkeys(field.dotted for field in known)
+    # as in a path, without the list of records at the beginning
+    names = dict.fromkeys(".".join(field.names[1:] or field.names) for field in known)
     hint = _hint(path.names[-1], {name for field in known for name in _names_of(field.slot)})
     listed = ", ".join(list(names)[:LISTED]) + (", ..." if len(names) > LISTED else "")
     return f"*{path.keyword} has no field {'.'.join(path.names)!r}" + (hint or f": it has {listed or 'none'}")

@@ -202,7 +202,7 @@ def _around(path: str, before: Flat, after: Flat) -> Iterator[tuple[Where | None
     record = path.partition("/")[0]
     yield before[record].where if record in before else None, after[record].where if record in after else None
     old, new = (flat[path].where if path in flat else None for flat in (before, after))
-    for end in range(max(len(where.path) for where in (old, new) if where) + 1):
+    for end in range(3):  # block and record
         yield old and old._replace(path=old.path[:end]), new and new._replace(path=new.path[:end])
 
 

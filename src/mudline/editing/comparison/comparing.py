@@ -83,9 +83,6 @@ def _elements(pair: Pair) -> Iterator[Difference]:
 
 def _common(first: Numbered, second: Numbered) -> tuple[Indices, Indices]:
     """Return the indices in each table of the numbers that both have."""
-    if np.array_equal(first.ids, second.ids):
-        same = np.arange(len(first.ids), dtype=np.intp)
-        return same, same
     at = second.indices(first.ids)
     here = np.flatnonzero(at >= 0)
     return here, at[here]
@@ -256,8 +253,7 @@ def follow_differently(
     first, second = read(before), read(after)
     width = len(second.entries) + 1
     followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
-    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly have the same
-    for both in sorted(set(followed[starts].tolist())):
+    for both in np.unique(followed).tolist():
         i, j = both // width - 1, both % width - 1
         places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
         if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.reported:  # the records

@@ -51,12 +51,14 @@ def formatted(data: bytes, name: str) -> bytes:
         raise FormatError(_CUT_OFF)
     if any(problem.code is SYN015 for problem in deck.problems):
         raise FormatError(_COMMAS)
-    edits = _DocumentLayout(cast("TextOrigin", deck.origin)).edits()
-    if not edits:
-        return data
-    after = source.to_bytes(apply_edits(source.text, edits))
-    del edits  # as much memory as the text
-    return _checked(deck, after, read_source(Source.from_bytes(after, name)))
+    mark = source.text.find(END_MARK, len(source.text.rstrip(f"{END_MARK} \t\r\n")))
+    if mark >= 0:  # end-of-file marks of old systems stay at the end
+        laid_out = Source.from_bytes(formatted(source.to_bytes(source.text[:mark]), name), name)
+        return source.to_bytes(laid_out.text + END_MARK * source.text.count(END_MARK, mark))
+    text = apply_edits(source.text, _DocumentLayout(cast("TextOrigin", deck.origin)).edits())
+    after = source.to_bytes(_with_one_line_end(text, source.text))
+    del text  # as much memory as the file
+    return data if after == data else _checked(deck, after, read_source(Source.from_bytes(after, name)))
 
 
 def _document(data: bytes, name: str, form: str) -> bytes:
@@ -77,33 +79,25 @@ def _checked(deck: Deck, after: bytes, again: Deck) -> bytes:
 
 # -------------------------------------------------------------------------------------------------- the lines of a file
 
-_LINE_ENDS = ("\n", "\r\n", "\r")
+_CR = re.compile("\r\n?")
 
 
-def line_ends(text: str) -> dict[str, int]:
-    """Count each kind of line end in a text, the most frequent first."""
-    cr = text.count("\r")
-    crlf = text.count("\r\n") if cr else 0
-    counts = dict(zip(_LINE_ENDS, (text.count("\n") - crlf, crlf, cr - crlf), strict=True))
-    return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
+def _with_one_line_end(text: str, given: str) -> str:
+    """Return a text with the line end that is most frequent in a given text."""
+    if "\r" not in given:
+        return text
+    crlf = given.count("\r\n")
+    counts = {"\n": given.count("\n") - crlf, "\r\n": crlf, "\r": given.count("\r") - crlf}
+    return _CR.sub("\n", text).replace("\n", max(counts, key=lambda end: counts[end]))
 
 
 class _DocumentLayout:
-    """Edits that give a text, read without an error, the canonical layout.
-
-    The texts of the edits have the most frequent line end of the file.
-    """
+    """Edits that give a text, read without an error, the canonical layout, with LF in new lines."""
 
     def __init__(self, origin: TextOrigin) -> None:
         self.origin = origin
         self.source = origin.source
         self.text = self.source.unified
-        ends = line_ends(self.source.text)
-        self.end = next(iter(ends), "\n")
-        self.mixed = len(ends) > 1
-        self.ended = len(self.text)  # end of the text without trailing blanks and marks
-        while self.ended and self.source.text[self.ended - 1] in f"{END_MARK} \t\r\n":
-            self.ended -= 1
         self.collected: list[TextEdit] = []
         self.blanks: list[Span] = []
 
@@ -123,20 +117,13 @@ class _DocumentLayout:
                 else:
                     self._block(block, read)
         for span in self.blanks:
-            self._put(span, self._marks(span))
+            self._put(span, "")
         return self.collected
 
-    def _marks(self, span: Span) -> str:
-        """Return the end-of-file marks of old systems among blanks, which formatting leaves unchanged."""
-        return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
-
     def _put(self, span: Span, lines: str) -> None:
-        """Replace the lines of a span by lines that end with LF; end-of-file marks stay after the last line."""
-        if span.end > self.ended and not lines.endswith(END_MARK):
-            lines += self._marks(Span(max(span.start, self.ended), span.end))
-        new = lines if self.end == "\n" else lines.replace("\n", self.end)
-        if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
-            self.collected.append(TextEdit(span, new))
+        """Replace the lines of a span by lines that end with LF."""
+        if self.text[slice(*span)].replace("\r\n", "\n") != lines:
+            self.collected.append(TextEdit(span, lines))
 
     def _end_blanks(self) -> None:
         """Keep one of the blank lines before a line that is not blank."""
@@ -154,15 +141,11 @@ class _DocumentLayout:
         self._put(leaf.span, f"{controls}{canonical if known else written}\n")
 
     def _kept(self, leaves: list[Leaf]) -> None:
-        """Leave lines unchanged, except for their line ends."""
+        """Leave lines unchanged; the last line of the file gets a line end."""
         for leaf in leaves:
             self._end_blanks()
-            if self.mixed or leaf.span.end == len(self.text):
-                lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
-                if not lines.strip(" \t\n") and (marks := self._marks(leaf.span)):
-                    self._put(leaf.span, marks)
-                    continue
-                self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
+            if leaf.span.end == len(self.text):
+                self._put(leaf.span, self.text[slice(*leaf.span)].removesuffix("\n") + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
         """Lay out lines that belong to no keyword."""

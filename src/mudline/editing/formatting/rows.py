@@ -209,10 +209,10 @@ class NumberRows:
         last = characters[ends] == _LF
         opens = np.flatnonzero(np.concatenate(([True], last[:-1])))
         column = np.arange(len(ends)) - np.repeat(opens, np.diff(opens, append=len(ends)))
+        rows = cls(characters, sizes, lefts, column)
         if not sizes.all():
-            rows = cls(characters, sizes, lefts, column)
             return rows._cut(ends, opens, most)
-        return None if column.max() >= most else cls(characters, _small(sizes), _small(lefts), _small(column))
+        return None if column.max() >= most else rows
 
     def _cut(self, ends: _Array, opens: _Array, most: int) -> Self | None:
         """Return the rows without trailing empty fields; each row begins at one of the fields `opens`.
@@ -226,7 +226,7 @@ class NumberRows:
         kept = self.column <= last
         characters = self.characters.copy()
         characters[ends[self.column == last]] = _LF
-        fields = (_small(values[kept]) for values in (self.sizes, self.lefts, self.column))
+        fields = (values[kept] for values in (self.sizes, self.lefts, self.column))
         return type(self)(np.delete(characters, ends[~kept]), *fields)
 
     def measure(self, columns: Columns) -> None:
@@ -265,11 +265,6 @@ def _without_blanks(codes: NDArray[np.uint8]) -> NDArray[np.uint8] | None:
     return kept
 
 
-def _small(values: _Array) -> _Array:
-    """Return numbers in the smallest type that holds them: those of a whole table are kept until it is measured."""
-    return values.astype(np.min_scalar_type(int(values.max())))
-
-
 _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
 
@@ -299,7 +294,6 @@ class AlignedRows:
     text: str
     kind: RowKind
     members: list[tuple[Span, list[str]]] = field(default_factory=list)
-    _plain: dict[int, NumberRows | None] = field(default_factory=dict)
 
     def laid_out(self) -> Iterator[tuple[Span, str]]:
         """Yield the lines of each member in aligned columns, each with a LF."""
@@ -312,11 +306,7 @@ class AlignedRows:
             yield member[0], "".join(part.lines(shapes) for part in self._parts(*member))
 
     def _parts(self, span: Span, fields: list[str]) -> Iterator[WordRows | NumberRows]:
-        """Yield a row, or the rows of a table in pieces of some thousand.
-
-        Plain rows are kept, by their offset, when first read, and taken from there the second time. Other rows take so
-        much memory that they are read twice.
-        """
+        """Yield a row, or the rows of a table in pieces of some thousand, which are read twice."""
         if fields:
             yield WordRows([fields])
             return
@@ -324,10 +314,6 @@ class AlignedRows:
         most = len(self.kind.columns)
         while start < end:
             stop = self.text.find("\n", min(start + PIECE, end), end) + 1 or end
-            if start in self._plain:
-                rows = self._plain.pop(start)
-            else:
-                rows = NumberRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
-                self._plain[start] = rows
+            rows = NumberRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
             yield rows or word_rows(self.text[start:stop], most)
             start = stop

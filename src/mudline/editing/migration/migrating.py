@@ -13,7 +13,7 @@ from mudline.editing.comparison.comparing import compare
 from mudline.editing.comparison.decks import without_spelling
 from mudline.editing.comparison.model import Difference
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
-from mudline.editing.migration.rewriting import Rewriting, rewrite, unused_definitions
+from mudline.editing.migration.rewriting import rewrite, unused_definitions
 from mudline.language.codes import MIG001
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.keyword_text import as_text
@@ -30,7 +30,7 @@ from mudline.model.scene.deck_values import data_lines
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.representatives import representatives, shows_elements
-from mudline.model.scene.seabed import SeabedShape, parse_profile
+from mudline.model.scene.seabed import parse_profile
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,14 +79,14 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
     content = edited_bytes(origin.source, rewritten.edits)
     changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
     changed = replace(changed, source=deck.source, folder=deck.folder)
-    after = _checked(deck, before, changed, rewritten)
+    files = {name: lines.encode() for name, lines in rewritten.files.items()}
+    after = _checked(deck, before, changed, files)
     if not isinstance(deck.origin, TextOrigin):
         content = dump(changed, form_of(deck.file)).encode()
-    files = {name: lines.encode() for name, lines in rewritten.files.items()}
     return Migration(before, after, changed, content, files, replaced)
 
 
-def _checked(deck: Deck, before: Scene, changed: Deck, rewritten: Rewriting) -> Scene:
+def _checked(deck: Deck, before: Scene, changed: Deck, files: Mapping[str, bytes]) -> Scene:
     """Return the scene of the new deck; raises DeckError if it lost anything or has new faults."""
     after = resolve(changed)
     faults = [problem.message for problem in after.errors()]
@@ -94,11 +94,10 @@ def _checked(deck: Deck, before: Scene, changed: Deck, rewritten: Rewriting) -> 
     faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
     expected = Counter(problem.code.code for problem in before.findings)
     new = Counter(problem.code.code for problem in after.findings)
-    for code in (new - expected) - Counter({"REF015": len(rewritten.files)}):
+    for code in (new - expected) - Counter({"REF015": len(files)}):
         faults.append(f"it would have a new finding {code}")
-    if not faults:  # the file of a profile is not written yet
-        found = [each for each in _differences(before, after) if each.group != "seabed" or not rewritten.files]
-        faults += [f"{each.where} would change" for each in found]
+    if not faults:
+        faults += [f"{each.where} would change" for each in _differences(before, after, files)]
     if faults:
         where, _ = superseded_blocks(deck)[0]
         problems = [Problem(MIG001, f"the deck is left unchanged: {fault}", where=where) for fault in faults]
@@ -106,8 +105,11 @@ def _checked(deck: Deck, before: Scene, changed: Deck, rewritten: Rewriting) -> 
     return after
 
 
-def _differences(before: Scene, after: Scene) -> list[Difference]:
-    """Return the differences in meaning of the decks before and after a migration."""
+def _differences(before: Scene, after: Scene, files: Mapping[str, bytes]) -> list[Difference]:
+    """Return the differences in meaning of the decks before and after a migration; `files` are not written yet."""
+    if after.seabed.file in files:
+        points = parse_profile(files[after.seabed.file], after.seabed.file, 2)
+        after = replace(after, seabed=replace(after.seabed, points=points, missing="", file=""))
     return without_spelling(before, after, compare(before, after)).differences
 
 
@@ -160,11 +162,10 @@ def verify(migration: Migration) -> Verification:
     This shows that the same block wins for elements that the deck does not list, such as those of `*LINES`.
     """
     before, after = migration.before, migration.after
-    differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
-    for each in _differences(before, after):
-        if each.group != "seabed":
-            what, _, value = each.where.partition("/")
-            differences.append(MigrationDifference(what, f"{value}: {each.before} before, {each.after} after"))
+    differences = []
+    for each in _differences(before, after, migration.files):
+        what, _, value = each.where.partition("/")
+        differences.append(MigrationDifference(what, f"{value}: {each.before} before, {each.after} after"))
     kinds, positions, deviations = _compare(before, after, {})
     differences += deviations
     if shows_elements(before):
@@ -173,17 +174,6 @@ def verify(migration: Migration) -> Verification:
     _, more, deviations = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
     differences += deviations
     return Verification(len(before.element_ids), kinds, positions + more, len(external.ids), tuple(differences))
-
-
-def _seabed_shapes(
-    before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]
-) -> Iterator[MigrationDifference]:
-    """Yield the difference of the seabed, if any; the profile file is not written yet and is among `files`."""
-    if after.file in files:
-        after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
-    if not before.same(after):
-        old, new = (f"{each.kind.value} (slope {each.slope!r}, {len(each.points)} points)" for each in (before, after))
-        yield MigrationDifference("the seabed", f"{old} before, {new} after")
 
 
 # ------------------------------------------------------------------------------------------------------------ elements

@@ -94,7 +94,7 @@ class ParameterTargets:
     def in_a_name(self, name: str, values: Values) -> str | None:
         """Return a parameter's value for a file name: as written, unquoted; None for an equation without a value."""
         key = folded(name)
-        written = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
+        written = values.get(self._targets[key].name, self._targets[key].text)
         if Equation.match(written) is None:
             return unquoted(written)
         evaluated = Parameters(with_values(self.deck, values)).values.get(key)

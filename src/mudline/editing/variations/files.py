@@ -66,11 +66,6 @@ def _part_fault(part: str) -> str:
     return next((fault for fault, applies in faults.items() if applies), "")
 
 
-def same_place(path: str) -> str:
-    """Return a key that is equal for paths that some systems confuse: case and Unicode composition do not count."""
-    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
-
-
 class Taken:
     """Paths in use, each with the number of its deck."""
 
@@ -80,7 +75,8 @@ class Taken:
 
     def take(self, path: str, number: int) -> int | None:
         """Reserve a path for a number; return the number that uses it already as file or folder, else None."""
-        place = same_place(path)
+        # some systems confuse paths that differ in case or in Unicode composition
+        place = unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
         parts = place.split("/")
         folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
         taken = [self._files[name] for name in (place, *folders) if name in self._files]

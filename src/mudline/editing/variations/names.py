@@ -10,7 +10,7 @@ from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.codes.references import REF001, REF013
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
-from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.text import hint, shown, suggestion
 from mudline.language.keywords.unknown import is_unknown, known_name
@@ -19,7 +19,6 @@ from mudline.language.syntax.tree import canonical_name
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
-    from mudline.language.keywords.library.preprocessor import VariedBlock
 
 
 def unquoted(text: str) -> str:
@@ -101,25 +100,20 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
             yield undefined_variation(name, known.values(), effort, where)
 
 
-def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
-    """Yield unknown keywords in KEYWORD= of an action that resemble a known keyword."""
-    effort = Effort()
-    for varied, where in _actions(deck):
-        words = cast("list[str] | None", varied.keyword) or ()
-        name = canonical_name("*" + ",".join(map(unquoted, words)))
-        if near := _similar(name, catalogue.keywords(), effort):
-            message = f"keyword *{name} is not known{hint(near)}: correct it"
-            yield Problem(SYN009, message, None, Severity.WARNING, where.inside("keyword", 0))
-
-
-def misspelt_sections(deck: Deck) -> Iterator[Problem]:
-    """Yield unknown sections in SECTION= of an action that resemble a known section."""
-    effort = Effort()
-    for varied, where in _actions(deck):
-        name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
-        if near := _similar(name, catalogue.SECTIONS, effort):
-            message = f"section ${name} is not known{hint(near)}: correct it"
-            yield Problem(SYN010, message, None, Severity.WARNING, where.inside("section"))
+def misspelt_actions(deck: Deck) -> Iterator[Problem]:
+    """Yield unknown keywords and sections in KEYWORD= and SECTION= of an action that resemble known ones."""
+    of_keywords, of_sections = Effort(), Effort()
+    for where, block in deck.blocks("VARIATION", DEFINING):
+        for i, variation in enumerate(block.variations):
+            for j, varied in enumerate(variation.blocks):
+                words = cast("list[str] | None", varied.keyword) or ()
+                keyword = canonical_name("*" + ",".join(map(unquoted, words)))
+                section = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
+                place = where.inside("variations", i, "blocks", j)
+                if near := _similar(keyword, catalogue.keywords(), of_keywords):
+                    yield _misspelt(SYN009, f"keyword *{keyword}", near, place.inside("keyword", 0))
+                if near := _similar(section, catalogue.SECTIONS, of_sections):
+                    yield _misspelt(SYN010, f"section ${section}", near, place.inside("section"))
 
 
 def _similar(name: str, known: Collection[str], effort: Effort) -> str:
@@ -127,11 +121,8 @@ def _similar(name: str, known: Collection[str], effort: Effort) -> str:
     return "" if not name or name in known else nearest(name, known, effort)
 
 
-def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
-    for where, block in deck.blocks("VARIATION", DEFINING):
-        for i, variation in enumerate(block.variations):
-            for j, varied in enumerate(variation.blocks):
-                yield varied, where.inside("variations", i, "blocks", j)
+def _misspelt(code: Code, what: str, near: str, where: Where) -> Problem:
+    return Problem(code, f"{what} is not known{hint(near)}: correct it", None, Severity.WARNING, where)
 
 
 def _in_names(deck: Deck) -> Iterator[_Named]:

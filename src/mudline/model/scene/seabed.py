@@ -94,15 +94,6 @@ class SeabedShape:
 
     __repr__ = short_repr
 
-    def same(self, other: SeabedShape) -> bool:
-        """Return True if both are the same seabed, number by number; files of unknown points must be the same file."""
-        return (
-            (self.kind, self.slope, self.direction, self.interpolation, self.planes, self.missing)
-            == (other.kind, other.slope, other.direction, other.interpolation, other.planes, other.missing)
-            and np.array_equal(self.points, other.points)
-            and (not self.missing or self.file == other.file)
-        )
-
 
 _FLAT = SeabedShape()
 

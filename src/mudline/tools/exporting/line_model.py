@@ -395,20 +395,20 @@ def _report_held(scene: Scene, report: ExportReport, held: dict[int, frozenset[i
         report.add(where, Outcome.LEFT_OUT, "none", effect, f"DOF {freedoms}")
 
 
-def report_ends(report: ExportReport, ends: list[End], fixed: str, vessel: str, *, clamps: bool = False) -> None:
-    """Report the ends: held although partly free, on vessels, fixed against rotation."""
+def report_ends(report: ExportReport, ends: list[End], vessel: str, *, clamps: bool = False) -> None:
+    """Report the ends: held although partly free, on vessels (`vessel` ends of the target), fixed against rotation."""
     scene = report.scene
     places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
     for where in places:
-        report.add(where, Outcome.CARRIED, f"{fixed}, {vessel} ends")
+        report.add(where, Outcome.CARRIED, f"Fixed, {vessel} ends")
     for end in ends:
         node = f"node {int(scene.node_ids[end.node])}"
         if end.vessel:
-            status = Outcome.CARRIED if vessel != fixed else Outcome.APPROXIMATED
+            status = Outcome.CARRIED if vessel != "Fixed" else Outcome.APPROXIMATED
             report.add(places[-1], status, vessel, f"{node} stays where it is until it is moved", f"vessel at {node}")
         if not end.joins and (missing := sorted(TRANSLATIONS - end.held)):
             effect = f"free in DOF {', '.join(map(str, missing))} in the deck: held at its coordinates"
-            report.add(places[-1], Outcome.APPROXIMATED, vessel if end.vessel else fixed, effect, node)
+            report.add(places[-1], Outcome.APPROXIMATED, vessel if end.vessel else "Fixed", effect, node)
         if not clamps and (turned := sorted(end.held - TRANSLATIONS)):
             effect = f"no moment at {node}: the line turns freely there"
             report.add(places[-1], Outcome.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")

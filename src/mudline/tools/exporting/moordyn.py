@@ -193,7 +193,7 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float]) -> None:
     report, soil = model.report, model.soil
     report_sections(model, types, torsion=False)
-    report_ends(report, model.ends, "Fixed", "Coupled")
+    report_ends(report, model.ends, "Coupled")
     report_governing(report, model.soils, soil, at_touchdown=model.at_touchdown)
     used = [stiffness * width[at] for at in range(len(model.soils))]
     report_stiffness(report, model.soils, f"kBot {shown(stiffness, 4)} Pa/m, here", used)

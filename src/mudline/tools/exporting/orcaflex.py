@@ -233,7 +233,7 @@ def _report(model: LineModel, names: dict[Key, str]) -> None:
     report, soil = model.report, model.soil
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
     report_sections(model, listed, torsion=True)
-    report_ends(report, model.ends, "Fixed", "Fixed", clamps=True)
+    report_ends(report, model.ends, "Fixed", clamps=True)
     if soil.kind is LawKind.SOIL:
         _report_soil(model)
     per_area = soil.stiffness / soil.diameter
