@@ -72,7 +72,6 @@ class LintReport:
     aside: bool
     fixing: bool
     found: list[Diagnostic] = field(default_factory=list)
-    files: int = 0
     names: list[str] = field(default_factory=list)
     fixed: int = 0
     failing: bool = False
@@ -80,7 +79,6 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        self.files += 1
         name, limit = file.name, Severity(self.fail_on or self.configured.of(file.path or file.name).fail_on)
         self.names.append(name)
         self.found += findings
@@ -107,7 +105,7 @@ class LintReport:
                 click.echo(self._fixed_summary(findings), err=True)
         elif self.statistics or self.view.quiet or self.outputs.form != TEXT:
             emit(pieces)
-        elif self.files:
+        elif self.names:
             self._summary(findings)
 
     def _in_form(self, name: str, findings: list[Diagnostic]) -> Iterator[str]:
@@ -121,9 +119,9 @@ class LintReport:
         if self.fixing and (self.fixed or findings):
             say(self._fixed_summary(findings))
         elif findings:
-            print_summary(self.view, findings, self.files)
+            print_summary(self.view, findings, len(self.names))
         else:
-            say(f"No findings in {counted(self.files, 'file')}.")
+            say(f"No findings in {counted(len(self.names), 'file')}.")
         if hint := fixable(findings):
             say(hint)
         if self.coverage.total:
@@ -131,7 +129,7 @@ class LintReport:
 
     def _fixed_summary(self, findings: list[Diagnostic]) -> str:
         total = counted(self.fixed + len(findings), "finding")
-        return f"Found {total} ({self.fixed} fixed, {len(findings)} remaining) in {counted(self.files, 'file')}."
+        return f"Found {total} ({self.fixed} fixed, {len(findings)} remaining) in {counted(len(self.names), 'file')}."
 
 
 _MOST_ALIKE = 2
