@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from stat import S_ISREG
 from typing import NamedTuple
 
+from mudline.basics.contexts import holding
 from mudline.basics.paths import relative_path
 
 StrPath = str | os.PathLike[str]
@@ -55,14 +55,9 @@ class RunFiles:
 _RUN: ContextVar[RunFiles | None] = ContextVar("run", default=None)
 
 
-@contextmanager
-def refusing_overwriting() -> Iterator[None]:
+def refusing_overwriting() -> AbstractContextManager[RunFiles]:
     """Let `reading` and `claim` raise OverwriteError until the block ends."""
-    token = _RUN.set(RunFiles())
-    try:
-        yield
-    finally:
-        _RUN.reset(token)
+    return holding(_RUN, RunFiles())
 
 
 def outputs() -> ClaimedOutputs:

@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 
@@ -30,15 +29,11 @@ def complete(_context: click.Context, _parameter: click.Parameter, incomplete: s
     return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
 
 
-class Outputs(NamedTuple):
-    """Format of standard output, and formats of files."""
+def outputs(given: Sequence[str]) -> tuple[str, list[tuple[str, Path]]]:
+    """Return the format of standard output, and formats and files, from values of `--output-format`.
 
-    form: str
-    files: tuple[tuple[str, Path], ...]
-
-
-def outputs(given: Sequence[str]) -> Outputs:
-    """Return the outputs from values of `--output-format`: FORM, or FORM=FILE. Raises click.UsageError."""
+    A value is FORM or FORM=FILE. Raises click.UsageError.
+    """
     known = [TEXT, *form_names()]
     printed: list[str] = []
     files: list[tuple[str, Path]] = []
@@ -56,14 +51,15 @@ def outputs(given: Sequence[str]) -> Outputs:
             files.append((name, Path(path)))
     if len(set(printed)) > 1:
         raise click.UsageError(f"--output-format: standard output takes one form, not {', '.join(printed)}")
-    return Outputs(printed[0] if printed else TEXT, tuple(files))
+    return (printed[0] if printed else TEXT), files
 
 
 @dataclass(eq=False)
 class LintReport:
     """Findings of a run. With `aside`, findings go to standard error, since standard output carries something else."""
 
-    outputs: Outputs
+    form: str
+    outputs: Sequence[tuple[str, Path]]
     view: View
     configured: Configured
     fail_on: str | None
@@ -84,7 +80,7 @@ class LintReport:
         self.found += findings
         self.fixed += fixed
         self.failing = self.failing or any(finding.severity.rank >= limit.rank for finding in findings)
-        as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
+        as_they_come = self.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
         if as_they_come and findings:
             shown = findings if self.view.verbose else [*_with_style_folded(findings)]
             print_findings(self.view, shown, Source.from_bytes(data, name))
@@ -94,16 +90,16 @@ class LintReport:
     def finish(self) -> None:
         """Write and print the outputs that need all findings."""
         findings = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
-        for name, path in self.outputs.files:
+        for name, path in self.outputs:
             write_text(path, self._in_form(name, findings))
-        printed = "concise" if self.outputs.form == TEXT else self.outputs.form
+        printed = "concise" if self.form == TEXT else self.form
         pieces = statistics_lines(findings) if self.statistics else self._in_form(printed, findings)
         if self.aside:
             for piece in pieces:
                 click.echo(piece, err=True, nl=False)
             if self.fixing and not self.view.quiet and printed == "concise":
                 click.echo(self._fixed_summary(findings), err=True)
-        elif self.statistics or self.view.quiet or self.outputs.form != TEXT:
+        elif self.statistics or self.view.quiet or self.form != TEXT:
             emit(pieces)
         elif self.names:
             self._summary(findings)
