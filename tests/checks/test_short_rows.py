@@ -9,7 +9,7 @@ import pytest
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import lint_one
 from mudline.checks.registry import rules
-from mudline.language.diagnostics import FileReport
+from mudline.checks.report import FileReport
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
 from tests.helpers.builders.decks import CLEAN

@@ -20,10 +20,11 @@ from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import lint_one
 from mudline.checks.output import form_names
 from mudline.checks.registry import rules
+from mudline.checks.report import FileReport
 from mudline.cli import lint_run
 from mudline.cli.inputs import Input
 from mudline.cli.known_findings import known_findings
-from mudline.language.diagnostics import Coverage, Diagnostic, FileReport, Severity
+from mudline.language.diagnostics import Coverage, Diagnostic, Severity
 from mudline.tools.running import executors, remembered
 from tests.checks.corpus import CORPUS
 from tests.cli.conftest import Place

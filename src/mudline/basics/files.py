@@ -7,11 +7,12 @@ import os
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path, PurePath
 from typing import BinaryIO, NamedTuple
 
+from mudline.basics.contexts import holding
 from mudline.basics.overwriting import reading
 
 PLOT_FORMS = ("png", "svg", "pdf")
@@ -35,15 +36,9 @@ _tidied: set[str] = set()
 _LOOKED_AT: ContextVar[dict[str, None] | None] = ContextVar("looked_at", default=None)
 
 
-@contextmanager
-def recording_looks() -> Iterator[dict[str, None]]:
+def recording_looks() -> AbstractContextManager[dict[str, None]]:
     """Collect the paths that `look` is called with until the block ends: each once, in order."""
-    paths: dict[str, None] = {}
-    token = _LOOKED_AT.set(paths)
-    try:
-        yield paths
-    finally:
-        _LOOKED_AT.reset(token)
+    return holding(_LOOKED_AT, {})
 
 
 def look(path: Path) -> Path:
@@ -70,14 +65,9 @@ class Unsaved(NamedTuple):
 _UNSAVED: ContextVar[Mapping[str, Unsaved] | None] = ContextVar("unsaved", default=None)
 
 
-@contextmanager
-def with_unsaved(files: Mapping[str, Unsaved]) -> Iterator[None]:
+def with_unsaved(files: Mapping[str, Unsaved]) -> AbstractContextManager[Mapping[str, Unsaved]]:
     """Make files that are open in an editor known to `unsaved`, by their absolute paths, until the block ends."""
-    token = _UNSAVED.set(files)
-    try:
-        yield
-    finally:
-        _UNSAVED.reset(token)
+    return holding(_UNSAVED, files)
 
 
 def unsaved(path: Path) -> Unsaved | None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from functools import lru_cache
 from pathlib import Path, PurePath
+
+from mudline.basics.contexts import holding
 
 _PROJECT = (".git", "mudline.toml", "pyproject.toml")
 """Names that mark the folder of a project: a repository or a configuration."""
@@ -21,14 +23,9 @@ _AT_LINE = re.compile(r"line \d+")
 _REFUSES: ContextVar[Callable[[Path], bool] | None] = ContextVar("refuses", default=None)
 
 
-@contextmanager
-def refusing_outside(refuses: Callable[[Path], bool]) -> Iterator[None]:
+def refusing_outside(refuses: Callable[[Path], bool]) -> AbstractContextManager[object]:
     """Forbid decks in folders for which `refuses` is true to name files outside their project, until the block ends."""
-    token = _REFUSES.set(refuses)
-    try:
-        yield
-    finally:
-        _REFUSES.reset(token)
+    return holding(_REFUSES, refuses)
 
 
 @lru_cache(maxsize=256)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from stat import S_ISREG
 from typing import NamedTuple
 
+from mudline.basics.contexts import holding
 from mudline.basics.paths import relative_path
 
 StrPath = str | os.PathLike[str]
@@ -55,14 +55,9 @@ class RunFiles:
 _RUN: ContextVar[RunFiles | None] = ContextVar("run", default=None)
 
 
-@contextmanager
-def refusing_overwriting() -> Iterator[None]:
+def refusing_overwriting() -> AbstractContextManager[RunFiles]:
     """Let `reading` and `claim` raise OverwriteError until the block ends."""
-    token = _RUN.set(RunFiles())
-    try:
-        yield
-    finally:
-        _RUN.reset(token)
+    return holding(_RUN, RunFiles())
 
 
 def outputs() -> ClaimedOutputs:
@@ -84,9 +79,7 @@ def reading(path: StrPath | None) -> None:
         return
     run.read[identity] = _STDIN if path is None else os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
     output = run.outputs.get(identity)
-    if output is None:
-        return
-    if _identity(output.path) == identity if path is None else _is_same(output.path, path):
+    if output is not None and _identity(output.path) == identity:
         raise _refusal(output, _STDIN if path is None else os.fspath(path))
 
 
@@ -107,7 +100,8 @@ def claim(path: StrPath, option: str = "") -> None:
     if identity is None:
         return
     other = run.outputs.setdefault(identity, output)
-    if other is not output and (option or other.path != absolute) and _is_same(other.path, path):
+    is_same = other is not output and (_identity(other.path) or _real(other.path)) == identity
+    if is_same and (option or other.path != absolute):
         raise OverwriteError(f"{output} is also the file of {other}: give another name")
 
 
@@ -121,9 +115,7 @@ def _read_as(run: RunFiles, path: StrPath) -> str | None:
     """Return the name by which the run has read a file, or None; inodes of deleted files may belong to new files."""
     identity = _identity(path)
     read = None if identity is None else run.read.get(identity)
-    if read == _STDIN:
-        return read if _identity(None) == identity else None
-    return read if read is not None and _is_same(read, path) else None
+    return read if read and _identity(None if read == _STDIN else read) == identity else None
 
 
 def _refusal(output: ClaimedOutput, read: str) -> OverwriteError:
@@ -147,11 +139,3 @@ def _real(path: StrPath) -> str | None:
         return None if os.path.exists(path) else os.path.normcase(os.path.realpath(path))  # noqa: PTH110 - as above
     except (OSError, ValueError):
         return None
-
-
-def _is_same(first: StrPath, second: StrPath) -> bool:
-    """Return True if two paths lead to one file, or would if both existed."""
-    try:
-        return os.path.samefile(first, second)  # noqa: PTH121 - as above
-    except (OSError, ValueError):
-        return _real(first) is not None and _real(first) == _real(second)

@@ -21,11 +21,12 @@ from mudline.basics.outside import refusing_outside
 from mudline.checks.context import LintContext
 from mudline.checks.engine import Fixing, LintSettings, covered_findings, joined_problems
 from mudline.checks.recovery.blocks import start_of
+from mudline.checks.report import FileReport
 from mudline.checks.suppression import MARK
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import Diagnostic, FileReport, Problem, Repair, Severity, Span
+from mudline.language.diagnostics import Diagnostic, Problem, Repair, Severity, Span
 from mudline.language.syntax.edits import TextEdit, Undoing, edited_bytes, with_line_ends
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import LeafKind

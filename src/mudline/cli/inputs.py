@@ -8,7 +8,7 @@ import sys
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import lru_cache, wraps
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -60,7 +60,7 @@ class Input(NamedTuple):
         """Folder of files that the deck names; None for standard input, which may name none."""
         if self.path is None:
             return None
-        return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
+        return Path(os.path.dirname(self.path))  # noqa: PTH120 - of a text, which may be any
 
     def read(self) -> bytes:
         """Return the content; raises OSError."""
@@ -87,11 +87,6 @@ class Input(NamedTuple):
             return data.decode(before).encode(after)
         except UnicodeError as error:
             raise OSError(errno.EILSEQ, f"{fault}: {error}") from error
-
-
-@lru_cache(maxsize=64)
-def _folder(path: str) -> Path:
-    return Path(path)
 
 
 @dataclass(slots=True, eq=False)

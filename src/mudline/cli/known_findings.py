@@ -7,8 +7,9 @@ from typing import Any
 
 from mudline.basics.outside import project_of
 from mudline.checks.configuration import CallerSettings, Configured
+from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input
-from mudline.language.diagnostics import Coverage, Diagnostic, Edit, FileReport, Fix, Severity
+from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory, of_working_folder
 
 

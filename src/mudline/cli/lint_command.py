@@ -112,7 +112,7 @@ def command(
     """
     given = CallerSettings(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
-    requested = outputs(forms)
+    form, files = outputs(forms)
     if baseline and recording:
         claim(baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
@@ -128,16 +128,17 @@ def command(
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = LintReport(
-            requested, view, configured, fail_on, statistics=statistics, aside=aside, fixing=fix or diff
+            form, files, view, configured, fail_on, statistics=statistics, aside=aside, fixing=fix or diff
         )
         known = None if uncached or fix or diff else known_findings(given, configured)
-        words = {"recording": recording, "diff": diff}
-        failing = lint_files(inputs, cache(settings), report, known, baseline, jobs=jobs, **words)
+        failing = lint_files(
+            inputs, cache(settings), report, known, baseline, recording=recording, diff=diff, jobs=jobs
+        )
         return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 
     if watch:
         settings()
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, requested.form)
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, form)
         watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
     return once()
 

@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 
@@ -30,15 +29,11 @@ def complete(_context: click.Context, _parameter: click.Parameter, incomplete: s
     return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
 
 
-class Outputs(NamedTuple):
-    """Format of standard output, and formats of files."""
+def outputs(given: Sequence[str]) -> tuple[str, list[tuple[str, Path]]]:
+    """Return the format of standard output, and formats and files, from values of `--output-format`.
 
-    form: str
-    files: tuple[tuple[str, Path], ...]
-
-
-def outputs(given: Sequence[str]) -> Outputs:
-    """Return the outputs from values of `--output-format`: FORM, or FORM=FILE. Raises click.UsageError."""
+    A value is FORM or FORM=FILE. Raises click.UsageError.
+    """
     known = [TEXT, *form_names()]
     printed: list[str] = []
     files: list[tuple[str, Path]] = []
@@ -56,14 +51,15 @@ def outputs(given: Sequence[str]) -> Outputs:
             files.append((name, Path(path)))
     if len(set(printed)) > 1:
         raise click.UsageError(f"--output-format: standard output takes one form, not {', '.join(printed)}")
-    return Outputs(printed[0] if printed else TEXT, tuple(files))
+    return (printed[0] if printed else TEXT), files
 
 
 @dataclass(eq=False)
 class LintReport:
     """Findings of a run. With `aside`, findings go to standard error, since standard output carries something else."""
 
-    outputs: Outputs
+    form: str
+    outputs: Sequence[tuple[str, Path]]
     view: View
     configured: Configured
     fail_on: str | None
@@ -72,7 +68,6 @@ class LintReport:
     aside: bool
     fixing: bool
     found: list[Diagnostic] = field(default_factory=list)
-    files: int = 0
     names: list[str] = field(default_factory=list)
     fixed: int = 0
     failing: bool = False
@@ -80,13 +75,12 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        self.files += 1
         name, limit = file.name, Severity(self.fail_on or self.configured.of(file.path or file.name).fail_on)
         self.names.append(name)
         self.found += findings
         self.fixed += fixed
         self.failing = self.failing or any(finding.severity.rank >= limit.rank for finding in findings)
-        as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
+        as_they_come = self.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
         if as_they_come and findings:
             shown = findings if self.view.verbose else [*_with_style_folded(findings)]
             print_findings(self.view, shown, Source.from_bytes(data, name))
@@ -96,18 +90,18 @@ class LintReport:
     def finish(self) -> None:
         """Write and print the outputs that need all findings."""
         findings = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
-        for name, path in self.outputs.files:
+        for name, path in self.outputs:
             write_text(path, self._in_form(name, findings))
-        printed = "concise" if self.outputs.form == TEXT else self.outputs.form
+        printed = "concise" if self.form == TEXT else self.form
         pieces = statistics_lines(findings) if self.statistics else self._in_form(printed, findings)
         if self.aside:
             for piece in pieces:
                 click.echo(piece, err=True, nl=False)
             if self.fixing and not self.view.quiet and printed == "concise":
                 click.echo(self._fixed_summary(findings), err=True)
-        elif self.statistics or self.view.quiet or self.outputs.form != TEXT:
+        elif self.statistics or self.view.quiet or self.form != TEXT:
             emit(pieces)
-        elif self.files:
+        elif self.names:
             self._summary(findings)
 
     def _in_form(self, name: str, findings: list[Diagnostic]) -> Iterator[str]:
@@ -121,9 +115,9 @@ class LintReport:
         if self.fixing and (self.fixed or findings):
             say(self._fixed_summary(findings))
         elif findings:
-            print_summary(self.view, findings, self.files)
+            print_summary(self.view, findings, len(self.names))
         else:
-            say(f"No findings in {counted(self.files, 'file')}.")
+            say(f"No findings in {counted(len(self.names), 'file')}.")
         if hint := fixable(findings):
             say(hint)
         if self.coverage.total:
@@ -131,7 +125,7 @@ class LintReport:
 
     def _fixed_summary(self, findings: list[Diagnostic]) -> str:
         total = counted(self.fixed + len(findings), "finding")
-        return f"Found {total} ({self.fixed} fixed, {len(findings)} remaining) in {counted(self.files, 'file')}."
+        return f"Found {total} ({self.fixed} fixed, {len(findings)} remaining) in {counted(len(self.names), 'file')}."
 
 
 _MOST_ALIKE = 2

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from mudline.checks.configuration import CallerSettings, Configuration, Configured
+from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import LintReport
@@ -22,7 +23,6 @@ from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, reason, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of
-from mudline.language.diagnostics import FileReport
 
 if TYPE_CHECKING:
     from mudline.checks.engine import LintSettings

@@ -77,7 +77,7 @@ async def served(checking: Checking, monkeypatch: pytest.MonkeyPatch) -> AsyncIt
 
     monkeypatch.setattr(server, "text_document_publish_diagnostics", publish)
     monkeypatch.setattr(server, "window_log_message", lambda params: made.logged.put_nowait(params.message))
-    server.begin("utf-16")
+    asyncio.get_running_loop().set_exception_handler(server.unexpected)
     yield made
     checking.goes_on.set()
     await asyncio.to_thread(server.shutdown)

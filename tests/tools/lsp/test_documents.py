@@ -1,4 +1,4 @@
-"""Texts and places of open decks, in every position encoding and with every line end."""
+"""Texts and places of open decks, with every line end."""
 
 from __future__ import annotations
 
@@ -9,35 +9,30 @@ from lsprotocol import types
 
 from mudline.language.diagnostics import Span
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.tools.lsp.documents import OpenDocument, characters_of, file_of, units_of
+from mudline.tools.lsp.documents import OpenDocument, characters_of, file_of
 
-ENCODINGS = ["utf-8", "utf-16", "utf-32"]
 TEXT = "$MODEL\r\n*NODE\tä\n 1, 0.0 C 😋 x\r 2, ü\n"
 LETTERS = st.text(alphabet="ab\r\n\täß😋,1", max_size=12)
 
 
-def document(text: str, encoding: str = "utf-16") -> OpenDocument:
-    return OpenDocument("file:///deck.keyxm", text, 1, encoding=encoding)
+def document(text: str) -> OpenDocument:
+    return OpenDocument("file:///deck.keyxm", text, 1)
 
 
-@pytest.mark.parametrize("encoding", ENCODINGS)
-def test_every_offset_comes_back(encoding: str) -> None:
-    made = document(TEXT, encoding)
+def test_every_offset_comes_back() -> None:
+    made = document(TEXT)
     for offset in range(len(TEXT) + 1):
         if TEXT[offset - 1 : offset + 1] != "\r\n":
             assert made.offset(made.position(offset)) == offset
 
 
-def test_columns_count_in_units_of_the_encoding() -> None:
-    at = TEXT.index("x")
-    columns = {name: document(TEXT, name).position(at).character for name in ENCODINGS}
-    assert columns == {"utf-8": 15, "utf-16": 13, "utf-32": 12}
+def test_columns_count_in_utf_16() -> None:
+    assert document(TEXT).position(TEXT.index("x")).character == 13
 
 
-@pytest.mark.parametrize(("encoding", "units"), [("utf-16", 11), ("utf-8", 11), ("utf-8", 12), ("utf-8", 13)])
-def test_a_column_inside_a_character_stands_before_it(encoding: str, units: int) -> None:
+def test_a_column_inside_a_character_stands_before_it() -> None:
     line = TEXT.split("\n")[2].partition("\r")[0]
-    assert characters_of(line, units, encoding) == line.index("😋")
+    assert characters_of(line, 11) == line.index("😋")
 
 
 @pytest.mark.parametrize("line", [0, 3, 4, 2**31 - 1])
@@ -64,7 +59,7 @@ def test_changes_keep_lines_and_text(text: str, changes: list[tuple[int, int, st
 
 @given(st.lists(LETTERS), st.lists(LETTERS))
 def test_a_difference_leads_from_one_text_to_the_other(one: list[str], other: list[str]) -> None:
-    made = document("\n".join(one), "utf-32")
+    made = document("\n".join(one))
     edits = [
         TextEdit(Span(made.offset(each.range.start), made.offset(each.range.end)), each.new_text)
         for each in made.difference("\n".join(other).encode())
@@ -79,11 +74,10 @@ def test_halves_of_pairs_are_replaced() -> None:
     assert made.as_file().decode() == made.text
 
 
-@pytest.mark.parametrize("encoding", ENCODINGS)
-def test_a_byte_order_mark_counts_for_the_editor_only(encoding: str) -> None:
-    made = document("\ufeff$MODEL\n*NODE\n", encoding)
+def test_a_byte_order_mark_counts_for_the_editor_only() -> None:
+    made = document("\ufeff$MODEL\n*NODE\n")
     assert made.text.startswith("$MODEL")
-    assert made.position(0).character == units_of("\ufeff", encoding)
+    assert made.position(0).character == 1
     assert made.offset(made.position(3)) == 3
     assert made.position(7) == types.Position(1, 0)
 

@@ -43,7 +43,7 @@ def tokens(document: OpenDocument) -> types.SemanticTokens:
     for at, kind, written in DeckLexer().get_tokens_unprocessed(plain):
         if kind not in _KINDS:
             continue
-        place, length = document.position(at), units_of(written, document.encoding)
+        place, length = document.position(at), units_of(written)
         along = place.character - column * (place.line == line)
         data += [place.line - line, along, length, _NAMES.index(_KINDS[kind].value), 0]
         line, column = place.line, place.character

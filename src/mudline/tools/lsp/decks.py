@@ -134,7 +134,6 @@ class Analysis:
 class Decks:
     """Open documents by their addresses, with their analyses; configurations are read once for each folder."""
 
-    encoding: str = "utf-16"
     documents: dict[str, OpenDocument] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
     """Faults of configurations, to be shown once."""
@@ -145,7 +144,7 @@ class Decks:
     def open(self, uri: str, text: str, version: int, language: str) -> OpenDocument:
         """Add a document, or replace one that is open already."""
         self._analyses.pop(uri, None)
-        document = self.documents[uri] = OpenDocument(uri, text, version, language, self.encoding)
+        document = self.documents[uri] = OpenDocument(uri, text, version, language)
         return document
 
     def close(self, uri: str) -> OpenDocument | None:

@@ -25,24 +25,14 @@ def _valid(text: str) -> str:
     return text if text.isascii() else _SURROGATE.sub("\ufffd", text)
 
 
-def units_of(text: str, encoding: str) -> int:
-    """Return the number of units of a text in a position encoding: "utf-8", "utf-16" or "utf-32"."""
-    if encoding == "utf-32" or text.isascii():
-        return len(text)
-    if encoding == "utf-8":
-        return len(text.encode())
-    return len(text.encode("utf-16-le")) // 2
+def units_of(text: str) -> int:
+    """Return the number of UTF-16 units of a text, in which editors count columns."""
+    return len(text) if text.isascii() else len(text.encode("utf-16-le")) // 2
 
 
-def characters_of(line: str, units: int, encoding: str) -> int:
+def characters_of(line: str, units: int) -> int:
     """Return the number of characters before a column in units; a column inside a character counts as before it."""
-    if units <= 0:
-        return 0
-    if encoding == "utf-32" or line.isascii():
-        return min(units, len(line))
-    if encoding == "utf-8":
-        return len(line.encode()[:units].decode(errors="ignore"))
-    return len(line.encode("utf-16-le")[: 2 * units].decode("utf-16-le", errors="ignore"))
+    return len(line.encode("utf-16-le")[: 2 * max(units, 0)].decode("utf-16-le", errors="ignore"))
 
 
 class OpenDocument:
@@ -58,12 +48,11 @@ class OpenDocument:
         revision: a number that no other text has in this process.
     """
 
-    def __init__(self, uri: str, text: str, version: int, language: str = "", encoding: str = "utf-16") -> None:
+    def __init__(self, uri: str, text: str, version: int, language: str = "") -> None:
         self.uri = uri
         self.path = file_of(uri)
         self.name = self.path.as_posix() if self.path else _name_of(uri, language)
         self.version = version
-        self.encoding = encoding
         self.replace(text)
 
     def replace(self, text: str) -> None:
@@ -107,19 +96,15 @@ class OpenDocument:
         if position.line >= len(self.source.line_starts):
             return len(self.text)
         span = self.source.line_span(position.line + 1)
-        units = position.character
-        if position.line == 0 and self.marked:
-            units -= units_of(_BOM, self.encoding)
-        return span.start + characters_of(self.text[slice(*span)], units, self.encoding)
+        units = position.character - (self.marked and position.line == 0)
+        return span.start + characters_of(self.text[slice(*span)], units)
 
     def position(self, offset: int) -> types.Position:
         """Return the position of an offset."""
         offset = min(max(offset, 0), len(self.text))
         line, column = self.source.position(offset)
-        units = units_of(self.text[offset - column + 1 : offset], self.encoding)
-        if line == 1 and self.marked:
-            units += units_of(_BOM, self.encoding)
-        return types.Position(line - 1, units)
+        units = units_of(self.text[offset - column + 1 : offset])
+        return types.Position(line - 1, units + (self.marked and line == 1))
 
     def range(self, span: Span) -> types.Range:
         """Return the range of a span."""

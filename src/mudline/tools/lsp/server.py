@@ -49,9 +49,10 @@ class DeckProtocol(LanguageServerProtocol):
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
-        """Begin with the agreed position encoding."""
+        """Begin; columns are counted in UTF-16, which every editor supports."""
         result = yield from super().lsp_initialize(params)
-        self.documents.begin(result.capabilities.position_encoding or types.PositionEncodingKind.Utf16)
+        result.capabilities.position_encoding = types.PositionEncodingKind.Utf16
+        asyncio.get_running_loop().set_exception_handler(self.documents.unexpected)
         return result
 
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
@@ -90,11 +91,6 @@ class DeckServer(LanguageServer):
         self._worker = ThreadPoolExecutor(1, "check")
 
     # ------------------------------------------------------------------------------------------------ documents
-
-    def begin(self, encoding: types.PositionEncodingKind | str) -> None:
-        """Record the agreed position encoding."""
-        self.decks = Decks(encoding.value if isinstance(encoding, types.PositionEncodingKind) else encoding)
-        asyncio.get_running_loop().set_exception_handler(self._unexpected)
 
     def opened(self, item: types.TextDocumentItem) -> None:
         """Add a document and check it at once."""
@@ -225,7 +221,7 @@ class DeckServer(LanguageServer):
         self._worker.shutdown(cancel_futures=True)
         super().shutdown()  # type: ignore[no-untyped-call]
 
-    def _unexpected(self, _: object, context: dict[str, Any]) -> None:
+    def unexpected(self, _: object, context: dict[str, Any]) -> None:
         """Report a fault of the server itself, which continues; an answer that could not be sent is not reported."""
         error = context.get("exception")
         if isinstance(error, JsonRpcException):
@@ -241,6 +237,6 @@ class DeckServer(LanguageServer):
 
 
 def _failed(check: asyncio.Task[None]) -> None:
-    """Pass the exception of a check to the loop, and so to `_unexpected`."""
+    """Pass the exception of a check to the loop, and so to `unexpected`."""
     if not check.cancelled():
         check.result()

@@ -242,6 +242,7 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     if method == "forkserver":
         context.set_forkserver_preload([module])
     executor = ProcessPoolExecutor(count, context, _begin, (outputs(),))
+    safe = os.environ.get(_SAFE_PATH)
     os.environ[_SAFE_PATH] = "1"
     try:
         yield executor
@@ -251,6 +252,10 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
         raise
     finally:
         executor.shutdown(cancel_futures=True)
+        if safe is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = safe
 
 
 def _begin(known: ClaimedOutputs) -> None:
