@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.model.contact import vectors
-from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
+from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, as_range, taken
 from mudline.model.contact.laws import law_module
 from mudline.model.contact.numpy_elements import ElementLaws, Work
 from mudline.model.contact.result import ContactResult
@@ -149,7 +149,8 @@ class NodeLaws:
         total = tables.line.sums(work.load)
         for rows, at, onset in self._nodal:
             z = 0.0 - taken(part.gap, at)
-            add_at(total, at, np.where(z > onset, rows.law.reaction(z, 0.0, *rows.columns)[0], 0.0))
+            force = np.where(z > onset, rows.law.reaction(z, 0.0, *rows.columns)[0], 0.0)
+            total[:, at] = taken(total, at) + force
         if tables.nodal_damping is not None and speed is not None:
             total += law_module("linear").damping_force(0.0 - part.gap, speed, tables.nodal_damping)
         part.normal_force[...] = total

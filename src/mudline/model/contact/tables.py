@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -200,7 +201,7 @@ class LawTables:
         laws = [assigned.law for assigned in given.assigned.values()]
         self.history = self.velocities or self.level is not None or any(law.history for law in laws)
 
-    @property
+    @cached_property
     def steepens(self) -> bool:
         """Return True if an unloading line may be less steep than the virgin path that led to it."""
         if self.unloading is None:

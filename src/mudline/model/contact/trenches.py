@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray, put_at
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
 from mudline.model.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.model.contact.laws.friction import ExtraLimit
 from mudline.model.contact.laws.trench import (
@@ -279,7 +279,7 @@ class LaidCentreline:
         if ends.any():
             self._walk(points, (share, away, np.where(nearer, distance, square), element), np.flatnonzero(ends))
         if beside.straight.size:  # at the point's own elevation
-            put_at(away[0], beside.straight, 0.0)
+            away[0][:, beside.straight] = 0.0
         if beside.alone.size:
             away[..., beside.alone] = 0.0
         return Away(away, element, share)
