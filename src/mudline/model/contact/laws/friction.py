@@ -356,6 +356,8 @@ FRICTION = Law(
         ),
     ),
     history=True,
+    state="friction",
+    initial=lambda rows, count, _: FrictionHistory.initial(np.isin(np.arange(count), rows)),
     plan=_plan,
     largest=_largest,
     equation="f_i = -K_i e_i, |f_i| <= mu_i N",
