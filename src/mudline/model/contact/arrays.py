@@ -81,32 +81,6 @@ def taken(values: NDArray[Item], at: Picked) -> NDArray[Item]:
     return values[:, at] if isinstance(at, slice) else values.take(at, axis=1)
 
 
-def put_at(values: NDArray[Item], at: Picked, new: NDArray[Item] | float) -> None:
-    """Write columns of values (steps, k); for a single step faster than `values[:, at] = new`."""
-    if len(values) == 1:
-        values[0][at] = new if isinstance(new, float) else new[0]
-    else:
-        values[:, at] = new
-
-
-def add_at(values: FloatArray, at: Picked, more: FloatArray) -> None:
-    """Add to columns of values (steps, k), in place; faster than `values[:, at] += more`."""
-    put_at(values, at, taken(values, at) + more)
-
-
-def each_at(values: NDArray[Item], steps: IndexArray, at: IndexArray) -> NDArray[Item]:
-    """Return `values[steps, at]`; faster for a single step."""
-    return values[0].take(at) if len(values) == 1 else values[steps, at]
-
-
-def add_each(values: FloatArray, steps: IndexArray, at: IndexArray, more: FloatArray) -> None:
-    """Add to values at distinct places, in place."""
-    if len(values) == 1:
-        values[0][at] += more
-    else:
-        values[steps, at] += more
-
-
 def as_range(indices: IndexArray) -> Picked:
     """Return consecutive indices as a slice, which picks a view; other indices unchanged."""
     if not len(indices):
@@ -115,17 +89,6 @@ def as_range(indices: IndexArray) -> Picked:
     if last - first + 1 == len(indices) and (np.diff(indices) == 1).all():
         return slice(first, last + 1)
     return indices
-
-
-def zero_outside(inside: BoolArray, *values: FloatArray) -> None:
-    """Set values (steps, k) to 0 outside, NaN and infinity too, in place."""
-    if inside.all():
-        return
-    mask = inside.astype(np.int64)
-    np.negative(mask, out=mask)
-    for array in values:
-        bits = array.view(np.int64)
-        np.bitwise_and(bits, mask, out=bits)
 
 
 def as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.model.contact import vectors
-from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
+from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, as_range, taken
 from mudline.model.contact.laws import law_module
 from mudline.model.contact.numpy_elements import ElementLaws, Work
 from mudline.model.contact.result import ContactResult
@@ -131,10 +131,7 @@ class NodeLaws:
             self._fixed, self._rising = friction.fixed.T[:, None], friction.rising.T[:, None]
             self._idle = friction.active.astype(np.int8) - np.int8(1)
         if tables.trench is not None:
-            from mudline.model.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
-
-            nodes = tables.trench.nodes
-            self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks(nodes)]
+            self._in_trench = as_range(tables.trench.nodes)
 
     def run(
         self,
@@ -149,7 +146,8 @@ class NodeLaws:
         total = tables.line.sums(work.load)
         for rows, at, onset in self._nodal:
             z = 0.0 - taken(part.gap, at)
-            add_at(total, at, np.where(z > onset, rows.law.reaction(z, 0.0, *rows.columns)[0], 0.0))
+            force = np.where(z > onset, rows.law.reaction(z, 0.0, *rows.columns)[0], 0.0)
+            total[:, at] = taken(total, at) + force
         if tables.nodal_damping is not None and speed is not None:
             total += law_module("linear").damping_force(0.0 - part.gap, speed, tables.nodal_damping)
         part.normal_force[...] = total
@@ -269,11 +267,7 @@ class NodeLaws:
         (curved,) = elliptic.nonzero()
         if curved.size:
             trials, limits = trial.take(curved, axis=1), limit.take(curved, axis=1)
-            mapped = law.on_ellipse if (limits > 0.0).all() else law.in_ellipse
-            # forces, then whether both directions slip, or each
-            mapped_forces = mapped(trials[0], trials[1], limits[0], limits[1])
-            for side, slipping in enumerate((mapped_forces[2], mapped_forces[-1])):
-                force[side][curved], slip[side][curved] = mapped_forces[side], slipping
+            force[0][curved], force[1][curved], slip[0][curved], slip[1][curved] = law.in_ellipse(*trials, *limits)
         return force, slip
 
     def _softening(self, state: ContactState, work: Work) -> _Breakout | None:
@@ -300,7 +294,5 @@ class NodeLaws:
     def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:
         """Return the resistance of trenches at nodes (k,) with these trial forces."""
         share = np.where(np.where((trial > 0.0)[self._in_trench], forward, back), added, 0.0)
-        total = np.zeros(len(trial))
-        for rows, nodes in self._ranks:
-            total[nodes] += share.take(rows)
-        return total
+        nodes = cast("TrenchRows", self._tables.trench).nodes
+        return np.asarray(np.bincount(nodes, share, len(trial)), np.float64)

@@ -14,9 +14,7 @@ from mudline.model.contact.arrays import (
     IndexArray,
     Picked,
     StateArray,
-    add_at,
     as_range,
-    put_at,
     taken,
 )
 from mudline.model.contact.directions import mean_normal
@@ -154,7 +152,7 @@ class ElementLaws:
                 part.cut[:, at], on = pulls, on & ~pulls
             np.copyto(own, 0.0, where=~on)
             for target, value in zip(values, own, strict=True):
-                put_at(target, at, value)
+                target[:, at] = value
 
     def _reaction(self, rows: NormalRows, z: FloatArray, diameter: FloatArray, paths: FloatArray | None) -> FloatArray:
         """Return force, slope and stiffness (3, steps, k) of the elements with one normal law."""
@@ -189,7 +187,7 @@ class ElementLaws:
             np.maximum(before, now, out=now)
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
-        put_at(reached, some.at, deepest)
+        reached[:, some.at] = deepest
         self._apply_normal_laws(reached, reached > self._onset, values, part, paths)
         force, slope, stiffness = (taken(each, some.at) for each in values)
         force_max, steepest = np.maximum(force, 0.0), some.columns[0]
@@ -204,9 +202,9 @@ class ElementLaws:
         back, rise = law.on_line(z, deepest, force_max, line, bottom)
         if part.cut.flags.writeable:
             part.cut[:, some.at] &= fresh
-        put_at(values[0], some.at, np.where(fresh, force, back))
-        put_at(values[1], some.at, np.where(fresh, slope, rise * some.diameter))
-        put_at(values[2], some.at, np.where(fresh, stiffness, rise))
+        values[0][:, some.at] = np.where(fresh, force, back)
+        values[1][:, some.at] = np.where(fresh, slope, rise * some.diameter)
+        values[2][:, some.at] = np.where(fresh, stiffness, rise)
         for kept, moved in zip(arrays_of(history), (deepest, force_max, line, bottom), strict=True):
             kept[...] = moved[-1]
         return bottom - taken(depth, some.at), z > bottom
@@ -228,9 +226,8 @@ class ElementLaws:
     def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
         """Add springs against uplift."""
         force, stiffness = law_module("linear").spring_suction(some.onset - taken(depth, some.at), *some.columns)
-        add_at(values[0], some.at, force)
-        add_at(values[1], some.at, stiffness * some.diameter)
-        add_at(values[2], some.at, stiffness)
+        for target, more in zip(values, (force, stiffness * some.diameter, stiffness), strict=True):
+            target[:, some.at] = taken(target, some.at) + more
 
     def _apply_suction(
         self,
@@ -251,23 +248,20 @@ class ElementLaws:
         v = taken(self._of_elements(speed), some.at)
         states, reach, factor = self._suction_states((uplift, v, pressed), history)
         if part.state is not None:
-            put_at(part.state, some.at, states)
-        steps, held = (states == law_module("suction").SUCTION).nonzero()
+            part.state[:, some.at] = states
+        pulls = states == law_module("suction").SUCTION
+        (held,) = pulls.any(axis=0).nonzero()
         if not held.size:
             return
-        law = type(self._law)(*(column[held] for column in self._law))
-        uplift, v = uplift[steps, held], v[steps, held]
-        force, stiffness = law_module("suction").suction_force(
-            uplift, v, reach[steps, held], (
-                law.force_factor * factor[steps, held], law.force_exponent, law.regularisation,
-                law.first_corner, law.second_corner,
-            ),
-        )  # fmt: skip
-        at = some.elements[held]
+        law, at = type(self._law)(*(column[held] for column in self._law)), some.elements[held]
+        pulls, uplift, v, reach, factor = (each.take(held, axis=1) for each in (pulls, uplift, v, reach, factor))
+        shape = law.force_factor * factor, law.force_exponent, law.regularisation, law.first_corner, law.second_corner
+        force, stiffness = law_module("suction").suction_force(uplift, v, reach, shape)
         for target, more in zip(values, (force, stiffness * some.diameter[held], stiffness), strict=True):
-            target[steps, at] += more
+            before = target.take(at, axis=1)
+            target[:, at] = np.where(pulls, before + more, before)
         if part.regularised is not None:
-            part.regularised[steps, at] = (v < law.regularisation) & (law.force_exponent < 2.0)
+            part.regularised[:, at] = pulls & (v < law.regularisation) & (law.force_exponent < 2.0)
 
     def _suction_states(
         self, motion: tuple[FloatArray, FloatArray, BoolArray], history: SuctionHistory
@@ -335,4 +329,4 @@ class ElementLaws:
         force = law_module("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
-            put_at(target[:, _INNER], some.at, axis * force)
+            target[:, _INNER][:, some.at] = axis * force

@@ -12,9 +12,8 @@ from typing import Literal
 
 from mudline.basics.arguments import expect, expect_word
 from mudline.basics.short_repr import UnknownNameError, counted, outline
-from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.input import ContactInput, LawKind
-from mudline.model.contact.laws import known_laws
+from mudline.model.contact.laws import NormalLaw, known_laws
 from mudline.model.contact.tables import LawTables
 
 
@@ -92,7 +91,7 @@ def make_plan(given: ContactInput, tables: LawTables, choice: BackendChoice) -> 
     stages = (
         Stage("seabed surface", active=True, why=_seabed(given)),
         Stage("normal law", bool(tables.normal or tables.nodal), _normal_law(given, tables, choice)),
-        Stage("smoothing", *_smoothing(tables)),
+        Stage("smoothing", *_smoothing(given)),
         _stage(given, "unloading", "no element has an unloading stiffness"),
         _stage(given, "suction", "no element has a suction law"),
         _stage(given, "friction", "no node has a friction law"),
@@ -126,18 +125,18 @@ def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -
         cut = ", pulling forces cut to 0" if given.tension == "cut" else ""
         elements = counted(sum(len(rows.rows) for rows in curves), "element")
         parts.append(f"{elements} on {counted(len(curves), 'force-embedment curve')}{cut}")
-    linear = sum(len(rows.rows) for rows in tables.normal if rows.law.name in {"linear", "smoothed"})
-    if linear:
-        parts.append(f"{counted(linear, 'element')} with a linear stiffness, at the mean depth (inferred)")
+    of_plan: dict[str, int] = {}
+    for rows in tables.normal:
+        if rows.curve < 0:
+            plan, law = rows.law.plan, f"with the law {rows.law.name!r}: {rows.law.summary}"
+            what = plan if isinstance(plan, str) and plan else law
+            of_plan[what] = of_plan.get(what, 0) + len(rows.rows)
+    parts += [f"{counted(count, 'element')} {what}" for what, count in of_plan.items()]
     parts += [
-        f"{counted(len(rows.rows), 'element')} with the law {rows.law.name!r}: {rows.law.summary}"
-        for rows in tables.normal
-        if rows.curve < 0 and rows.law.name not in {"linear", "smoothed"}
+        assigned.planned if assigned.law.plan else f"{counted(len(assigned.rows), 'node')} with the law {name!r}"
+        for name, assigned in given.assigned.items()
+        if assigned in given.nodal_laws
     ]
-    for rows in tables.nodal:
-        own = "its" if len(rows.rows) == 1 else "their"
-        what = f"a stiffness of {own} own" if rows.law.name == "nodal" else f"the law {rows.law.name!r}"
-        parts.append(f"{counted(len(rows.rows), 'node')} with {what}")
     parts += _beside(given, "normal law")
     if not parts:
         parts.append("no element has a curve or a linear stiffness")
@@ -151,10 +150,8 @@ def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -
     return "; ".join(parts)
 
 
-def _smoothing(tables: LawTables) -> tuple[bool, str]:
-    widths: list[FloatArray] = [
-        rows.columns[1] for rows in (*tables.normal, *tables.nodal) if rows.law.name in {"smoothed", "nodal"}
-    ]
+def _smoothing(given: ContactInput) -> tuple[bool, str]:
+    widths = [law["half_width"] for law in given.assigned.values() if "half_width" in law.parameters]
     smooth = sum(int((width > 0.0).sum()) for width in widths)
     if smooth:
         return True, f"a quadratic zone about the mudline for {smooth} of the linear laws"
@@ -164,7 +161,11 @@ def _smoothing(tables: LawTables) -> tuple[bool, str]:
 def _beside(given: ContactInput, stage: str) -> list[str]:
     """Return the plan's text of each law of a stage next to the normal laws; a law without a force has none."""
     laws = (given.assigned[name] for name in known_laws() if name in given.assigned)
-    return [assigned.planned for assigned in laws if assigned.law.stage == stage and assigned.law.plan is not None]
+    return [
+        assigned.planned
+        for assigned in laws
+        if assigned.law.stage == stage and assigned.law.plan is not None and not isinstance(assigned.law, NormalLaw)
+    ]
 
 
 def _stage(given: ContactInput, stage: str, otherwise: str) -> Stage:

@@ -7,8 +7,8 @@ import numpy as np
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput, LawAssignment
 
-_ACROSS = ("unloading", "suction", "suction spring", "damping", "nodal damping", "nodal", "rigid")
-"""Laws that act normal to the seabed, next to the normal laws of elements."""
+_ACROSS = ("normal law", "unloading", "suction")
+"""Stages of the laws that act normal to the seabed."""
 
 
 def cut_out(given: ContactInput, elements: IndexArray, nodes: IndexArray, parts: int = 1) -> ContactInput:
@@ -23,7 +23,7 @@ def cut_out(given: ContactInput, elements: IndexArray, nodes: IndexArray, parts:
     laws = []
     for law in given.assigned.values():
         name = law.law.name
-        if not (name in _ACROSS or law in given.normal_laws):
+        if law.law.stage not in _ACROSS:
             continue
         if law.law.acts_on == "nodes":
             kept = here[law.rows] >= 0

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
 _Part = Any
 """History of a law: an array, or a dataclass of arrays, with slots."""
-REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
 IN_PLACE = ("breakout", "paths")
 """Histories that the compiled loops update in place."""
 
@@ -65,7 +65,7 @@ class ContactState:
 
     def _parts(self) -> list[tuple[str, _Part]]:
         """Return the histories of the laws with their field names."""
-        return [(name, part) for name in REMEMBERED if (part := getattr(self, name)) is not None]
+        return [(name, part) for name in _REMEMBERED if (part := getattr(self, name)) is not None]
 
     def following(self, spare: ContactState | None, positions: FloatArray, laid: FloatArray) -> ContactState:
         """Return a state after this one with arrays to be written, those of `spare` if given."""
@@ -76,12 +76,15 @@ class ContactState:
         object.__setattr__(state, "laid", laid)
         return state
 
-    def remember(self, before: ContactState, names: tuple[str, ...] = REMEMBERED) -> None:
+    def remember(self, before: ContactState, names: tuple[str, ...] | None = None) -> None:
         """Copy the histories of the state before into the arrays of this state."""
-        for name in names if self is not before else ():
-            if (part := getattr(self, name)) is not None:
+        for name, part in self._parts() if self is not before else ():
+            if names is None or name in names:
                 for new, old in zip(arrays_of(part), arrays_of(getattr(before, name)), strict=True):
                     new[...] = old
+
+
+_REMEMBERED = tuple(each.name for each in fields(ContactState) if each.name not in ("positions", "laid"))
 
 
 def arrays_of(part: _Part) -> list[NDArray[Any]]:
@@ -200,7 +203,7 @@ class LawTables:
         laws = [assigned.law for assigned in given.assigned.values()]
         self.history = self.velocities or self.level is not None or any(law.history for law in laws)
 
-    @property
+    @cached_property
     def steepens(self) -> bool:
         """Return True if an unloading line may be less steep than the virgin path that led to it."""
         if self.unloading is None:
@@ -221,15 +224,12 @@ class LawTables:
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
+        count = {"elements": len(self.half), "nodes": len(self.given.node_ids)}
         histories = {
-            assigned.law.state: assigned.law.initial(len(assigned.rows), assigned.parameters)
+            law.state: law.initial(assigned.rows, count[law.acts_on], assigned.parameters)
             for assigned in self.given.assigned.values()
-            if assigned.law.initial is not None
+            if (law := assigned.law).initial is not None
         }
-        if self.friction is not None:
-            from mudline.model.contact.laws.friction import FrictionHistory  # noqa: PLC0415 - only now is it needed
-
-            histories["friction"] = FrictionHistory.initial(self.friction.active)
         return ContactState(paths=None if self._paths is None else self._paths.copy(), **histories)
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray, put_at
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
 from mudline.model.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.model.contact.laws.friction import ExtraLimit
 from mudline.model.contact.laws.trench import (
@@ -58,11 +57,6 @@ class TrenchRows(NamedTuple):
     line: SmallIndexArray
     lines: FloatArray
     tables: tuple[FloatArray, ...]
-
-    def some(self, rows: IndexArray | slice) -> TrenchRows:
-        """Return some rows, without `start`."""
-        names = ("nodes", "kind", "inner", "outer", "steepness", "amount", "table", "line")
-        return self._replace(start=self.start[:0], **{name: getattr(self, name)[rows] for name in names})
 
 
 def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...] = (PEAK, WALL, TABLE)) -> TrenchRows:
@@ -241,16 +235,15 @@ class LaidCentreline:
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
         pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
         self.start, self.span, self.inverse = pieces[:3], pieces[3:6], pieces[6]
-        self._kept: tuple[TrenchRows, Beside] | None = None
+        self._kept: dict[int, Beside] = {}
 
     def beside(self, trench: TrenchRows) -> Beside:
-        """Return the pieces next to the nodes of all rows, kept from the last call."""
-        if self._kept is None or self._kept[0] is not trench:
-            self._kept = trench, self.pieces_beside(trench)
-        return self._kept[1]
+        """Return the pieces next to the nodes of some trenches, computed once."""
+        if (beside := self._kept.get(id(trench))) is None:
+            beside = self._kept[id(trench)] = self._pieces_beside(trench)
+        return beside
 
-    def pieces_beside(self, trench: TrenchRows) -> Beside:
-        """Return the pieces next to the nodes of some rows."""
+    def _pieces_beside(self, trench: TrenchRows) -> Beside:
         nodes, straight = trench.nodes, trench.line >= 0
         first, second = self.elements_at[nodes].T
         alone = (first < 0) & ~straight
@@ -279,7 +272,7 @@ class LaidCentreline:
         if ends.any():
             self._walk(points, (share, away, np.where(nearer, distance, square), element), np.flatnonzero(ends))
         if beside.straight.size:  # at the point's own elevation
-            put_at(away[0], beside.straight, 0.0)
+            away[0][:, beside.straight] = 0.0
         if beside.alone.size:
             away[..., beside.alone] = 0.0
         return Away(away, element, share)
@@ -332,8 +325,6 @@ def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray)
     """Return the lateral resistance of each row (steps, k) at its offset under a normal force."""
     distance = np.abs(offset)
     force = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
-    if not trench.kind.any():
-        return np.asarray(force)
     walls = trench.kind == WALL
     on = on_wall(distance, trench.inner, trench.outer)
     force = np.where(walls, trench.amount * normal_force * on, force)
@@ -374,36 +365,28 @@ class Lowered(NamedTuple):
     gradient: FloatArray
 
 
-def level_at(whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
+def level_at(trench: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
     """Return depth and gradient of the trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
     total = Lowered(np.zeros(len(points)), np.zeros(points.shape))
-    for rows, _, offset, gradient in _offsets(whole, line, points, lateral):
-        share, slope = lowered(np.abs(offset), rows.inner, rows.outer)
-        total.depth[rows.nodes] += rows.amount * share
-        total.gradient[rows.nodes] += (rows.amount * slope * np.sign(offset))[:, None] * gradient
+    _, offset, gradient = _offsets(trench, line, points, lateral)
+    share, slope = lowered(np.abs(offset), trench.inner, trench.outer)
+    np.add.at(total.depth, trench.nodes, trench.amount * share)
+    np.add.at(total.gradient, trench.nodes, (trench.amount * slope * np.sign(offset))[:, None] * gradient)
     return total
 
 
 def _offsets(
-    whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray
-) -> Iterator[tuple[TrenchRows, FloatArray, FloatArray, FloatArray]]:
-    """Yield rows with distinct nodes, their vectors (k, 3) from the centreline, offsets and offset gradients (k, 3)."""
-    for place in ranks(whole.nodes):
-        rows = whole.some(place)
-        at, beside = rows.nodes, line.pieces_beside(rows)
-        where = line.away(beside, points[at].T[:, None])
-        away = where.vector[:, 0].T
-        yield rows, away, (away * lateral[at]).sum(axis=1), _offset_gradient(line, rows, beside, where, lateral[at])
-
-
-def ranks(nodes: IndexArray) -> list[IndexArray]:
-    """Return rows of ascending nodes in groups of distinct nodes: the first row of each node, the second, ..."""
-    rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
-    return [np.flatnonzero(rank == number) for number in range(int(rank.max(initial=-1)) + 1)]
+    trench: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return vectors (k, 3) of the rows from the centreline, offsets and offset gradients (k, 3)."""
+    at, beside = trench.nodes, line.beside(trench)
+    where = line.away(beside, points[at].T[:, None])
+    away = where.vector[:, 0].T
+    return away, (away * lateral[at]).sum(axis=1), _offset_gradient(line, trench, beside, where, lateral[at])
 
 
 def added_limit(
-    whole: TrenchRows,
+    trench: TrenchRows,
     line: LaidCentreline,
     points: FloatArray,
     axes: tuple[FloatArray, FloatArray],
@@ -416,15 +399,14 @@ def added_limit(
     """
     count = len(points)
     limit = ExtraLimit.none(count)._replace(by_offset=np.ones(count), outward=np.where(forward, 1.0, -1.0))
-    for rows, away, offset, gradient in _offsets(whole, line, points, axes[1]):
-        at = rows.nodes
-        side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
-        by_distance, by_normal = slopes(rows, offset)
-        limit.force[at] += side * resistance(rows, offset[None], normal_force[at][None])[0]
-        limit.by_normal_force[at] += side * by_normal
-        slope = side * by_distance * np.sign(offset)
-        limit.gradient[at] += slope[:, None] * gradient
-        limit.by_angle[at] -= slope * (axes[0][at] * away).sum(axis=1)
+    at, (away, offset, gradient) = trench.nodes, _offsets(trench, line, points, axes[1])
+    side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
+    by_distance, by_normal = slopes(trench, offset)
+    slope = side * by_distance * np.sign(offset)
+    np.add.at(limit.force, at, side * resistance(trench, offset[None], normal_force[at][None])[0])
+    np.add.at(limit.by_normal_force, at, side * by_normal)
+    np.add.at(limit.gradient, at, slope[:, None] * gradient)
+    np.subtract.at(limit.by_angle, at, slope * (axes[0][at] * away).sum(axis=1))
     return limit
 
 

@@ -153,15 +153,10 @@ class ForceCurve:
         Raises:
             ValueError: a ratio is NaN or infinite.
         """
-        query = real_numbers(ratios, "ratios")
-        segments = np.empty(query.shape, np.intp)
-        done = 0
-        with np.errstate(all="ignore"), _blocks(query, segments) as pieces:
-            for ratio, block_segments in pieces:
-                _refuse_infinite(ratio, done)
-                np.minimum(_passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_segments)
-                done += len(ratio)
-        return segments
+        query = _finite_ratios(ratios)
+        segments = _passed(self.ratios[1:], query.reshape(-1))
+        np.minimum(segments, len(self.slopes) - 1, out=segments)
+        return segments.reshape(query.shape)
 
     def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
         """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
@@ -169,15 +164,8 @@ class ForceCurve:
         Raises:
             ValueError: a ratio is NaN or infinite.
         """
-        query = real_numbers(ratios, "ratios")
-        sides = np.empty(query.shape, np.int8)
-        done = 0
-        with np.errstate(all="ignore"), _blocks(query, sides) as pieces:
-            for ratio, block_sides in pieces:
-                _refuse_infinite(ratio, done)
-                np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_sides, dtype=np.int8)
-                done += len(ratio)
-        return sides
+        query = _finite_ratios(ratios)
+        return np.asarray(np.subtract(query > self.ratios[-1], query < self.ratios[0], dtype=np.int8))
 
     def ratios_at_force(self, force: float) -> tuple[float, ...]:
         """Return every ratio at which the curve, including its continued ends, has this force, ascending.
@@ -282,14 +270,14 @@ def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> 
     return out
 
 
-def _refuse_infinite(ratio: FloatArray, start: int) -> None:
-    """Raise ValueError for a ratio that is not finite, in queries that compute no force.
-
-    `start` is the index of the first ratio in the query.
-    """
-    finite = np.isfinite(ratio)
+def _finite_ratios(ratios: ArrayLike) -> FloatArray:
+    """Return ratios as float64, for queries that compute no force; raise ValueError for one that is not finite."""
+    with np.errstate(over="ignore"):
+        query = real_numbers(ratios, "ratios").astype(np.float64, copy=False)
+    finite = np.isfinite(query)
     if not finite.all():
-        _refuse(ratio, int(np.argmin(finite)), start)
+        _refuse(query.reshape(-1), int(np.argmin(finite)), 0)
+    return query
 
 
 def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:

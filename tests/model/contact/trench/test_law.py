@@ -59,9 +59,9 @@ def nearest(
     along = {} if straight is None else dict(zip(ALONG_Y, straight, strict=True))
     rows = LawTables(chain([NONE], friction(2), trench(1, 0.1, 0.2, 1.0, along))).trench
     assert rows is not None
-    each = rows.some(np.zeros(len(laid), np.intp))._replace(nodes=np.arange(len(laid)))
+    each = rows._replace(nodes=np.arange(len(laid)), line=np.repeat(rows.line[:1], len(laid)))
     centreline = LaidCentreline(laid, Incidence(ends, len(laid)))
-    away = centreline.away(centreline.pieces_beside(each), points.T[:, None])
+    away = centreline.away(centreline.beside(each), points.T[:, None])
     found: FloatArray = points - away.vector[:, 0].T
     return found
 

@@ -23,7 +23,6 @@ from numba.extending import overload
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.compiled import (
-    LAW,
     beside,
     between,
     breakout_table,
@@ -37,7 +36,7 @@ from mudline.model.contact.compiled import (
     suction_table,
     trench_tables,
 )
-from mudline.model.contact.compiled.functions import Loop, edition, one_of
+from mudline.model.contact.compiled.functions import Loop, edition
 from mudline.model.contact.compiled.loops import whole_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
@@ -119,7 +118,7 @@ class CompiledDriver:
         self._loop = _loop(
             whole_loop,
             callable_in_loops,
-            (has, _equations(normal), paths, _choice(slopes), sources),
+            (has, _equations(normal), paths, slopes, sources),
             (has, _equations(tables.nodal), sources),
         )
         given_damping = tables.damping, tables.nodal_damping
@@ -258,8 +257,3 @@ def _as_reaction(steepest: Callable[..., Any]) -> Callable[..., tuple[float, flo
         return inner(z, diameter, *parameters), 0.0
 
     return slope
-
-
-@cache
-def _choice(slopes: tuple[tuple[Callable[..., Any], int], ...]) -> Callable[..., Any]:
-    return one_of(callable_in_loops, slopes, LAW)

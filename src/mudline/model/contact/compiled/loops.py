@@ -63,13 +63,13 @@ def elements_loop(
     has: Features,
     laws: tuple[tuple[Callable[..., Any], int], ...],
     paths: tuple[PathLaw, ...],
-    steepest: Callable[..., Any],
+    slopes: tuple[tuple[Callable[..., Any], int], ...],
     edition: int,
 ) -> Loop:
     """Return the loop over elements.
 
-    `laws` are the normal laws with equations, `paths` the first of them, which follow a path. `steepest` is called with
-    (kind, z, diameter, table, e) where an unloading line may be less steep than the virgin path.
+    `laws` are the normal laws with equations, `paths` the first of them, which follow a path. `slopes` are their
+    steepest slopes in the form of reactions, if an unloading line may be less steep than the virgin path.
     """
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
     suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
@@ -78,7 +78,8 @@ def elements_loop(
     in_plane, _, write = _components(wrap, has)
     nothing = (0.0, 0.0) if has.flat else (0.0, 0.0, 0.0)
     suction_law = row_of(wrap, col.SUCTION_COLUMNS)
-    normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
+    normal_law, steepest = one_of(wrap, laws, col.LAW), one_of(wrap, slopes, col.LAW)
+    follow, follows = followed(wrap, paths, col.LAW), has.paths
 
     def loop(
         begin: Index, end: Index, tables: Array, points: Array, speed: Array, work: Array, part: Array, before: Array,

@@ -138,10 +138,10 @@ class Law:
         tables: whether it uses curves or tables; a parameter is then the index of one.
         check: (parameters by name) to the rows whose parameters contradict each other, and the fault in words.
         state: field of `ContactState` with its history; "" without.
-        initial: (number of rows, parameters by name) to the history before the first step.
+        initial: (rows, number of all elements or nodes, parameters by name) to the history before the first step.
         damping: (`Moving`, parameters by name) to minus d force / d pull-out velocity of each row, for tangents.
         plan: text of the plan after the number of rows, or a function of the parameters by name to the whole text. ""
-            means "with" and the summary, None no text.
+            means "with" and the summary, for a normal law its name too; None no text.
         largest: (`Reached`, parameters by name) to the largest stiffness and the largest damping of each row, for laws
             other than normal laws; None for no damping.
         equation: equation in one line.
@@ -161,7 +161,7 @@ class Law:
     plan: str | Callable[[dict[str, FloatArray]], str] | None = ""
     largest: Callable[[Reached, dict[str, FloatArray]], tuple[FloatArray, FloatArray | None]] | None = None
     state: str = ""
-    initial: Callable[[int, dict[str, FloatArray]], Any] | None = None
+    initial: Callable[[IndexArray, int, dict[str, FloatArray]], Any] | None = None
     damping: Callable[[Moving, dict[str, FloatArray]], FloatArray] | None = None
     equation: str = ""
     source: str = ""
@@ -197,7 +197,6 @@ class NormalLaw(Law):
 
     reaction: Reaction = field(default=_no_equation)
     steepest: Callable[..., Value] = field(default=_no_equation)
-    plan: str | Callable[[dict[str, FloatArray]], str] | None = None
     onset: Callable[..., Value] = field(default=_never)
 
     __repr__ = short_repr

@@ -67,7 +67,7 @@ BREAKOUT = Law(
     ),
     history=True,
     state="breakout",
-    initial=lambda count, _: np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1),
+    initial=lambda rows, *_: np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], len(rows), axis=1),
     check=_out_of_order,
     plan="with a single lateral breakout, then a residual, where mu2 and Kt2 have no effect",
     largest=_largest,

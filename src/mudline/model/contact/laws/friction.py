@@ -262,9 +262,6 @@ class _Trial(NamedTuple):
     limit: FloatArray
     slips: BoolArray
 
-    def rows(self, rows: BoolArray) -> _Trial:
-        return _Trial(self.stiffness[rows], self.elongation[rows], self.trial[rows], self.limit[rows], self.slips[rows])
-
 
 _Change = tuple[FloatArray, FloatArray, FloatArray]
 """Derivatives of the forces in the springs: by position (n, 2, 2), by offset (n, 2), by normal force (n, 2)."""
@@ -284,10 +281,9 @@ def _derivatives(law: FrictionLaw, step: _Trial, against: BoolArray, extra: Extr
     by_offset = np.where(step.slips, side * limit_by_offset, 0.0)
     by_normal = np.where(step.slips, side * limit_by_normal, rising)
     curved = law.ellipse & law.active
-    if curved.any():
-        ellipse = _ellipse(step.rows(curved), rising[curved], limit_by_offset[curved], limit_by_normal[curved])
-        for whole, values in zip((by_position, by_offset, by_normal), ellipse, strict=True):
-            whole[curved] = values
+    ellipse = _ellipse(step, rising, limit_by_offset, limit_by_normal)
+    for whole, values in zip((by_position, by_offset, by_normal), ellipse, strict=True):
+        whole[curved] = values[curved]
     return by_position, by_offset, by_normal
 
 
@@ -356,6 +352,8 @@ FRICTION = Law(
         ),
     ),
     history=True,
+    state="friction",
+    initial=lambda rows, count, _: FrictionHistory.initial(np.isin(np.arange(count), rows)),
     plan=_plan,
     largest=_largest,
     equation="f_i = -K_i e_i, |f_i| <= mu_i N",

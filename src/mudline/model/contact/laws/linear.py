@@ -111,6 +111,14 @@ _STIFFNESS = Parameter("stiffness", "F/L2", "force per unit length and length of
 _HALF_WIDTH = Parameter("half_width", "L", "half width h of the quadratic zone; 0 for a kinked law", default=0.0)
 _ONE_SIDED = Parameter("one_sided", "1", "1 for a zone below the mudline only", high=1.0, default=0.0)
 
+_AT_MEAN_DEPTH = "with a linear stiffness, at the mean depth (inferred)"
+
+
+def _planned_nodes(parameters: dict[str, FloatArray]) -> str:
+    nodes = len(parameters["stiffness"])
+    return f"{counted(nodes, 'node')} with a stiffness of {'its' if nodes == 1 else 'their'} own"
+
+
 LINEAR = NormalLaw(
     name="linear",
     summary="linear stiffness",
@@ -118,6 +126,7 @@ LINEAR = NormalLaw(
     parameters=(_STIFFNESS,),
     reaction=linear_reaction,
     steepest=linear_steepest,
+    plan=_AT_MEAN_DEPTH,
     equation="F = K z",
     source="definition of STIFFNESS=",
 )
@@ -129,6 +138,7 @@ SMOOTHED = NormalLaw(
     reaction=smoothed_reaction,
     steepest=smoothed_steepest,
     onset=zone_onset,
+    plan=_AT_MEAN_DEPTH,
     equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
     source="definition of SMOOTHING= and FORM=",
 )
@@ -140,6 +150,7 @@ NODAL = NormalLaw(
     reaction=smoothed_reaction,
     steepest=smoothed_steepest,
     onset=zone_onset,
+    plan=_planned_nodes,
     equation="as `smoothed`, at the node's own penetration",
     source="definition of NODAL STIFFNESS=",
 )
@@ -188,7 +199,7 @@ LATERAL = Law(
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,
     state="touchdown",
-    initial=lambda count, _: np.full((count, 3), np.nan, order="F"),
+    initial=lambda rows, *_: np.full((len(rows), 3), np.nan, order="F"),
     plan=_planned("to its touchdown point (inferred), in place of friction"),
     largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",

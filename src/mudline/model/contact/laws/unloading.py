@@ -87,7 +87,7 @@ UNLOADING = Law(
     parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
     history=True,
     state="unloading",
-    initial=lambda _, parameters: UnloadingHistory.initial(parameters["stiffness"]),
+    initial=lambda _rows, _count, parameters: UnloadingHistory.initial(parameters["stiffness"]),
     plan="on unloading lines, from the deepest point so far",
     largest=_largest,
     equation="F = max(0, F_max - ku' (z_max - z)) below z_max",

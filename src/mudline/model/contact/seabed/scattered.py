@@ -88,10 +88,8 @@ class ScatteredSeabed(SurfaceSeabed):
         """Return elevations (n, 7) at places, and one and two steps from there towards the corners (n, 3, 2)."""
         steps = _STEP * (corners - places[:, None, :])
         here = places[:, None, :]
-        return self._elevations(np.concatenate([here, here + steps, here + 2.0 * steps], axis=1))
-
-    def _elevations(self, places: FloatArray) -> FloatArray:
-        return np.asarray(self._cubic(places) if self._cubic is not None else np.nan, np.float64)
+        around = np.concatenate([here, here + steps, here + 2.0 * steps], axis=1)
+        return np.asarray(self._cubic(around) if self._cubic is not None else np.nan, np.float64)
 
     def describe(self) -> str:
         """Return the description of the seabed."""
