@@ -10,13 +10,13 @@ from typing import Any, NamedTuple, TypeVar
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.editing.variations.names import (
-    may_vary,
     misspelt_keywords,
     misspelt_sections,
     undefined_parameters,
     undefined_variations,
 )
 from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
 from mudline.language.keywords.catalogue import holds_in_soil
@@ -112,7 +112,7 @@ def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, An
 
 def of_variations(deck: Deck) -> Iterator[Problem]:
     """Yield undefined names in variations: they are faults of the varied decks, and not of this deck."""
-    if not may_vary(deck):
+    if all(section.name != DEFINING for section in deck.sections):
         return
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_REPORTED):

@@ -97,11 +97,8 @@ def breaking_wave(context: LintContext) -> Iterator[Problem]:
 
 def _gravity(context: LintContext) -> float:
     """Return the gravity of the last *OCEAN, else of the unit system; NaN if neither gives it."""
-    oceans = context.blocks("OCEAN")
-    given = number(oceans[-1][1], "gravity") if oceans else math.nan
-    if given > 0.0:
-        return given
-    return DEFAULT_GRAVITY.get(context.scene.units, math.nan)
+    given = context.scene.surroundings.gravity
+    return given if given > 0.0 else DEFAULT_GRAVITY.get(context.scene.units, math.nan)
 
 
 @rule(TIM003)
@@ -215,8 +212,7 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
 
     Finds: 13:2
     """
-    oceans = context.blocks("OCEAN")
-    depth = number(oceans[-1][1], "depth") if oceans else math.nan
+    depth = context.scene.surroundings.depth
     for where, block in context.blocks("CURRENT", "LOAD CASE"):
         for index, current in enumerate(cast("Current", block).currents):
             place = where.inside("currents", index, "profile")

@@ -10,7 +10,6 @@ from mudline.checks.context import LintContext
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.rules import rule
 from mudline.model.scene.boundary import held_nodes
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
@@ -188,8 +187,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
 
 def _surface(scene: Scene) -> str:
     """Return the likely datum in words, if the lowest node lies at minus the water depth; else ""."""
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    depth = number(oceans[-1], "depth") if oceans else np.nan
+    depth = scene.surroundings.depth
     with np.errstate(invalid="ignore"):
         lowest = float(np.fmin.reduce(scene.coordinates[:, 0], initial=np.inf))
     if not (depth > 0.0 and abs(lowest + depth) <= FLAT * depth):

@@ -50,8 +50,8 @@ def rule_of_text(
         @rule(code, off=off)
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:
-            text = context.text
-            return find(text, text.source.unified) if text else ()
+            text = context.deck.origin
+            return find(text, text.source.unified) if isinstance(text, TextOrigin) else ()
 
         return check
 

@@ -41,10 +41,10 @@ CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UN
 
 def of_code(context: LintContext, code: Code) -> list[Problem]:
     """Return the unusual values of one code."""
-    return context.once(_by_code).get(code, [])
+    return context.once(_by_code).get(code.code, [])
 
 
-def _by_code(context: LintContext) -> dict[Code, list[Problem]]:
+def _by_code(context: LintContext) -> dict[str, list[Problem]]:
     """Return the problems of values outside the usual range of their field by code.
 
     Lines in which SYN015 found decimal commas are left out. If gravity, a density or a length is unusual, the weight of
@@ -60,10 +60,10 @@ def _by_code(context: LintContext) -> dict[Code, list[Problem]]:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and judged else set()
-    by_code: dict[Code, list[Problem]] = {}
+    by_code: dict[str, list[Problem]] = {}
     for problem in (each.problem for each in judged):
         if not commas or not text or text.place(problem).line not in commas:
-            by_code.setdefault(problem.code, []).append(problem)
+            by_code.setdefault(problem.code.code, []).append(problem)
     return by_code
 
 
