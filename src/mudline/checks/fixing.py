@@ -58,19 +58,15 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
 
     Nothing is written. `folder` is the folder of files that the deck names; without it they are not searched.
     """
-    with refusing_outside(lambda _folder: settings.no_outside):
-        return _lint_one(name, data, settings, folder)
-
-
-def _lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> FileReport:
     result = FixResult(None, (), "")
-    if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
-        result = fix_bytes(data, name, settings, folder)
-    content = data if result.changed is None else result.changed
-    with recording_looks() as paths:
-        findings, coverage = covered_findings(
-            content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
-        )
+    with refusing_outside(lambda _folder: settings.no_outside):
+        if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
+            result = fix_bytes(data, name, settings, folder)
+        content = data if result.changed is None else result.changed
+        with recording_looks() as paths:
+            findings, coverage = covered_findings(
+                content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
+            )
     fixed = with_severities(result.fixed, settings)
     return FileReport(
         name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage

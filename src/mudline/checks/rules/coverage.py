@@ -292,19 +292,12 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
         set_ = grant.set_
         if id(grant) not in idle_grants or grant.unknown or set_.open or index in reported:
             continue
-        place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+        why = f"no subset of SET={shown(set_.name)} has any: correct the set"
         if set_.elements.size:
-            message = (
-                f"this definition applies to no element, as later ones override it for all of SET={shown(set_.name)}: "
-                "remove it, or correct the sets"
-            )
-            yield Problem(SBD025, message, where=place)
-        elif set_.where not in empty:
-            message = (
-                f"this definition applies to no element, as no subset of SET={shown(set_.name)} has any: correct "
-                "the set"
-            )
-            yield Problem(SBD025, message, where=place)
+            why = f"later ones override it for all of SET={shown(set_.name)}: remove it, or correct the sets"
+        if set_.elements.size or set_.where not in empty:
+            place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+            yield Problem(SBD025, f"this definition applies to no element, as {why}", where=place)
 
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:

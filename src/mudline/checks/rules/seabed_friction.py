@@ -114,7 +114,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     blocks = [placed for section in ("LOAD CASE", "MODES") for placed in context.blocks("FRICTION", section)]
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
-    entries = list(given(context))
+    entries = given(context)
     for direction in DIRECTIONS if entries else ():
         if not all(absent(entry, direction) for entry in entries):
             continue
@@ -265,10 +265,6 @@ class FrictionEntry(NamedTuple):
 
 def given(context: LintContext) -> list[FrictionEntry]:
     """Return legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
-    return context.once(_found)
-
-
-def _found(context: LintContext) -> list[FrictionEntry]:
     entries = [
         FrictionEntry(
             getattr(surface, "properties", None),
