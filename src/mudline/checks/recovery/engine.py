@@ -14,8 +14,7 @@ from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import NamedTuple
 
-from mudline.checks.context import LintContext
-from mudline.checks.reading import read_deck, read_once
+from mudline.checks.context import LintContext, read_deck, read_once
 from mudline.checks.recovery import lines, values
 from mudline.checks.recovery.blocks import (
     Blocks,

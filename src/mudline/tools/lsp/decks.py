@@ -17,10 +17,9 @@ from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
 from mudline.basics.patterns import matches
 from mudline.checks.configuration import Configuration, ConfigurationError
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, read_deck
 from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
-from mudline.checks.reading import read_deck
 from mudline.checks.registry import UnknownRule, select
 from mudline.checks.settings import Settings, nearest_settings
 from mudline.language.deck import MARK
