@@ -217,16 +217,12 @@ def _disjoint(problems: list[Problem]) -> list[Problem]:
     chosen: list[Problem] = []
     for problem in sorted(problems, key=lambda problem: _repair(problem).edits[0][0]):
         spans = [span for span, _ in _repair(problem).edits]
-        if all(_free(span, taken) for span in spans):
+        beside = ((span, bisect_left(taken, span)) for span in spans)
+        if not any(_overlap(span, edit) for span, at in beside for edit in islice(taken, max(at - 1, 0), at + 1)):
             chosen.append(problem)
             for span in spans:
                 insort(taken, span)
     return chosen
-
-
-def _free(span: Span, taken: list[Span]) -> bool:
-    at = bisect_left(taken, span)
-    return not any(_overlap(span, edit) for edit in islice(taken, max(at - 1, 0), at + 1))
 
 
 def _overlap(first: Span, second: Span) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -72,7 +72,8 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         places = [
             (keyword, where, scene.set_table.find(entry.set_name))
             for keyword in giving
-            for where, entry in _named(context, keyword)
+            for where, entry in entries_of_sets(context.blocks(keyword))
+            if is_name(entry.set_name)
         ]
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
@@ -198,10 +199,6 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
         if both:
             message = f"node {first.text} follows a vessel, and TYPE=CONSTANT holds it in degree of freedom {both[0]}"
             yield Problem(BND002, f"{message}: remove one of the two (inferred)", where=where.inside(*first.span))
-
-
-def _named(context: LintContext, keyword: str) -> Iterator[tuple[Where, Any]]:
-    return ((where, entry) for where, entry in entries_of_sets(context.blocks(keyword)) if is_name(entry.set_name))
 
 
 # ------------------------------------------------------------------------------------------------------- seabed laws

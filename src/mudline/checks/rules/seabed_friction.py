@@ -11,7 +11,7 @@ from mudline.checks.context import LintContext
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.rules import rule
-from mudline.model.scene.laws import DIRECTIONS, Extension, typed_blocks
+from mudline.model.scene.laws import DIRECTIONS, typed_blocks
 from mudline.model.scene.sets import ALL
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
@@ -311,7 +311,7 @@ def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
     friction = context.scene.extensions.get("SEABED FRICTION")
     if friction is None:
         return False
-    names = _names(friction)
+    names = {folded(held.name) for held in friction.sets if held is not None}
     if ALL in names:
         return True
     resistance = context.scene.resistance
@@ -321,7 +321,3 @@ def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
     if followers.size:
         return bool((friction.of_element[followers] >= 0).all())
     return not entry.legacy and folded(str(entry.part.set_name)) in names
-
-
-def _names(friction: Extension) -> set[str]:
-    return {folded(held.name) for held in friction.sets if held is not None}
