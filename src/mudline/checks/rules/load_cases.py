@@ -15,7 +15,6 @@ from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.unknown import is_unknown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
@@ -24,7 +23,7 @@ from mudline.model.scene.references import used_names
 from mudline.model.scene.unread_lines import unread_lines
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import AnalysisType, StepLimits, TimeSpan
+    from mudline.language.keywords.library.analysis import AnalysisType, TimeSpan
     from mudline.language.keywords.library.summary import SummaryTime
     from mudline.language.keywords.library.vessel_motions import Drift
     from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
@@ -151,8 +150,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
 
 
 def _backwards(span: object, where: Where) -> Iterator[Problem]:
-    start, end = getattr(span, "start", None), getattr(span, "end", None)
-    if isinstance(start, int | float) and isinstance(end, int | float) and end <= start:
+    start, end = number(span, "start"), number(span, "end")
+    if end <= start:
         message = f"the end {end!r} is not after the start {start!r}: correct one of them"
         yield Problem(TIM001, message, where=where.inside("end"))
 
@@ -179,23 +178,18 @@ def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
         before = -float("inf")
         for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
             place = where.inside("limits", index)
-            yield from _disordered(limits, place)
-            if isinstance(limits.since, int | float):
-                if limits.since <= before:
-                    message = f"this line holds from {limits.since!r} on, the one above it from {before!r}: sort them"
-                    yield Problem(TIM002, message, where=place.inside("since"))
-                before = limits.since
-
-
-def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
-    suggested, least, largest = limits.suggested, limits.least, limits.largest
-    known = all(isinstance(value, int | float) and not is_unknown(value) for value in (suggested, least, largest))
-    if known and not cast("float", least) <= cast("float", suggested) <= cast("float", largest):
-        message = (
-            f"the suggested step {suggested!r} does not lie between the least {least!r} and the largest {largest!r}: "
-            "correct them"
-        )
-        yield Problem(TIM002, message, where=where.inside("suggested"))
+            suggested, least, largest = (number(limits, name) for name in ("suggested", "least", "largest"))
+            if not math.isnan(suggested + least + largest) and not least <= suggested <= largest:
+                message = (
+                    f"the suggested step {suggested!r} does not lie between the least {least!r} and the largest "
+                    f"{largest!r}: correct them"
+                )
+                yield Problem(TIM002, message, where=place.inside("suggested"))
+            since = number(limits, "since")
+            if since <= before:
+                message = f"this line holds from {since!r} on, the one above it from {before!r}: sort them"
+                yield Problem(TIM002, message, where=place.inside("since"))
+            before = before if math.isnan(since) else since
 
 
 @rule(TIM006)
