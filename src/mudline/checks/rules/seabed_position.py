@@ -41,16 +41,11 @@ def depths(context: LintContext) -> Floats:
 
 
 def _lowering(scene: Scene) -> Floats | None:
-    """Return the depth (n,) by which trenches lower the seabed at nodes; None if none does."""
+    """Return the depth (n,) by which trenches lower the seabed at nodes; None without any."""
     trenches = scene.extensions.get("SEABED TRENCH")
-    if (
-        not len(scene.node_ids)
-        or trenches is None
-        or all(getattr(entry, "level", None) != "LOWERED" for entry in trenches.entries)
-    ):
+    if trenches is None or not len(scene.node_ids):
         return None
-    lowers = np.array([*(getattr(entry, "level", None) == "LOWERED" for entry in trenches.entries), False])
-    elements = np.flatnonzero(lowers[trenches.of_element])
+    elements = np.flatnonzero(trenches.says(trenches.of_element, "level", "LOWERED"))
     block = trenches.of_element[elements]
     deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
     y0, z0, y1, z1 = (trenches.values(block, "centreline", name) for name in ("y0", "z0", "y1", "z1"))
