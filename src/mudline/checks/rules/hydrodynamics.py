@@ -118,7 +118,7 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
     """
     longest = max((wave.period for wave in context.once(waves)), default=0.0)
     continues = bool(context.blocks("RESTART", "LOAD CASE"))
-    for where, span in _spans(context):
+    for where, span in spans(context):
         ramp, start, end = (number(span, name) for name in ("ramp", "start", "end"))
         if ramp > end - start > 0.0:
             message = f"loads grow over {ramp:g}, longer than the run lasts ({end - start:g}): shorten the ramp"
@@ -174,7 +174,7 @@ def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
             yield Joined(cause, others)
 
 
-def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
+def spans(context: LintContext) -> Iterator[tuple[Where, object]]:
     """Yield the time spans of a load case."""
     for where, block in context.blocks("TIME", "LOAD CASE"):
         for name in ("fixed", "variable"):
@@ -184,7 +184,7 @@ def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
 
 def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
     """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
-    for where, span in _spans(context):
+    for where, span in spans(context):
         yield where.inside("increment"), number(span, "increment")
     for where, block in context.blocks("TIME", "LOAD CASE"):
         for index, limits in enumerate(cast("TimeSpan", block).limits or ()):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.basics.spelling import Effort, nearest
 from mudline.checks.context import LintContext
-from mudline.checks.rules.hydrodynamics import by_height
+from mudline.checks.rules.hydrodynamics import by_height, spans
 from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
@@ -139,10 +139,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:9
     """
-    for where, block in context.blocks("TIME", "LOAD CASE"):
-        for name in ("fixed", "variable"):
-            span = getattr(cast("TimeSpan", block), name)
-            yield from _backwards(span, where.inside(name))
+    for where, span in spans(context):
+        yield from _backwards(span, where)
     for where, block in context.blocks("TIME", "SUMMARY POSTPROCESSING"):
         summary = cast("SummaryTime", block)
         if summary.start != _LAST_STORED:
