@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -307,18 +307,11 @@ def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
         yield Problem(SBD025, message, where=where.inside("properties"))
 
 
-class Overlap(NamedTuple):
-    """Overlap of two sets: their places in the list, and the elements (indices) that the later set overrides."""
-
-    earlier: int
-    later: int
-    elements: Indices
-
-
-def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
+def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[tuple[int, int, Indices]]:
     """Yield the overlaps of each set with the sets that held its elements until then.
 
-    Sets of unknown elements are compared with sets of the same name.
+    Each has the places of the earlier and the later set in the list, and the elements (indices) that are in both. Sets
+    of unknown elements are compared with sets of the same name.
     """
     holder = np.full(count, -1, dtype=np.intp)
     names: dict[str, int] = {}
@@ -327,16 +320,16 @@ def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
         first = int(before[0]) if index and before.size else -1
         if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
             if first >= 0:
-                yield Overlap(first, index, later.elements)
+                yield first, index, later.elements
         else:
             order = np.argsort(before, kind="stable")
             parts, starts = np.unique(before[order], return_index=True)
             for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
                 if earlier >= 0:
-                    yield Overlap(earlier, index, elements)
+                    yield earlier, index, elements
         name = folded(later.name)
         if not later.elements.size and name in names:
-            yield Overlap(names[name], index, later.elements)
+            yield names[name], index, later.elements
         names[name] = index
         holder[later.elements] = index
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
-from typing import NamedTuple
 
 from mudline.basics.limits import MOST_COLUMNS
 from mudline.checks.context import LintContext
@@ -57,24 +56,19 @@ def rule_of_text(
     return register
 
 
-class Placed(NamedTuple):
-    """Line, or run of lines; `read` is its block, `kept` is True if this block has no model."""
+def placed_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock | None, bool]]:
+    """Yield every line, or run of lines, except those of keywords and sections.
 
-    leaf: Leaf
-    read: ReadBlock | None
-    kept: bool
-
-
-def placed_leaves(text: TextOrigin) -> Iterator[Placed]:
-    """Yield every line except those of keywords and sections."""
+    Each comes with its block, if that has a model, and True if it stands in a block without one.
+    """
     preamble = text.tree.preamble
-    yield from (Placed(leaf, None, kept=False) for leaf in preamble.leaves)
-    yield from (Placed(leaf, None, kept=False) for block in preamble.blocks for leaf in block.leaves)
+    yield from ((leaf, None, False) for leaf in preamble.leaves)
+    yield from ((leaf, None, False) for block in preamble.blocks for leaf in block.leaves)
     for index, section in enumerate(text.tree.sections):
-        yield from (Placed(leaf, None, kept=False) for leaf in section.leaves)
+        yield from ((leaf, None, False) for leaf in section.leaves)
         for number, block in enumerate(section.blocks):
             read = text.read.get((index, number))
-            yield from (Placed(leaf, read, read is None) for leaf in block.leaves)
+            yield from ((leaf, read, read is None) for leaf in block.leaves)
 
 
 def data_blocks(text: TextOrigin) -> Iterator[tuple[ReadBlock, list[Leaf]]]:
