@@ -15,8 +15,8 @@ from mudline.api import Deck, content_as, decks_in, given_deck, given_rules, giv
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
+from mudline.checks.context import read_deck
 from mudline.checks.engine import naming_causes
-from mudline.checks.reading import read_deck
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.diagnostics import DeckError, Diagnostic

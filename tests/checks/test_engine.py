@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, read_deck
 from mudline.checks.engine import lint_bytes, lint_context
-from mudline.checks.reading import read_deck
 from mudline.checks.registry import rules, select
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.forms.yaml import to_yaml

@@ -268,6 +268,7 @@ class Configured:
     code_fault: CodeFault | None = None
     _fixed: Configuration | None = field(init=False, default=None)
     _in_folder: dict[Path, Configuration | None] = field(init=False, default_factory=dict)
+    _nearest: dict[str, Configuration] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.config is not None and self.isolated:
@@ -285,12 +286,17 @@ class Configured:
         """
         if self._fixed is not None:
             return self._fixed
-        inside = Path(os.path.abspath(os.path.dirname(path or "-")))  # noqa: PTH100, PTH120 - links stay what they are called
-        for folder in (inside, *inside.parents):
-            if folder not in self._in_folder:
+        folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder not in self._nearest:
+            self._nearest[folder] = self._upwards(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
+        return self._nearest[folder]
+
+    def _upwards(self, folder: Path) -> Configuration:
+        for place in (folder, *folder.parents):
+            if place not in self._in_folder:
                 with _reading_one():
-                    self._in_folder[folder] = _in(folder, self.code_fault)
-            if here := self._in_folder[folder]:
+                    self._in_folder[place] = _in(place, self.code_fault)
+            if here := self._in_folder[place]:
                 return here
         return Configuration()
 

@@ -1,19 +1,25 @@
-"""View of a deck for rules that advise: the deck as it is written, and its scene."""
+"""Deck as rules that advise see it: how it is read, as it is written, and its scene."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import chain, islice
+from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.editing.variations.names import may_vary, misspelt_actions, undefined_parameters, undefined_variations
+from mudline.editing.variations.names import misspelt_actions, undefined_parameters, undefined_variations
+from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
 from mudline.language.keywords.catalogue import holds_in_soil
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.language.syntax.tree import RawBlock
 from mudline.model.scene.context import placed_blocks
 from mudline.model.scene.model import Scene, resolve
 
@@ -95,6 +101,62 @@ class LintContext:
         return self.noticed.get(code.code, ())
 
 
+# ---------------------------------------------------------------------------------------------------- reading
+
+_SHORT_BLOCK = 4096
+"""Characters of the largest block that is remembered: decks of a project share their short blocks."""
+
+
+class _Piece(str):
+    """Text of a block, equal to any other with the same text; `raw` and `start` are those of the first one read."""
+
+    __slots__ = ("raw", "start")
+
+    raw: RawBlock
+    start: int
+
+
+@lru_cache(512)
+def _read_piece(piece: _Piece, declared: type[Block], last: bool, older: bool) -> ReadBlock:  # noqa: ARG001, FBT001 - for the cache
+    return read_piece(piece, piece.start, piece.raw, declared, last=last)
+
+
+def read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Return the result of `read_block` for a block; blocks with the same text share their model."""
+    start = raw.head.span.start
+    end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
+    if end - start > _SHORT_BLOCK:
+        return read_block(text, raw, declared, last=last)
+    piece = _Piece(text[start:end])
+    piece.raw, piece.start = raw, start
+    known = _read_piece(piece, declared, last, raw.older)
+    return known.at(text, start, [_reported_at(problem, start) for problem in known.problems] if known.problems else [])
+
+
+def _reported_at(problem: Problem, by: int) -> Problem:
+    span = problem.span and problem.span.moved(by)
+    repair = problem.repair
+    if repair is not None:
+        repair = replace(repair, edits=tuple((place.moved(by), text) for place, text in repair.edits))
+    return replace(problem, span=span, repair=repair)
+
+
+def read_deck(
+    data: bytes, name: str, *, form: str | None = None, units: str | None = None, folder: Path | None = None
+) -> Deck:
+    """Return the deck of a file's content; it must not be changed, as its models are shared with decks read before.
+
+    Raises DeckError for a JSON or YAML file that holds no deck.
+    """
+    deck = load_bytes(data, name, form=form, units=units, folder=folder, read=read_once)
+    if isinstance(deck.origin, TextOrigin):
+        deck.origin.no_equations = "[" not in deck.origin.source.text
+    return deck
+
+
+# ---------------------------------------------------------------------------------------------- for rules
+
+
 def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, Any]]:
     """Return every entry below a SET= of some blocks, with its place."""
     return [
@@ -106,7 +168,7 @@ def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, An
 
 def of_variations(deck: Deck) -> Iterator[Problem]:
     """Yield undefined names in variations: they are faults of the varied decks, and not of this deck."""
-    if not may_vary(deck):
+    if all(section.name != DEFINING for section in deck.sections):
         return
     for find in (undefined_parameters, undefined_variations, misspelt_actions):
         for problem in islice(find(deck), MOST_REPORTED):

@@ -10,8 +10,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from mudline.checks.context import LintContext
-from mudline.checks.reading import read_deck
+from mudline.checks.context import LintContext, read_deck
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.deck.faults import MisspeltDeckError

@@ -37,19 +37,15 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
 
     Nothing is written. `folder` is the folder of files that the deck names; without it they are not searched.
     """
-    with refusing_outside(lambda _folder: settings.no_outside):
-        return _lint_one(name, data, settings, folder)
-
-
-def _lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> FileReport:
     result = FixResult(None, (), "")
-    if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
-        result = fix_bytes(data, name, settings, folder)
-    content = data if result.changed is None else result.changed
-    with recording_looks() as paths:
-        findings, coverage = covered_findings(
-            content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
-        )
+    with refusing_outside(lambda _folder: settings.no_outside):
+        if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
+            result = fix_bytes(data, name, settings, folder)
+        content = data if result.changed is None else result.changed
+        with recording_looks() as paths:
+            findings, coverage = covered_findings(
+                content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
+            )
     fixed = with_severities(result.fixed, settings)
     return FileReport(
         name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage
@@ -200,16 +196,12 @@ def _disjoint(problems: list[Problem]) -> list[Problem]:
     chosen: list[Problem] = []
     for problem in sorted(problems, key=lambda problem: _repair(problem).edits[0][0]):
         spans = [span for span, _ in _repair(problem).edits]
-        if all(_free(span, taken) for span in spans):
+        beside = ((span, bisect_left(taken, span)) for span in spans)
+        if not any(_overlap(span, edit) for span, at in beside for edit in islice(taken, max(at - 1, 0), at + 1)):
             chosen.append(problem)
             for span in spans:
                 insort(taken, span)
     return chosen
-
-
-def _free(span: Span, taken: list[Span]) -> bool:
-    at = bisect_left(taken, span)
-    return not any(_overlap(span, edit) for edit in islice(taken, max(at - 1, 0), at + 1))
 
 
 def _overlap(first: Span, second: Span) -> bool:

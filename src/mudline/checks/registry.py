@@ -175,11 +175,6 @@ def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
             return f"codes like {code.code} belong to mudline: choose other letters"
         if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", code.slug):
             return f"the name {code.slug!r} of {code.code} must be words in lower case with hyphens: change it"
-    return _fault_of_pages(added)
-
-
-def _fault_of_pages(added: Sequence[Rule]) -> str:
-    """Return the part that the docstrings of a plugin's rules lack, or ""."""
     try:
         for rule in added:
             rule.page  # noqa: B018 - own rules are read in tests
@@ -198,26 +193,18 @@ class Guarded:
 
     def __call__(self, context: LintContext) -> Iterator[Problem]:
         """Yield the rule's findings as far as they come, then RUN002 if it failed, even by ending the program."""
-        problems: Iterator[Problem] = iter(())
-        started = False
-        while True:
-            try:
-                if not started:
-                    problems, started = iter(self.check(context)), True
-                problem = next(problems, None)
-                if problem is None:
-                    return
+        try:
+            for problem in self.check(context):
                 self._examine(problem, context)
-            except KeyboardInterrupt:
-                raise
-            except BaseException as error:  # noqa: BLE001 - the code of others may fail in any way, and end nothing
-                message = (
-                    f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
-                    f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
-                )
-                yield Problem(RUN002, message, where=Where())
-                return
-            yield problem
+                yield problem
+        except (KeyboardInterrupt, GeneratorExit):
+            raise
+        except BaseException as error:  # noqa: BLE001 - the code of others may fail in any way, and end nothing
+            message = (
+                f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
+                f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
+            )
+            yield Problem(RUN002, message, where=Where())
 
     def _examine(self, problem: Problem, context: LintContext) -> None:
         """Raise now, in the guard, for faults that would show later: another rule's code, a place outside the deck."""

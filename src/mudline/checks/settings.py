@@ -11,13 +11,6 @@ from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
 
 
-def hidden_codes(configuration: Configuration, path: str) -> tuple[str, ...]:
-    """Return the codes that a configuration ignores in a file."""
-    ignores = configuration.table("per-file-ignores")
-    relative = configuration.relative(path) if ignores else ""
-    return tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
-
-
 def _unfixable(configuration: Configuration) -> frozenset[str]:
     unfixable = _codes(configuration.words("unfixable"))
     fixable = configuration.words("fixable")
@@ -40,10 +33,11 @@ class Settings:
     def of(self, path: str) -> LintSettings:
         """Return the settings of a file, by its path or the name given for standard input."""
         found = self.configured.of(path)
-        key = (found.path, hidden_codes(found, path))
-        if key not in self._made:
-            self._made[key] = self.merged(found, key[1])
-        return self._made[key]
+        ignores = found.table("per-file-ignores").items()
+        hidden = tuple(code for glob, codes in ignores if matches(found.relative(path), [glob]) for code in codes)
+        if (found.path, hidden) not in self._made:
+            self._made[found.path, hidden] = self.merged(found, hidden)
+        return self._made[found.path, hidden]
 
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
         """Return a configuration overridden by the caller's settings; `hidden` are codes that it ignores in a file."""

@@ -13,6 +13,7 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -65,8 +66,12 @@ class Directive:
     scope: Hashable = _NOTHING
     reason: str = ""
 
+    def covers(self, code: str) -> bool:
+        """Return True if it names a code, or is for all of them."""
+        return any(code in word.codes for word in self.words) or (not self.words and code != STY010.code)
 
-@dataclass(slots=True, eq=False)
+
+@dataclass(eq=False)
 class Suppressions:
     """Comments of a deck that hide findings, and those that look like one.
 
@@ -87,20 +92,24 @@ class Suppressions:
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
         unused = first_reported(self._unused(present, selected)) if STY010.code in selected else []
-        hidden_by: dict[Hashable, set[str]] = {}
-        for directive in self.directives:
-            hidden_by.setdefault(directive.scope, set()).update(_named(directive))
         reported: list[Problem] = []
         hidden: list[Problem] = []
         for problem in [*problems, *unused]:
-            codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
-            (hidden if any(_covers(named, problem.code.code) for named in codes) else reported).append(problem)
+            (hidden if self.hiding(problem) else reported).append(problem)
         return reported, hidden
 
     def hiding(self, problem: Problem) -> Directive | None:
-        """Return the comment that hides a problem."""
-        scopes, code = self._scopes(problem), problem.code.code
-        return next((each for each in self.directives if each.scope in scopes and _covers(_named(each), code)), None)
+        """Return the comment that hides a problem; a comment without codes does not hide that it is unused."""
+        code = problem.code.code
+        near = (each for scope in self._scopes(problem) for each in self._by_scope.get(scope, ()))
+        return next((each for each in near if each.covers(code)), None)
+
+    @cached_property
+    def _by_scope(self) -> dict[Hashable, list[Directive]]:
+        by_scope: dict[Hashable, list[Directive]] = {}
+        for directive in self.directives:
+            by_scope.setdefault(directive.scope, []).append(directive)
+        return by_scope
 
     def unknown(self) -> Iterator[Problem]:
         """Yield problems for names that no rule has, and for unknown instructions in comments."""
@@ -164,15 +173,6 @@ def _place(directive: Directive) -> str:
     if directive.scope != _NOTHING:
         return _PLACES[directive.order]
     return "what is not a block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
-
-
-def _named(directive: Directive) -> set[str]:
-    return {code for word in directive.words for code in word.codes} if directive.words else {""}
-
-
-def _covers(named: set[str], code: str) -> bool:
-    """Return True if a code is hidden; a comment without codes does not hide that it is unused."""
-    return code in named or ("" in named and code != STY010.code)
 
 
 def suppressions(context: LintContext) -> Suppressions | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -123,15 +122,9 @@ def judge_content(data: bytes, name: str, units: str | None, folder: Path | None
 
 def _warnings(context: LintContext, problems: list[Problem], *, ok: bool) -> list[Diagnostic]:
     """Return the warnings of lint; for a deck without errors also those of its evaluation at the deck's coordinates."""
-    codes = _default_codes()
+    codes = {rule.code.code for rule in select()}
     kept = unsuppressed(context, problems, rules())
     own = [each for each in kept if each.weight is Severity.WARNING and each.code.code in codes]
     reported = {each.code.code for each in problems if each.weight is Severity.WARNING}
     more = seabed_warnings(context.scene) if ok and SBD006.code not in reported else []
     return [*context.deck.diagnose(own), *(each.diagnostic for each in more if each.diagnostic.code not in reported)]
-
-
-@cache
-def _default_codes() -> frozenset[str]:
-    """Return the codes of the rules that lint runs unless it is asked for others."""
-    return frozenset(rule.code.code for rule in select())

@@ -12,9 +12,9 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
+from typing import NamedTuple
 
-from mudline.checks.context import LintContext
-from mudline.checks.reading import read_deck, read_once
+from mudline.checks.context import LintContext, read_deck, read_once
 from mudline.checks.recovery import lines, values
 from mudline.checks.recovery.blocks import (
     Blocks,
@@ -63,18 +63,12 @@ Corrector = Callable[[Blocks, Sequence[Problem]], Iterator[Correction]]
 """Function that yields corrections of a deck from the problems under its codes."""
 
 
-@dataclass(frozen=True, slots=True)
-class Recovery:
-    """Corrector with the codes that it recovers from.
-
-    always: it is called for decks without these codes too.
-    last: it gets only problems that have no correction yet.
-    """
+class Recovery(NamedTuple):
+    """Corrector with the codes that it recovers from; with `always` it is called for decks without these codes too."""
 
     corrector: Corrector
     codes: tuple[Code, ...]
     always: bool = False
-    last: bool = False
 
 
 @dataclass
@@ -200,12 +194,12 @@ class _Round:
     def taken(self, problems: Sequence[Problem]) -> list[Correction]:
         """Return the first correction of each fault that makes its block better."""
         taken: list[Correction] = []
-        for last in (False, True):
+        for recoveries in RECOVERIES:
             proposed: list[Correction] = []
-            for recovery in (one for one in RECOVERIES if one.last is last):
-                asked = [one for one in problems if one.code in recovery.codes]
-                if asked or recovery.always:
-                    proposed += recovery.corrector(self.blocks, asked)
+            for corrector, codes, always in recoveries:
+                asked = [one for one in problems if one.code in codes]
+                if asked or always:
+                    proposed += corrector(self.blocks, asked)
             proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
             for one in proposed:
                 start, end = one.region
@@ -323,15 +317,15 @@ def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[Text
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
 """Faults of lines that belong to another keyword."""
 
-RECOVERIES = (
+_FIRST = (
     Recovery(misspelt, (SYN004, SYN005, SYN008, SYN009, SYN010)),
     Recovery(before_sections, (SYN007,)),
     Recovery(lines.stars, (*_OF_FOREIGN_LINES, SYN011, SYN013, SYN016), always=True),
-    Recovery(lines.keyword_lines, _OF_FOREIGN_LINES, last=True),
     Recovery(lines.legal_lines, (*_OF_FOREIGN_LINES, SYN005), always=True),
     Recovery(values.numbers, (SYN002,)),
     Recovery(values.rows, (SYN001, SYN003)),
     Recovery(values.indented_comments, (SYN001, SYN002, SYN003)),
     Recovery(values.decimal_commas, (SYN015,)),
 )
-"""All correctors, in the order in which they are called."""
+RECOVERIES = (_FIRST, (Recovery(lines.keyword_lines, _OF_FOREIGN_LINES),))
+"""All correctors in the order in which they are called; the last one gets problems without a correction."""

@@ -29,7 +29,6 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import is_choice, kinds_of, opened, repeated_set
-from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, record_schema
 from mudline.language.keywords.reader import ReadBlock, all_keys, reads, schemas_of
 from mudline.language.keywords.values import Facts, Kind, Names
@@ -269,21 +268,12 @@ def _is_telling(unified: str, line: Span) -> bool:
 
 
 @cache
-def _key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
-    """Return the setting above the points of a curve that names it, and the kind of the name; "" for other keywords."""
-    for slot in record_schema(declared).slots:
-        for record in map(record_schema, slot.record.values()):
-            about = record.slots[0].about if record.tables and record.slots else None
-            if isinstance(about, Setting) and (kind := about.names or about.defines):
-                return about.key, kind
-    return "", None
-
-
-@cache
 def _name_of_curve() -> re.Pattern[str]:
     """Return the pattern of the line above the points of a curve, with its name."""
-    definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
-    keys = "|".join(sorted({_key_of_points(declared)[0] for declared in definers if declared} - {""}))
+    kinds = {Names.CURVE, *CURVES}
+    definers = {catalogue.declared(keyword) for kind in kinds for keyword in catalogue.definers(kind)}
+    slots = (slot for each in definers if each for schema in schemas_of(each) for slot in schema.slots)
+    keys = "|".join(sorted({slot.key for slot in slots if slot.about.defines in kinds}))
     return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
 
 

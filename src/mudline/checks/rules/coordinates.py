@@ -17,7 +17,7 @@ from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
+from mudline.model.scene.numbering import Indices, Mask, blocks_of
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import Nodes
@@ -59,7 +59,14 @@ def odd_coordinates(context: LintContext) -> Iterator[Problem]:
 
 
 def _elements(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
-    for element, ratio in _longest_of_neighbours(scene):
+    """Yield elements that are over 25 times as long as their neighbours at both ends, and nodes too `far` from both."""
+    sections = scene.section_table.of_element
+    usable, beside = _beside(scene)
+    inner = usable[(beside[usable] >= 0).all(axis=1)]
+    ratios = scene.length[inner] / scene.length[beside[inner]].max(axis=1, initial=0.0)
+    # All of them have one section: a tether or a rigid link next to a finely meshed pipe is not reported.
+    odd = (sections[beside[inner]] == sections[inner][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
+    for element, ratio in zip(inner[odd].tolist(), ratios[odd].tolist(), strict=True):
         message = (
             f"element {scene.element_ids[element]} is {scene.length[element]:.4g} long, {ratio:.3g} times as long as "
             "the longer of its neighbours: correct the coordinates of its nodes"
@@ -118,19 +125,6 @@ def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
     yield from zip(middle[alike][odd].tolist(), ratios[odd].tolist(), strict=True)
 
 
-def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
-    """Yield the index of each element that is over 25 times as long as its neighbours at both ends, with the ratio.
-
-    All of them must have one section, so that a tether or a rigid link next to a finely meshed pipe is not reported.
-    """
-    sections = scene.section_table.of_element
-    usable, beside = _beside(scene)
-    inner = usable[(beside[usable] >= 0).all(axis=1)]
-    ratios = scene.length[inner] / scene.length[beside[inner]].max(axis=1, initial=0.0)
-    odd = (sections[beside[inner]] == sections[inner][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
-    yield from zip(inner[odd].tolist(), ratios[odd].tolist(), strict=True)
-
-
 # ------------------------------------------------------------------------------------------- chains of elements
 
 
@@ -167,20 +161,12 @@ def _turned(scene: Scene, block: slice) -> list[int]:
     joined = (ends[:-1, 1] == ends[1:, 0]) & (ends[:-1] >= 0).all(axis=1) & (ends[1:] >= 0).all(axis=1)
     if not joined.any():
         return []
-    steps = _directions(scene, ends)
-    turned: list[int] = (
-        np.flatnonzero(joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)) + 1 + block.start
-    ).tolist()
-    return turned
-
-
-def _directions(scene: Scene, ends: Indices) -> Floats:
-    """Return unit vectors (n, 3) along elements with these end nodes (n, 2); NaN for a length of zero or not finite."""
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         steps = scene.coordinates[ends[:, 1]] - scene.coordinates[ends[:, 0]]
         length = np.linalg.norm(steps, axis=1)[:, np.newaxis]  # 0 also where its square is too small for a number
-        directions: Floats = steps / np.where(length > 0.0, length, np.nan)
-    return directions
+        steps /= np.where(length > 0.0, length, np.nan)
+    turned = joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)
+    return [int(at) + 1 + block.start for at in np.flatnonzero(turned)]
 
 
 def _uses(scene: Scene) -> Indices:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -71,7 +71,8 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         places = [
             (keyword, where, scene.set_table.find(entry.set_name))
             for keyword in giving
-            for where, entry in _named(context, keyword)
+            for where, entry in entries_of_sets(context.blocks(keyword))
+            if is_name(entry.set_name)
         ]
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
@@ -199,10 +200,6 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
             yield Problem(BND002, f"{message}: remove one of the two (inferred)", where=where.inside(*first.span))
 
 
-def _named(context: LintContext, keyword: str) -> Iterator[tuple[Where, Any]]:
-    return ((where, entry) for where, entry in entries_of_sets(context.blocks(keyword)) if is_name(entry.set_name))
-
-
 # ------------------------------------------------------------------------------------------------------- seabed laws
 
 
@@ -291,19 +288,12 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
         set_ = grant.set_
         if id(grant) not in idle_grants or grant.unknown or set_.open or index in reported:
             continue
-        place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+        why = f"no subset of SET={shown(set_.name)} has any: correct the set"
         if set_.elements.size:
-            message = (
-                f"this definition applies to no element, as later ones override it for all of SET={shown(set_.name)}: "
-                "remove it, or correct the sets"
-            )
-            yield Problem(SBD025, message, where=place)
-        elif set_.where not in empty:
-            message = (
-                f"this definition applies to no element, as no subset of SET={shown(set_.name)} has any: correct "
-                "the set"
-            )
-            yield Problem(SBD025, message, where=place)
+            why = f"later ones override it for all of SET={shown(set_.name)}: remove it, or correct the sets"
+        if set_.elements.size or set_.where not in empty:
+            place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+            yield Problem(SBD025, f"this definition applies to no element, as {why}", where=place)
 
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
@@ -316,18 +306,11 @@ def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
         yield Problem(SBD025, message, where=where.inside("properties"))
 
 
-class Overlap(NamedTuple):
-    """Overlap of two sets: their places in the list, and the elements (indices) that the later set overrides."""
-
-    earlier: int
-    later: int
-    elements: Indices
-
-
-def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
+def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[tuple[int, int, Indices]]:
     """Yield the overlaps of each set with the sets that held its elements until then.
 
-    Sets of unknown elements are compared with sets of the same name.
+    Each has the places of the earlier and the later set in the list, and the elements (indices) that are in both. Sets
+    of unknown elements are compared with sets of the same name.
     """
     holder = np.full(count, -1, dtype=np.intp)
     names: dict[str, int] = {}
@@ -336,16 +319,16 @@ def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[Overlap]:
         first = int(before[0]) if index and before.size else -1
         if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
             if first >= 0:
-                yield Overlap(first, index, later.elements)
+                yield first, index, later.elements
         else:
             order = np.argsort(before, kind="stable")
             parts, starts = np.unique(before[order], return_index=True)
             for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
                 if earlier >= 0:
-                    yield Overlap(earlier, index, elements)
+                    yield earlier, index, elements
         name = folded(later.name)
         if not later.elements.size and name in names:
-            yield Overlap(names[name], index, later.elements)
+            yield names[name], index, later.elements
         names[name] = index
         holder[later.elements] = index
 

@@ -86,17 +86,16 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
         curve = entry.curve
         if curve is None or not (force := _at_zero(curve)):
             continue
-        at_zero = np.flatnonzero(entry.points[:, 0] == 0.0)
+        at_zero, where = np.flatnonzero(entry.points[:, 0] == 0.0), entry.where
         if at_zero.size:
-            message = f"the force at ratio 0 is {force:.6g}: contact begins with a jump; give it the force 0"
-            yield Problem(CRV007, message, where=entry.point(int(at_zero[0])))
-            continue
-        if not entry.whole:
-            continue
-        slope = "between the points beside it" if curve.ratios[0] < 0.0 else "with the slope of the first two points"
-        advice = "correct the points about 0" if curve.ratios[0] < 0.0 else "add the point 0, 0"
-        message = f"the force at ratio 0 is {force:.6g} ({slope}): contact begins with a jump; {advice}"
-        yield Problem(CRV007, message, where=entry.where)
+            slope, advice, where = "", "give it the force 0", entry.point(int(at_zero[0]))
+        elif curve.ratios[0] < 0.0:
+            slope, advice = " (between the points beside it)", "correct the points about 0"
+        else:
+            slope, advice = " (with the slope of the first two points)", "add the point 0, 0"
+        if at_zero.size or entry.whole:
+            message = f"the force at ratio 0 is {force:.6g}{slope}: contact begins with a jump; {advice}"
+            yield Problem(CRV007, message, where=where)
 
 
 @rule(CRV012)

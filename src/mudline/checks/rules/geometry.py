@@ -15,7 +15,7 @@ from mudline.checks.rules.unusual import UNT004, UNT005
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
-from mudline.language.keywords.contents import names_given
+from mudline.language.keywords.contents import idents_given, names_given
 from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_partly_unknown
@@ -232,23 +232,12 @@ def without_sections(scene: Scene) -> Mask:
     """Return a mask of the elements that take no section, by number or set: springs, hinges and flex joints."""
     bare = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in scene.deck.blocks_with("zero_length"):
-        bare |= np.isin(scene.element_ids, list(_numbers(block)))
+        numbers = [number for _, number in idents_given(block, Names.ELEMENT) if isinstance(number, int)]
+        bare |= np.isin(scene.element_ids, numbers)
         for _, name in names_given(block, Names.SET):
             if set_ := scene.set_table.find(name):
                 bare[set_.elements] = True
     return bare
-
-
-def _numbers(part: Part) -> Iterator[int]:
-    """Yield the element numbers that a part gives."""
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        items = value if isinstance(value, list) else [value]
-        for item in items:
-            if isinstance(item, Part):
-                yield from _numbers(item)
-            elif isinstance(item, int) and slot.about.names is Names.ELEMENT:
-                yield item
 
 
 def _passed_through(scene: Scene) -> set[str]:

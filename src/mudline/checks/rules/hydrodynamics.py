@@ -97,11 +97,8 @@ def breaking_wave(context: LintContext) -> Iterator[Problem]:
 
 def _gravity(context: LintContext) -> float:
     """Return the gravity of the last *OCEAN, else of the unit system; NaN if neither gives it."""
-    oceans = context.blocks("OCEAN")
-    given = number(oceans[-1][1], "gravity") if oceans else math.nan
-    if given > 0.0:
-        return given
-    return DEFAULT_GRAVITY.get(context.scene.units, math.nan)
+    given = context.scene.surroundings.gravity
+    return given if given > 0.0 else DEFAULT_GRAVITY.get(context.scene.units, math.nan)
 
 
 @rule(TIM003)
@@ -121,7 +118,7 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
     """
     longest = max((wave.period for wave in context.once(waves)), default=0.0)
     continues = bool(context.blocks("RESTART", "LOAD CASE"))
-    for where, span in _spans(context):
+    for where, span in spans(context):
         ramp, start, end = (number(span, name) for name in ("ramp", "start", "end"))
         if ramp > end - start > 0.0:
             message = f"loads grow over {ramp:g}, longer than the run lasts ({end - start:g}): shorten the ramp"
@@ -177,7 +174,7 @@ def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
             yield Joined(cause, others)
 
 
-def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
+def spans(context: LintContext) -> Iterator[tuple[Where, object]]:
     """Yield the time spans of a load case."""
     for where, block in context.blocks("TIME", "LOAD CASE"):
         for name in ("fixed", "variable"):
@@ -187,7 +184,7 @@ def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
 
 def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
     """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
-    for where, span in _spans(context):
+    for where, span in spans(context):
         yield where.inside("increment"), number(span, "increment")
     for where, block in context.blocks("TIME", "LOAD CASE"):
         for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
@@ -215,8 +212,7 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
 
     Finds: 13:2
     """
-    oceans = context.blocks("OCEAN")
-    depth = number(oceans[-1][1], "depth") if oceans else math.nan
+    depth = context.scene.surroundings.depth
     for where, block in context.blocks("CURRENT", "LOAD CASE"):
         for index, current in enumerate(cast("Current", block).currents):
             place = where.inside("currents", index, "profile")

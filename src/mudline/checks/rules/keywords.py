@@ -201,11 +201,10 @@ def extension_keyword(context: LintContext) -> Iterator[Problem]:
     """
     if context.dialect != "flexcom":
         return
-    for i, section in enumerate(context.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if is_extension(block.keyword):
-                message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
-                yield Problem(SBD018, message, where=Where(i, j))
+    for where, _, block in context.deck.every_block():
+        if is_extension(block.keyword):
+            message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
+            yield Problem(SBD018, message, where=where)
 
 
 @rule(REF022)

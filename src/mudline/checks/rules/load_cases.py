@@ -8,21 +8,20 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.basics.spelling import Effort, nearest
 from mudline.checks.context import LintContext
-from mudline.checks.rules.hydrodynamics import by_height
+from mudline.checks.rules.hydrodynamics import by_height, spans
 from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.unknown import is_unknown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.model.scene.deck_values import number
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import AnalysisType, StepLimits, TimeSpan
+    from mudline.language.keywords.library.analysis import AnalysisType, TimeSpan
     from mudline.language.keywords.library.summary import SummaryTime
     from mudline.language.keywords.library.vessel_motions import Drift
     from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
@@ -138,10 +137,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:9
     """
-    for where, block in context.blocks("TIME", "LOAD CASE"):
-        for name in ("fixed", "variable"):
-            span = getattr(cast("TimeSpan", block), name)
-            yield from _backwards(span, where.inside(name))
+    for where, span in spans(context):
+        yield from _backwards(span, where)
     for where, block in context.blocks("TIME", "SUMMARY POSTPROCESSING"):
         summary = cast("SummaryTime", block)
         if summary.start != _LAST_STORED:
@@ -149,8 +146,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
 
 
 def _backwards(span: object, where: Where) -> Iterator[Problem]:
-    start, end = getattr(span, "start", None), getattr(span, "end", None)
-    if isinstance(start, int | float) and isinstance(end, int | float) and end <= start:
+    start, end = number(span, "start"), number(span, "end")
+    if end <= start:
         message = f"the end {end!r} is not after the start {start!r}: correct one of them"
         yield Problem(TIM001, message, where=where.inside("end"))
 
@@ -177,23 +174,18 @@ def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
         before = -float("inf")
         for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
             place = where.inside("limits", index)
-            yield from _disordered(limits, place)
-            if isinstance(limits.since, int | float):
-                if limits.since <= before:
-                    message = f"this line holds from {limits.since!r} on, the one above it from {before!r}: sort them"
-                    yield Problem(TIM002, message, where=place.inside("since"))
-                before = limits.since
-
-
-def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
-    suggested, least, largest = limits.suggested, limits.least, limits.largest
-    known = all(isinstance(value, int | float) and not is_unknown(value) for value in (suggested, least, largest))
-    if known and not cast("float", least) <= cast("float", suggested) <= cast("float", largest):
-        message = (
-            f"the suggested step {suggested!r} does not lie between the least {least!r} and the largest {largest!r}: "
-            "correct them"
-        )
-        yield Problem(TIM002, message, where=where.inside("suggested"))
+            suggested, least, largest = (number(limits, name) for name in ("suggested", "least", "largest"))
+            if not math.isnan(suggested + least + largest) and not least <= suggested <= largest:
+                message = (
+                    f"the suggested step {suggested!r} does not lie between the least {least!r} and the largest "
+                    f"{largest!r}: correct them"
+                )
+                yield Problem(TIM002, message, where=place.inside("suggested"))
+            since = number(limits, "since")
+            if since <= before:
+                message = f"this line holds from {since!r} on, the one above it from {before!r}: sort them"
+                yield Problem(TIM002, message, where=place.inside("since"))
+            before = before if math.isnan(since) else since
 
 
 @rule(TIM006)

@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -17,7 +16,7 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
-from mudline.language.keywords.model import FieldSpec, Part, record_schema
+from mudline.language.keywords.model import FieldSpec, Part
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown, known_name
 from mudline.language.keywords.values import DataFile
@@ -233,10 +232,9 @@ _WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
 
 def in_water(deck: Deck) -> Iterator[tuple[Where, str]]:
     """Yield place and keyword of all waves and currents of load cases, read or not."""
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks if section.name == "LOAD CASE" else ()):
-            if _WATER.fullmatch(block.keyword):
-                yield Where(i, j), block.keyword
+    for where, section, block in deck.every_block():
+        if section == "LOAD CASE" and _WATER.fullmatch(block.keyword):
+            yield where, block.keyword
 
 
 @rule(REF018)
@@ -319,7 +317,7 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
             if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
                 message = f"{fault}: correct the lines"
                 yield Problem(DAT002, message, where=where.inside("vessels", index, "lines"))
-    for named, path in _there(context):
+    for named, path in context.once(_there):
         if fault := _fault(named, path):
             shown_fault = without_text(fault, path, context.deck.folder)
             yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
@@ -336,21 +334,20 @@ class OperatorRows(NamedTuple):
 def operator_files(context: LintContext) -> list[OperatorRows]:
     """Return the files of operators that a deck names and that can be used."""
     files = []
-    for named, path in _there(context):
+    for named, path in context.once(_there):
         if named.slot.about.holds is DataFile.OPERATORS and _is_own(named):
             with suppress(OSError, ValueError):  # DAT002 says why
                 files.append(OperatorRows(named.where, path.name, operators(path, _layout(named))))
     return files
 
 
-def _there(context: LintContext) -> Iterator[tuple[_Named, Path]]:
-    """Yield the existing files that a deck names, each with its path."""
+def _there(context: LintContext) -> list[tuple[_Named, Path]]:
+    """Return the existing files that a deck names, each with its path."""
     files = list(_files(context)) if context.deck.folder else []
     parameters = Parameters(context.deck) if files else None
-    for named in files:
-        path = find_file(context.deck.folder, file_name(parameters.filled(named.name) if parameters else named.name))
-        if path is not None:
-            yield named, path
+    names = (file_name(parameters.filled(named.name) if parameters else named.name) for named in files)
+    paths = (find_file(context.deck.folder, name) for name in names)
+    return [(named, path) for named, path in zip(files, paths, strict=True) if path is not None]
 
 
 def _is_own(named: _Named) -> bool:
@@ -376,26 +373,10 @@ def _files(context: LintContext) -> Iterator[_Named]:
     """Yield the files of the deck itself whose contents are known."""
     for i, section in enumerate(context.deck.own_sections):
         for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and _leads_to_files(type(cast("Part", block))):
-                yield from _named_in(cast("Part", block), Where(i, j))
+            for path, slot, name in () if isinstance(block, Opaque) else block.walk(_holds_data):
+                if isinstance(name, str) and name:
+                    yield _Named(Where(i, j, path), block.at(path[:-1])[1], slot, name)
 
 
-def _named_in(part: Part, where: Where) -> Iterator[_Named]:
-    for slot in _leads_to_files(type(part)):
-        value = getattr(part, slot.name, None)
-        if slot.about.holds and isinstance(value, str) and value:
-            yield _Named(where.inside(slot.json), part, slot, value)
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                if isinstance(item, Part):
-                    yield from _named_in(item, where.inside(slot.json, index))
-
-
-@cache
-def _leads_to_files(part: type[Part]) -> tuple[FieldSpec, ...]:
-    """Return the fields of a part that name data files, and the fields whose records do."""
-    return tuple(
-        slot
-        for slot in record_schema(part).slots
-        if slot.about.holds or any(map(_leads_to_files, slot.record.values()))
-    )
+def _holds_data(slot: FieldSpec) -> bool:
+    return slot.about.holds is not None

@@ -11,7 +11,7 @@ from mudline.checks.context import LintContext
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.rules import rule
-from mudline.model.scene.laws import DIRECTIONS, Extension, typed_blocks
+from mudline.model.scene.laws import DIRECTIONS, typed_blocks
 from mudline.model.scene.sets import ALL
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
@@ -114,7 +114,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     blocks = [placed for section in ("LOAD CASE", "MODES") for placed in context.blocks("FRICTION", section)]
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
-    entries = list(given(context))
+    entries = given(context)
     for direction in DIRECTIONS if entries else ():
         if not all(absent(entry, direction) for entry in entries):
             continue
@@ -265,10 +265,6 @@ class FrictionEntry(NamedTuple):
 
 def given(context: LintContext) -> list[FrictionEntry]:
     """Return legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
-    return context.once(_found)
-
-
-def _found(context: LintContext) -> list[FrictionEntry]:
     entries = [
         FrictionEntry(
             getattr(surface, "properties", None),
@@ -315,7 +311,7 @@ def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
     friction = context.scene.extensions.get("SEABED FRICTION")
     if friction is None:
         return False
-    names = _names(friction)
+    names = {folded(held.name) for held in friction.sets if held is not None}
     if ALL in names:
         return True
     resistance = context.scene.resistance
@@ -325,7 +321,3 @@ def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
     if followers.size:
         return bool((friction.of_element[followers] >= 0).all())
     return not entry.legacy and folded(str(entry.part.set_name)) in names
-
-
-def _names(friction: Extension) -> set[str]:
-    return {folded(held.name) for held in friction.sets if held is not None}

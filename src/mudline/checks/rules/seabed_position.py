@@ -9,7 +9,6 @@ import numpy as np
 from mudline.checks.context import LintContext
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.rules import rule
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
@@ -41,16 +40,11 @@ def depths(context: LintContext) -> Floats:
 
 
 def _lowering(scene: Scene) -> Floats | None:
-    """Return the depth (n,) by which trenches lower the seabed at nodes; None if none does."""
+    """Return the depth (n,) by which trenches lower the seabed at nodes; None without any."""
     trenches = scene.extensions.get("SEABED TRENCH")
-    if (
-        not len(scene.node_ids)
-        or trenches is None
-        or all(getattr(entry, "level", None) != "LOWERED" for entry in trenches.entries)
-    ):
+    if trenches is None or not len(scene.node_ids):
         return None
-    lowers = np.array([*(getattr(entry, "level", None) == "LOWERED" for entry in trenches.entries), False])
-    elements = np.flatnonzero(lowers[trenches.of_element])
+    elements = np.flatnonzero(trenches.says(trenches.of_element, "level", "LOWERED"))
     block = trenches.of_element[elements]
     deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
     y0, z0, y1, z1 = (trenches.values(block, "centreline", name) for name in ("y0", "z0", "y1", "z1"))
@@ -187,8 +181,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
 
 def _surface(scene: Scene) -> str:
     """Return the likely datum in words, if the lowest node lies at minus the water depth; else ""."""
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    depth = number(oceans[-1], "depth") if oceans else np.nan
+    depth = scene.surroundings.depth
     with np.errstate(invalid="ignore"):
         lowest = float(np.fmin.reduce(scene.coordinates[:, 0], initial=np.inf))
     if not (depth > 0.0 and abs(lowest + depth) <= FLAT * depth):

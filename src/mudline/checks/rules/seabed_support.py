@@ -16,7 +16,6 @@ from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords.catalogue import is_superseded
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.model.scene.rules.laws import SBD004
@@ -150,12 +149,6 @@ ROUNDED = 1e-3
 """Height difference in diameters up to which nodes are on one level."""
 
 
-def _water_depth(context: LintContext) -> float:
-    """Return the depth of the last *OCEAN; NaN without any."""
-    oceans = context.blocks("OCEAN")
-    return number(oceans[-1][1], "depth") if oceans else math.nan
-
-
 def _line(context: LintContext) -> _LineExtent | None:
     """Return the extent of the line; None if nothing is known of it."""
     scene = context.scene
@@ -174,7 +167,7 @@ def _line(context: LintContext) -> _LineExtent | None:
         distances = (scene.coordinates[used, axis] - level for axis, level in ((0, 0.0), (2, 0.0), (2, z[0])))
         flat = tuple(int(np.count_nonzero(np.abs(each) <= diameter)) for each in distances)
     level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
-    return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
+    return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, scene.surroundings.depth, flat, level)
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
-from typing import NamedTuple
 
 from mudline.basics.limits import MOST_COLUMNS
 from mudline.checks.context import LintContext
@@ -13,7 +12,6 @@ from mudline.checks.suppression import STY010, suppressions
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.model import Path
 from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import FieldGroup, first_key, read_line, trimmed
@@ -50,41 +48,35 @@ def rule_of_text(
         @rule(code, off=off)
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:
-            text = context.text
-            return find(text, text.source.unified) if text else ()
+            text = context.deck.origin
+            return find(text, text.source.unified) if isinstance(text, TextOrigin) else ()
 
         return check
 
     return register
 
 
-class Placed(NamedTuple):
-    """Line, or run of lines; `read` is its block, `kept` is True if this block has no model."""
+def placed_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock | None, bool]]:
+    """Yield every line, or run of lines, except those of keywords and sections.
 
-    leaf: Leaf
-    read: ReadBlock | None
-    kept: bool
-
-
-def placed_leaves(text: TextOrigin) -> Iterator[Placed]:
-    """Yield every line except those of keywords and sections."""
+    Each comes with its block, if that has a model, and True if it stands in a block without one.
+    """
     preamble = text.tree.preamble
-    yield from (Placed(leaf, None, kept=False) for leaf in preamble.leaves)
-    yield from (Placed(leaf, None, kept=False) for block in preamble.blocks for leaf in block.leaves)
+    yield from ((leaf, None, False) for leaf in preamble.leaves)
+    yield from ((leaf, None, False) for block in preamble.blocks for leaf in block.leaves)
     for index, section in enumerate(text.tree.sections):
-        yield from (Placed(leaf, None, kept=False) for leaf in section.leaves)
+        yield from ((leaf, None, False) for leaf in section.leaves)
         for number, block in enumerate(section.blocks):
             read = text.read.get((index, number))
-            yield from (Placed(leaf, read, read is None) for leaf in block.leaves)
+            yield from ((leaf, read, read is None) for leaf in block.leaves)
 
 
-def data_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock]]:
-    """Yield the lines with values of the blocks that have a model."""
+def data_blocks(text: TextOrigin) -> Iterator[tuple[ReadBlock, list[Leaf]]]:
+    """Yield the blocks that have a model, with their lines that have values."""
     source, sections = text.source.unified, text.tree.sections
     for (section, number), read in text.read.items():
-        for leaf in sections[section].blocks[number].leaves:
-            if leaf.kind in _DATA or is_setting(source, leaf, read):
-                yield leaf, read
+        leaves = sections[section].blocks[number].leaves
+        yield read, [leaf for leaf in leaves if leaf.kind in _DATA or is_setting(source, leaf, read)]
 
 
 def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
@@ -281,12 +273,10 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 4:6
     """
-    for leaf, read in data_leaves(text):
-        for match in first_of_lines(_TABS, source, leaf.span):
-            line = line_around(source, match.start())
-            yield Problem(
-                STY001, "a TAB in a data line: write spaces", Span(*match.span()), repair=_spread(source, line, read)
-            )
+    for read, leaves in data_blocks(text):
+        for match in (match for leaf in leaves for match in first_of_lines(_TABS, source, leaf.span)):
+            repair = _spread(source, line_around(source, match.start()), read)
+            yield Problem(STY001, "a TAB in a data line: write spaces", Span(*match.span()), repair=repair)
 
 
 def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
@@ -324,12 +314,11 @@ def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 4:2
     """
-    last: ReadBlock | None = None
-    values: set[Span] = set()
-    for leaf, read in data_leaves(text):
-        for row in _rows(source, leaf):
-            if read is not last:
-                last, values = read, set(read.places.spans.values())
+    for read, leaves in data_blocks(text):
+        beside_keys = any(leaf.kind is not LeafKind.RUN and _BEHIND_KEY.search(source, *leaf.span) for leaf in leaves)
+        values = set(read.places.spans.values()) if beside_keys else set[Span]()
+        rows = ((leaf, row) for leaf in leaves for row in _rows(source, leaf))
+        for leaf, row in rows:
             written = source[slice(*row)]
             if blank_separated(written) and (leaf.kind is LeafKind.RUN or row not in values):  # else it is a name
                 repair = Repair("safe", "put commas between the numbers", ((row, _GAP.sub(",", written)),))
@@ -386,12 +375,23 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 5:12
     """
-    numbers = _NumberFinder()
-    for leaf, read in data_leaves(text):
-        for match in first_of_lines(_SEEN, source, leaf.span):
+    for read, leaves in data_blocks(text):
+        if not any(_SEEN.search(source, *leaf.span) for leaf in leaves):
+            continue
+        tables = {run.start for runs in read.places.runs.values() for _, run in runs}
+        paths = {span: path for path, span in read.places.spans.items()}
+        matches = ((leaf, match) for leaf in leaves for match in first_of_lines(_SEEN, source, leaf.span))
+        for leaf, match in matches:
             line = line_around(source, match.start())
-            if spans := numbers.of_line(source, leaf.span, line, read):
-                yield _problem(source, spans)
+            if leaf.span.start in tables or line.start in tables:
+                fields = row_fields(source, line, MOST_COLUMNS)
+                numbers = [field.span for field in fields if _NUMBER.fullmatch(field.text)]
+            else:
+                spans = (Span(*match.span()) for match in _NUMBER.finditer(source, *line))
+                values = ((span, read.model.at(paths[span])[1]) for span in spans if span in paths)
+                numbers = [span for span, value in values if isinstance(value, int | float)]
+            if numbers:
+                yield _problem(source, numbers)
 
 
 def _problem(source: str, numbers: list[Span]) -> Problem:
@@ -401,25 +401,3 @@ def _problem(source: str, numbers: list[Span]) -> Problem:
     message = f"the exponent D is Fortran's: write {new[0]}{more}"
     repair = Repair("safe", "write E", tuple(zip(numbers, new, strict=True)))
     return Problem(STY003, message, numbers[0], repair=repair)
-
-
-class _NumberFinder:
-    """Finder of numbers among the values of a block; its knowledge of the last block is remembered."""
-
-    def __init__(self) -> None:
-        self.read: ReadBlock | None = None
-        self.tables: set[int] = set()
-        self.paths: dict[Span, Path] = {}
-
-    def of_line(self, source: str, leaf: Span, line: Span, read: ReadBlock) -> list[Span]:
-        """Return the numbers with a D on a line."""
-        if read is not self.read:
-            self.read = read
-            self.tables = {run.start for runs in read.places.runs.values() for _, run in runs}
-            self.paths = {span: path for path, span in read.places.spans.items()}
-        if leaf.start in self.tables or line.start in self.tables:
-            fields = row_fields(source, line, MOST_COLUMNS)
-            return [field.span for field in fields if _NUMBER.fullmatch(field.text)]
-        spans = (Span(*match.span()) for match in _NUMBER.finditer(source, *line))
-        values = ((span, read.model.at(self.paths[span])[1]) for span in spans if span in self.paths)
-        return [span for span, value in values if isinstance(value, int | float)]

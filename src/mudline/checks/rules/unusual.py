@@ -21,7 +21,7 @@ from mudline.checks.unit_slips import DeckUnits, lacks_point, likely_slips, unit
 from mudline.language.codes.fields import SYN015
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.contents import in_words
-from mudline.language.keywords.model import FieldSpec, Part, Rows, record_schema
+from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual
@@ -41,10 +41,10 @@ CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UN
 
 def of_code(context: LintContext, code: Code) -> list[Problem]:
     """Return the unusual values of one code."""
-    return context.once(_by_code).get(code, [])
+    return context.once(_by_code).get(code.code, [])
 
 
-def _by_code(context: LintContext) -> dict[Code, list[Problem]]:
+def _by_code(context: LintContext) -> dict[str, list[Problem]]:
     """Return the problems of values outside the usual range of their field by code.
 
     Lines in which SYN015 found decimal commas are left out. If gravity, a density or a length is unusual, the weight of
@@ -60,10 +60,10 @@ def _by_code(context: LintContext) -> dict[Code, list[Problem]]:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and judged else set()
-    by_code: dict[Code, list[Problem]] = {}
+    by_code: dict[str, list[Problem]] = {}
     for problem in (each.problem for each in judged):
         if not commas or not text or text.place(problem).line not in commas:
-            by_code.setdefault(problem.code, []).append(problem)
+            by_code.setdefault(problem.code.code, []).append(problem)
     return by_code
 
 
@@ -102,8 +102,11 @@ class Judged(NamedTuple):
     explains: Sequence[FieldSpec]
 
 
-def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Iterator[Judged]:
-    """Yield unusual values in a part and in the parts inside it, merged to one finding of each code for a part."""
+def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where, path: Path = ()) -> Iterator[Judged]:
+    """Yield unusual values in a part and in the parts inside it, merged to one finding of each code for a part.
+
+    `where` is the block, and `path` leads to the part in it.
+    """
     own, outer = _judged(type(part), deck.units)
     suspects = [
         (slot, math.nan if isinstance(value, Part) else float(value))
@@ -114,16 +117,16 @@ def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where) -> Ite
     held = [(slot, value) for slot in outer if (value := getattr(part, slot.name, None))]
     tables = [(slot, value) for slot, value in held if isinstance(value, Table)]
     if suspects or tables:
-        of = replace(deck, part=part, holder=holder, where=where, columns=record_schema(type(part)).slots)
+        of = replace(deck, part=part, holder=holder, where=where.inside(*path), columns=record_schema(type(part)).slots)
         yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
         for slot, table in tables:
             yield from _in_table(of, slot, table)
     for slot, value in held:
         if isinstance(value, Part):
-            yield from _inside(deck, value, part, where.inside(slot.json))
+            yield from _inside(deck, value, part, where, (*path, slot.json))
         for index, item in enumerate(value if isinstance(value, list) else ()):
             if isinstance(item, Part) and any(_judged(type(item), deck.units)):
-                yield from _inside(deck, item, part, where.inside(slot.json, index))
+                yield from _inside(deck, item, part, where, (*path, slot.json, index))
 
 
 @lru_cache(512)

@@ -60,11 +60,6 @@ _Named = tuple[str, Where]
 """A name, and its place."""
 
 
-def may_vary(deck: Deck) -> bool:
-    """Return True if a deck has a section that may contain variations and their names."""
-    return any(section.name == DEFINING for section in deck.sections)
-
-
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
     """Yield parameters in PARA=, or as `%name%` in a folder or file name, that `*PARAMETERS` does not define."""
     varied = (name for name in deck.names() if name.kind is Names.PARAMETER and name.role == "names")

@@ -16,10 +16,9 @@ from pygls.exceptions import JsonRpcException
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.outside import refusing_outside
 from mudline.checks.configuration import ConfigurationError
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, read_deck
 from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
-from mudline.checks.reading import read_deck
 from mudline.checks.registry import UnknownRule, select
 from mudline.checks.settings import Settings, nearest_settings
 from mudline.language.deck import MARK

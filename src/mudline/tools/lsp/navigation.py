@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from lsprotocol import types
 
-from mudline.checks.reading import read_deck
+from mudline.checks.context import read_deck
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -50,6 +51,12 @@ def rule_of_extension(
         return check
 
     return register
+
+
+def of_elements(scene: ResolvedDeck, elements: Mask, problem: Problem) -> Iterator[Problem]:
+    """Yield a problem of the elements (m,) of a mask, if there are any; its message says what they have."""
+    if elements.any():
+        yield replace(problem, message=f"{scene.describe(elements)} {problem.message}")
 
 
 @rule(EXT001, blocks=True)
@@ -179,21 +186,20 @@ def suction_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Prob
     listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
     for _, where, held in extension.blocks():
         place = where.inside("set")
-        if np.any(both := held & springs):
-            message = f"{scene.describe(both)} SUCTION= of the seabed too: remove one of the two"
-            yield Problem(EXT006, message, where=place)
-        if np.any(both := held & listed):
-            message = (
-                f"{scene.describe(both)} a curve that is negative in contact too: remove one of the two, unless the "
-                "curve is evaluated with --tension cut"
-            )
-            yield Problem(EXT006, message, where=place, blocks=Blocks.WITH_TENSION)
-        if np.any(both := held & extrapolated & ~listed):
-            message = (
-                f"{scene.describe(both)} a curve that is negative in contact too where it is extrapolated: `evaluate` "
-                "refuses a position there; correct the curve, or evaluate it with --tension cut"
-            )
-            yield Problem(EXT006, message, None, Severity.WARNING, place)
+        words = "SUCTION= of the seabed too: remove one of the two"
+        yield from of_elements(scene, held & springs, Problem(EXT006, words, where=place))
+        words = (
+            "a curve that is negative in contact too: remove one of the two, unless the curve is evaluated with "
+            "--tension cut"
+        )
+        problem = Problem(EXT006, words, where=place, blocks=Blocks.WITH_TENSION)
+        yield from of_elements(scene, held & listed, problem)
+        words = (
+            "a curve that is negative in contact too where it is extrapolated: `evaluate` refuses a position there; "
+            "correct the curve, or evaluate it with --tension cut"
+        )
+        problem = Problem(EXT006, words, None, Severity.WARNING, place)
+        yield from of_elements(scene, held & extrapolated & ~listed, problem)
 
 
 def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
@@ -245,16 +251,10 @@ def unloading_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Pr
         if stiffness <= 0.0:
             message = f"unloading stiffness {stiffness!r}: it must be above 0"
             yield Problem(EXT009, message, where=where.inside("stiffness"))
-        place = where.inside("set")
-        if np.any(both := held & smooth):
-            advice = "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
-            yield Problem(EXT009, f"{scene.describe(both)} smoothing too: {advice}", where=place)
-        if np.any(both := held & nodal):
-            message = (
-                f"{scene.describe(both)} NODAL STIFFNESS=, which does not unload along a line of its own: "
-                "remove one of the two"
-            )
-            yield Problem(EXT009, message, where=place)
+        words = "smoothing too: write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
+        yield from of_elements(scene, held & smooth, Problem(EXT009, words, where=where.inside("set")))
+        words = "NODAL STIFFNESS=, which does not unload along a line of its own: remove one of the two"
+        yield from of_elements(scene, held & nodal, Problem(EXT009, words, where=where.inside("set")))
 
 
 EXT010 = Code("EXT010", "soil-conflict", Severity.ERROR)
@@ -309,13 +309,12 @@ def soil_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem
     }
     beside["NODAL STIFFNESS="] = scene.nodal
     for _, where, held in extension.blocks():
+        place = where.inside("set")
         for name, others in beside.items():
-            if np.any(both := held & soft & others):
-                message = f"{scene.describe(both)} {name} too, which the soil has no place for: remove one of the two"
-                yield Problem(EXT010, message, where=where.inside("set"))
-        if np.any(both := held & (scene.laws_given == LawKind.CURVE)):
-            message = f"{scene.describe(both)} a curve too: the soil replaces it"
-            yield Problem(EXT010, message, None, Severity.INFO, where.inside("set"))
+            words = f"{name} too, which the soil has no place for: remove one of the two"
+            yield from of_elements(scene, held & soft & others, Problem(EXT010, words, where=place))
+        replaced = Problem(EXT010, "a curve too: the soil replaces it", None, Severity.INFO, place)
+        yield from of_elements(scene, held & (scene.laws_given == LawKind.CURVE), replaced)
 
 
 @rule_of_extension(EXT011, _KEYWORD)

@@ -11,7 +11,7 @@ from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.unknown import is_partly_unknown
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.rules.extensions import rule_of_extension
+from mudline.model.scene.rules.extensions import of_elements, rule_of_extension
 from mudline.model.scene.rules.laws import extends_rigid, lacks_diameter
 
 if TYPE_CHECKING:
@@ -230,25 +230,16 @@ def bad_breakout(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]
     for entry, where, held in extension.blocks():
         friction = cast("FrictionSet", entry)
         if not breaks_out(friction):
-            for name in ("peak", "residual"):
-                if getattr(friction, name) is not None:
-                    message = (
-                        f"{name.upper()}= has no effect under LATERAL=COULOMB: write LATERAL=PEAK-RESIDUAL or F114"
-                    )
-                    yield Problem(EXT013, message, None, Severity.WARNING, where.inside(name))
+            for name in (name for name in ("peak", "residual") if getattr(friction, name) is not None):
+                message = f"{name.upper()}= has no effect under LATERAL=COULOMB: write LATERAL=PEAK-RESIDUAL or F114"
+                yield Problem(EXT013, message, None, Severity.WARNING, where.inside(name))
             continue
-        yield from () if is_partly_unknown(friction) else _of_breakout(friction, where)
-        if friction.criterion == "ELLIPSE":
-            yield Problem(
-                EXT013,
-                "a breakout across the line has no ellipse: write CRITERION=BOX",
-                where=where.inside("criterion"),
-            )
-        if trench is not None and np.any(both := held & (trench.of_element >= 0)):
-            message = (
-                f"{scene.describe(both)} a trench too, whose resistance a breakout excludes: remove one of the two"
-            )
-            yield Problem(EXT013, message, where=where.inside("lateral"))
+        for name, message in _breakout_faults(friction):
+            yield Problem(EXT013, message, where=where.inside(name))
+        if trench is not None:
+            words = "a trench too, whose resistance a breakout excludes: remove one of the two"
+            problem = Problem(EXT013, words, where=where.inside("lateral"))
+            yield from of_elements(scene, held & (trench.of_element >= 0), problem)
         bare = held & np.isnan(scene.diameter)
         if friction.lateral == "F114" and bare.any():
             message = (
@@ -257,25 +248,24 @@ def bad_breakout(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]
             yield lacks_diameter(scene, EXT013, message, where.inside("lateral"))
 
 
-def _of_breakout(friction: FrictionSet, where: Where) -> Iterator[Problem]:
-    """Yield faults of a breakout: missing values, and values that its law excludes."""
+def _breakout_faults(friction: FrictionSet) -> Iterator[tuple[str, str]]:
+    """Yield field and message of the faults of a breakout: missing values, and values that its law excludes."""
     (peak, at), (residual, end) = (
         (number(part, "factor"), number(part, "displacement")) for part in (friction.peak, friction.residual)
     )
-    if friction.lateral == "F114":
+    if is_partly_unknown(friction):
+        pass
+    elif friction.lateral == "F114":
         if np.isnan(peak):
-            yield Problem(
-                EXT013, "LATERAL=F114 needs the factor at breakout: give PEAK=", where=where.inside("lateral")
-            )
+            yield "lateral", "LATERAL=F114 needs the factor at breakout: give PEAK="
         if friction.residual is not None or not np.isnan(at):
             name = "peak" if friction.residual is None else "residual"
-            message = f"LATERAL=F114 has displacements and a residual of its own: remove those of {name.upper()}="
-            yield Problem(EXT013, message, where=where.inside(name))
+            yield name, f"LATERAL=F114 has displacements and a residual of its own: remove those of {name.upper()}="
     elif np.isnan([peak, at, residual, end]).any():
-        message = "LATERAL=PEAK-RESIDUAL needs PEAK= and RESIDUAL=, a factor and a displacement each"
-        yield Problem(EXT013, message, where=where.inside("lateral"))
-    elif residual > peak or end <= at:
-        what = (
-            f"is above that of the peak, {peak!r}" if residual > peak else f"is reached no later than the peak, {at!r}"
-        )
-        yield Problem(EXT013, f"the residual {what}: correct one of the two", where=where.inside("residual"))
+        yield "lateral", "LATERAL=PEAK-RESIDUAL needs PEAK= and RESIDUAL=, a factor and a displacement each"
+    elif residual > peak:
+        yield "residual", f"the residual is above that of the peak, {peak!r}: correct one of the two"
+    elif end <= at:
+        yield "residual", f"the residual is reached no later than the peak, {at!r}: correct one of the two"
+    if friction.criterion == "ELLIPSE":
+        yield "criterion", "a breakout across the line has no ellipse: write CRITERION=BOX"
