@@ -8,7 +8,7 @@ import pytest
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
-from mudline.language.deck.faulty_blocks import with_raw_lines
+from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import DeckError, Diagnostic, Severity

@@ -14,8 +14,7 @@ from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.codes import DOC002
 from mudline.language.deck import MARK
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
-from mudline.language.deck.faulty_blocks import is_faulty, raw_places
-from mudline.language.deck.keyword_text import sampled, to_keyword
+from mudline.language.deck.keyword_text import is_faulty, raw_places, sampled, to_keyword
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Where

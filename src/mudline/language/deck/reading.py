@@ -19,9 +19,8 @@ from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Wh
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, meant_section, words_behind
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.numbers import TOO_WIDE
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
-from mudline.language.keywords.text import hint, instead
+from mudline.language.keywords.text import TOO_WIDE, hint, instead
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree, parse
