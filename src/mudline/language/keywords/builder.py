@@ -114,6 +114,7 @@ class Builder:
         if child.last is None:
             return
         before.append(child)
+        built.inner.append(child)
         built.values.setdefault(slot.json, []).append(child.values)
         built.items.append(Item(slot.order, child.first, 1))
         built.reach(child.first)
